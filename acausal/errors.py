@@ -1,0 +1,57 @@
+"""Errors of acausal: what is wrong in the user's names, where, why, and the mend."""
+
+from __future__ import annotations
+
+
+class AcausalError(Exception):
+    """Base class of every error that acausal raises on purpose.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong, in the user's names; where; the likely cause; the mend as code.
+    """
+
+
+class DeclarationError(AcausalError):
+    """A component is declared or constructed wrongly (field, value, shape, name)."""
+
+
+class ConnectError(AcausalError):
+    """Two ports cannot be connected, or a graph of connections cannot be right."""
+
+
+class UnbalancedModelError(AcausalError):
+    """The model does not have as many equations as unknowns."""
+
+
+class StructurallySingularError(AcausalError):
+    """Counts match, but some equations cannot determine the unknowns that they contain."""
+
+
+class InitializationError(AcausalError):
+    """No consistent initial values: missing, contradictory, or not found."""
+
+
+class SimulationError(AcausalError):
+    """The integration failed; `result` holds what was computed until then.
+
+    Parameters
+    ----------
+    message : str
+        Time of the failure, the worst residuals by component, and the mend.
+    result : Result, optional
+        The part of the simulation before the failure.
+    """
+
+    def __init__(self, message: str, result: object | None = None) -> None:
+        super().__init__(message)
+        self.result = result
+
+
+class UnitsError(AcausalError):
+    """The two sides of an equation certainly have different units."""
+
+
+class ExportError(AcausalError):
+    """A result or a model cannot be written."""

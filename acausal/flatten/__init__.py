@@ -1,0 +1,6 @@
+"""Flattening: from a model to one list of equations."""
+
+from acausal.flatten.flat_model import FlatModel, Initial
+from acausal.flatten.flatten import flatten
+
+__all__ = ["FlatModel", "Initial", "flatten"]

@@ -1,0 +1,137 @@
+"""Collect the equations of all components, each entry with its origin, and form the derivatives they ask for."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import AcausalError, ConnectError, DeclarationError
+from acausal.flatten.graph import Graph
+from acausal.flatten.instantiate import join
+from acausal.language import fields as f
+from acausal.language.component import Component, Connector
+from acausal.language.expression import Equation, Expr, equation
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where an equation comes from: path and class of the component, file and line, and what it says."""
+
+    path: str
+    kind: str
+    where: str
+    text: str = ""
+
+    def __str__(self) -> str:
+        name = f"{self.path} ({self.kind})" if self.path else self.kind
+        return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
+
+
+@dataclass
+class Equations:
+    """Scalar residuals with their origins; `sides` keeps both sides of each array equation."""
+
+    residuals: list[ca.SX]
+    sides: list[tuple[ca.SX, ca.SX]]
+    origins: list[Origin]
+
+    def add(self, statement: Equation, origin: Origin) -> None:
+        """Append an equation."""
+        self.residuals.append(ca.densify(ca.vec(statement.lhs.sx - statement.rhs.sx)))
+        self.sides.append((statement.lhs.sx, statement.rhs.sx))
+        self.origins.append(origin)
+
+    def scalar_origins(self) -> list[Origin]:
+        """Return the origin of each scalar residual."""
+        return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
+
+
+def collect(components: list[Component], graph: Graph) -> Equations:
+    """Return the equations of all components, connection sets, roots and cuts."""
+    found = Equations([], [], [])
+    for component in components:
+        _run(component, component.equations, found)
+        for name, value in component._values.items():
+            declared = component.fields[name]
+            if isinstance(declared, f.Variable) and not isinstance(value, f.Start):
+                origin = Origin(component._path, type(component).__name__, component._origin, f"{name}=...")
+                with_place(lambda n=name, v=value, c=component: found.add(equation(getattr(c, n), v), origin), origin)
+    for connector in graph.roots:
+        _run(connector, connector.root_equations, found)
+    for cut in graph.cuts:
+        origin = Origin("", f"connection of {cut.a._path} and {cut.b._path}", "closing a loop")
+        for statement in cut.a.residual(cut.b):
+            found.add(statement, origin)
+    for balance in graph.balances:
+        _balance(balance, found)
+    return found
+
+
+def collect_initial(components: list[Component]) -> Equations:
+    """Return the initial equations of all components."""
+    found = Equations([], [], [])
+    for component in components:
+        _run(component, component.initial_equations, found)
+    return found
+
+
+def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:
+    first, outside = balance[0]
+    if len(balance) == 1 and (outside < 0 or first._owner is None):
+        return  # nothing inside uses this port of a composite, or the component itself does
+    text = " + ".join(c._path for c, _ in balance) if len(balance) > 1 else f"{first._path} is not connected"
+    for name, declared in first.fields.items():
+        if isinstance(declared, f.Variable) and declared.flow:
+            total: Any = sum((getattr(c, name).sx * s for c, s in balance[1:]), getattr(first, name).sx * outside)
+            zero = Expr(ca.SX.zeros(*total.shape))
+            origin = Origin(join(first._path, name), type(first).__name__, "flows of a connection", text)
+            found.add(Equation(Expr(total), zero), origin)
+
+
+def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations) -> None:
+    name = type(component).__name__
+    generator = generate()
+    while True:
+        here = Origin(component._path, name, f"{type(component).__module__}.{name}")
+        statement = with_place(lambda g=generator: next(g, None), here)
+        if statement is None:
+            return
+        frame = getattr(generator, "gi_frame", None)
+        line = f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else here.where
+        origin = Origin(component._path, name, line)
+        if not isinstance(statement, Equation):
+            raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {statement!r}.")
+        residual = ca.vec(statement.lhs.sx - statement.rhs.sx)
+        if residual.is_constant():
+            value = np.array(ca.evalf(residual)).ravel()
+            if np.any(value != 0):
+                raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
+            if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
+                raise DeclarationError(f"{origin}: this equation says nothing; its two sides are the same expression.")
+        found.add(statement, origin)
+
+
+def with_place(call: Callable[[], Any], origin: Origin) -> Any:
+    """Call a function of the user's model; name component and line in every error."""
+    try:
+        return call()
+    except AcausalError as error:
+        raise type(error)(f"{_place(error, origin)}: {error}") from None
+    except RecursionError:
+        raise
+    except Exception as error:
+        message = f"{_place(error, origin)}: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
+        raise DeclarationError(message) from error
+
+
+def _place(error: BaseException, origin: Origin) -> Origin:
+    """Locate the innermost line outside of this package."""
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if "/acausal/language/" not in frame.filename.replace("\\", "/") and "/acausal/flatten/" not in frame.filename:
+            return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")
+    return origin

@@ -1,0 +1,84 @@
+"""The flat model: all unknowns and equations of a model, simplified, with their names and origins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.flatten.collect import Origin
+from acausal.language.component import Component
+
+
+@dataclass(frozen=True)
+class Initial:
+    """A condition of the initial system: residual, what it says, and where."""
+
+    residual: ca.SX
+    text: str
+    origin: Origin
+
+
+@dataclass(frozen=True)
+class FlatModel:
+    """A model as one list of scalar unknowns and one list of scalar equations.
+
+    Parameters
+    ----------
+    unknowns, residuals : casadi.SX
+        Columns. Derivatives that occur are unknowns of their own.
+    names : tuple of str
+        Name of each unknown in the user's words.
+    derivative : tuple of int
+        Unknown -> the unknown that is its time derivative, or -1.
+    declared : mapping of int to casadi.SX
+        Unknowns with a declared derivative.
+    defines : tuple of int
+        Residual -> the declared unknown that it defines, or -1.
+    origins : tuple of Origin
+        Where each residual comes from.
+    preference, nominal, start, guessed : arrays
+        Attributes of the unknowns; `start` is a column of expressions of parameters.
+    parameters : casadi.SX, parameter_names, parameter_values
+        Free parameters.
+    switches : tuple of (casadi.SX, casadi.SX)
+        Mode symbols, and the expression that is negative while the mode is 1.
+    initial : tuple of Initial
+        Fixed start values and initial equations.
+    eliminated : (casadi.SX, casadi.SX)
+        Removed symbols and what they are, in remaining unknowns.
+    quadratures : mapping of str to casadi.SX
+        Stored energy, dissipated and supplied power of the whole model, in original symbols.
+    tree : Component
+        The bound model, whose attributes hold the original symbols.
+    counts : mapping of str to int
+        Sizes on the way here.
+    """
+
+    unknowns: ca.SX
+    residuals: ca.SX
+    names: tuple[str, ...]
+    derivative: tuple[int, ...]
+    declared: Mapping[int, ca.SX]
+    defines: tuple[int, ...]
+    origins: tuple[Origin, ...]
+    preference: tuple[int, ...]
+    nominal: np.ndarray
+    start: ca.SX
+    guessed: np.ndarray
+    parameters: ca.SX
+    parameter_names: tuple[str, ...]
+    parameter_values: np.ndarray
+    switches: tuple[tuple[ca.SX, ca.SX], ...]
+    initial: tuple[Initial, ...]
+    eliminated: tuple[ca.SX, ca.SX]
+    energies: Mapping[str, ca.SX]
+    limits: tuple[Any, ...]
+    bound: Mapping[str, str]
+    structural_zeros: tuple[str, ...]
+    redundant: tuple[Origin, ...]
+    tree: Component
+    counts: Mapping[str, int]

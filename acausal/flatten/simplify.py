@@ -1,0 +1,152 @@
+"""Propagate constants and aliases: what is known without solving anything leaves the system.
+
+An equation with one unknown and a constant coefficient gives a constant; one with two unknowns, both with constant
+coefficients, gives an alias. Derivative chains stay consistent: an unknown and its derivative are never merged, and an
+unknown is the derivative of one other at most.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from acausal.flatten.tape import Linear, Tape, add, scale
+
+DECLARED, CHAINED = 1, 2
+
+
+@dataclass
+class Simplification:
+    """Result of the propagation, in indices of unknowns and residuals.
+
+    `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
+    among the remaining ones; `kept` are residuals replaced by `unknown - constant`; `contradictions` can never hold.
+    """
+
+    derivative: list[int]
+    rank: list[int]
+    solved: dict[int, Linear] = field(default_factory=dict)
+    used: dict[int, int] = field(default_factory=dict)
+    redundant: list[int] = field(default_factory=list)
+    kept: dict[int, Linear] = field(default_factory=dict)
+    contradictions: list[tuple[int, float]] = field(default_factory=list)
+
+
+class Simplifier:
+    """Worklist over the residuals of a tape.
+
+    Parameters
+    ----------
+    tape : Tape
+        Residuals with their linear values.
+    derivative : list of int
+        Unknown -> the unknown that is its derivative, or -1.
+    rank : list of int
+        How gladly an unknown stays: CHAINED or DECLARED plus its preference.
+    """
+
+    def __init__(self, tape: Tape, derivative: list[int], rank: list[int]) -> None:
+        self.tape = tape
+        self.up = list(derivative)
+        self.down = [-1] * len(derivative)
+        for lower, upper in enumerate(derivative):
+            if upper >= 0:
+                self.down[upper] = lower
+        self.rank = rank
+        self.result = Simplification(self.up, rank, tape.solved)
+        self.extra: list[Linear] = []
+        self.fresh: list[int] = []
+        self.closed: set[int] = set()
+
+    def run(self) -> Simplification:
+        """Propagate until nothing changes."""
+        queue = list(range(len(self.tape.residual)))
+        while queue:
+            for row in sorted(set(queue)):
+                if row not in self.closed:
+                    self._visit(row)
+            while self.extra:
+                self._assign(self.extra.pop(), None)
+            queue = self.tape.update(self.fresh) if self.fresh else []
+            self.fresh = []
+        return self.result
+
+    def _visit(self, row: int) -> None:
+        value = self.tape.value[self.tape.residual[row]]
+        value = self.tape.resolve(value) if value is not None else None
+        if value is None:
+            return
+        if not value[1]:
+            self.closed.add(row)
+            if abs(value[0]) > 1e-12:
+                self.result.contradictions.append((row, value[0]))
+            else:
+                self.result.redundant.append(row)
+        elif self._assign(value, row):
+            self.closed.add(row)
+
+    def _assign(self, value: Linear, row: int | None) -> bool:
+        """Use `value == 0` to remove an unknown; False if none may be removed."""
+        value = self.tape.resolve(value)
+        c0, terms = value
+        if not terms:
+            return True
+        candidates = sorted(terms, key=lambda term: (self._standing(term[0]), -term[0]))
+        for unknown, c in candidates:
+            rest = tuple((u, k) for u, k in terms if u != unknown)
+            solution = scale((c0, rest), -1 / c)
+            if self._may_replace(unknown, solution):
+                self._replace(unknown, solution, row)
+                return True
+        if len(terms) == 1 and row is not None:
+            # The derivative of an unknown is constant: others may know, but the chain needs the unknown itself.
+            self.result.kept[row] = value
+            return True
+        return False
+
+    def _standing(self, unknown: int) -> int:
+        chained = self.up[unknown] >= 0 or self.down[unknown] >= 0
+        return (10 * CHAINED if chained else 0) + self.rank[unknown]
+
+    def _may_replace(self, unknown: int, solution: Linear) -> bool:
+        c0, terms = solution
+        if not terms:
+            return self.down[unknown] < 0
+        (other, c) = terms[0]
+        if self._same_chain(unknown, other):
+            return False
+        if self.down[unknown] >= 0:
+            # The other one takes over as the derivative.
+            return c == 1 and c0 == 0 and self.down[other] < 0
+        # A derivative of the removed one must have a counterpart.
+        return self.up[unknown] < 0 or self.up[other] >= 0
+
+    def _same_chain(self, a: int, b: int) -> bool:
+        return self._bottom(a) == self._bottom(b)
+
+    def _bottom(self, unknown: int) -> int:
+        while self.down[unknown] >= 0:
+            unknown = self.down[unknown]
+        return unknown
+
+    def _replace(self, unknown: int, solution: Linear, row: int | None) -> None:
+        self.tape.solved[unknown] = solution
+        self.fresh.append(unknown)
+        if row is not None:
+            self.result.used[row] = unknown
+        upper, lower = self.up[unknown], self.down[unknown]
+        self.up[unknown] = self.down[unknown] = -1
+        other, c = solution[1][0] if solution[1] else (-1, 0.0)
+        if lower >= 0:
+            self.up[lower] = other
+            self.down[other] = lower
+        if upper < 0:
+            return
+        self.down[upper] = -1
+        if other < 0:
+            self.extra.append((0.0, ((upper, 1.0),)))
+        elif self.up[other] < 0:
+            self.up[other], self.down[upper] = upper, other
+        else:
+            link = add((0.0, ((upper, 1.0),)), (0.0, ((self.up[other], c),)), -1.0)
+            assert link is not None
+            self.extra.append(link)

@@ -1,0 +1,169 @@
+"""Linear values of a symbolic expression, kept up to date while unknowns turn out to be constants or aliases.
+
+The expression is read once as a list of elementary operations. Each operation carries a value: c0 + c1 x of one
+unknown, a sum of two such terms, or None where it is anything else. CasADi folds constants when an expression is built,
+but not when an unknown in it becomes known later; a worklist over these operations does, in linear time.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Callable
+
+import casadi as ca
+
+Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
+
+_UNARY: dict[int, Callable[[float], float]] = {
+    ca.OP_SIN: math.sin,
+    ca.OP_COS: math.cos,
+    ca.OP_TAN: math.tan,
+    ca.OP_EXP: math.exp,
+    ca.OP_SQRT: math.sqrt,
+    ca.OP_INV: lambda x: 1 / x,
+}
+_SCALE = {ca.OP_NEG: -1.0, ca.OP_TWICE: 2.0, ca.OP_ASSIGN: 1.0}
+
+
+class Tape:
+    """Operations of `residuals` with the linear value of each in terms of the unknowns.
+
+    Parameters
+    ----------
+    unknowns, others, residuals : casadi.SX
+        Columns; `others` are parameters, time and everything else that is not solved for.
+    """
+
+    def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:
+        function = ca.Function("residuals", [unknowns, others], [residuals])
+        self.op: list[int] = []
+        self.args: list[tuple[int, ...]] = []
+        self.constant: list[float] = []
+        self.input: dict[int, int] = {}
+        self.residual = [-1] * residuals.numel()
+        self._read(function)
+        self.users: list[list[int]] = [[] for _ in self.op]
+        for node, args in enumerate(self.args):
+            for arg in set(args):
+                self.users[arg].append(node)
+        self.residuals_at: dict[int, list[int]] = {}
+        for row, node in enumerate(self.residual):
+            self.residuals_at.setdefault(node, []).append(row)
+        self.solved: dict[int, Linear] = {}
+        self.value: list[Linear | None] = [None] * len(self.op)
+        for node in range(len(self.op)):
+            self.value[node] = self._evaluate(node)
+
+    def _read(self, function: ca.Function) -> None:
+        """Turn the work vector of the function into operations that each have a value of their own."""
+        slot: dict[int, int] = {}
+        for k in range(function.n_instructions()):
+            op = function.instruction_id(k)
+            inputs = function.instruction_input(k)
+            if op == ca.OP_OUTPUT:
+                self.residual[function.instruction_output(k)[1]] = slot[inputs[0]]
+                continue
+            node = len(self.op)
+            self.op.append(op)
+            self.constant.append(function.instruction_constant(k) if op == ca.OP_CONST else 0.0)
+            if op == ca.OP_INPUT:
+                if inputs[0] == 0:
+                    self.input[inputs[1]] = node
+                else:
+                    self.op[node] = ca.OP_PARAMETER
+                inputs = [inputs[1]]
+                self.args.append(())
+                self.constant[node] = inputs[0]
+            else:
+                self.args.append(tuple(slot[i] for i in inputs) if op != ca.OP_CONST else ())
+            slot[function.instruction_output(k)[0]] = node
+
+    def _evaluate(self, node: int) -> Linear | None:
+        op = self.op[node]
+        if op == ca.OP_CONST:
+            return self.constant[node], ()
+        if op == ca.OP_INPUT:
+            return self.resolve((0.0, ((int(self.constant[node]), 1.0),)))
+        values = [self.value[arg] for arg in self.args[node]]
+        if op in (ca.OP_MUL, ca.OP_DIV):
+            return _product(values[0], values[1], op == ca.OP_DIV)
+        if any(v is None for v in values) or not values:
+            return None
+        a = values[0]
+        assert a is not None
+        if op in (ca.OP_ADD, ca.OP_SUB):
+            assert values[1] is not None
+            return add(a, values[1], 1.0 if op == ca.OP_ADD else -1.0)
+        if op in _SCALE:
+            return scale(a, _SCALE[op])
+        if a[1] or len(values) > 1:
+            return None
+        if op == ca.OP_SQ:
+            return a[0] * a[0], ()
+        return (_UNARY[op](a[0]), ()) if op in _UNARY else None
+
+    def resolve(self, value: Linear) -> Linear:
+        """Replace unknowns that are solved, following chains of aliases to their end."""
+        c0, terms = value
+        result: Linear | None = (c0, ())
+        for unknown, c in terms:
+            term: Linear = (0.0, ((unknown, c),))
+            while term[1] and term[1][0][0] in self.solved:
+                known = scale(self.solved[term[1][0][0]], term[1][0][1])
+                term = (term[0] + known[0], known[1])
+            result = add(result, term, 1.0)
+            assert result is not None
+        return result
+
+    def update(self, unknowns: list[int]) -> list[int]:
+        """Evaluate everything that depends on newly solved unknowns; return the residuals whose value changed."""
+        queue = sorted({self.input[u] for u in unknowns if u in self.input})
+        queued = set(queue)
+        changed: list[int] = []
+        while queue:
+            node = heapq.heappop(queue)
+            queued.discard(node)
+            value = self._evaluate(node)
+            if value == self.value[node]:
+                continue
+            self.value[node] = value
+            changed.extend(self.residuals_at.get(node, ()))
+            for user in self.users[node]:
+                if user not in queued:
+                    queued.add(user)
+                    heapq.heappush(queue, user)
+        return changed
+
+
+def scale(value: Linear, factor: float) -> Linear:
+    """Multiply a linear value by a number."""
+    if factor == 0:
+        return 0.0, ()
+    return value[0] * factor, tuple((u, c * factor) for u, c in value[1])
+
+
+def add(a: Linear, b: Linear, factor: float) -> Linear | None:
+    """Return a + factor b, or None if it has more than two unknowns."""
+    if not b[1]:
+        return a[0] + factor * b[0], a[1]
+    terms = dict(a[1])
+    for unknown, c in b[1]:
+        total = terms.get(unknown, 0.0) + factor * c
+        if total == 0:
+            terms.pop(unknown, None)
+        else:
+            terms[unknown] = total
+    return (a[0] + factor * b[0], tuple(sorted(terms.items()))) if len(terms) <= 2 else None
+
+
+def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
+    if a is not None and not a[1] and a[0] == 0:
+        return 0.0, ()
+    if divide:
+        return scale(a, 1 / b[0]) if a is not None and b is not None and not b[1] and b[0] != 0 else None
+    if b is not None and not b[1]:
+        if b[0] == 0:
+            return 0.0, ()
+        return scale(a, b[0]) if a is not None else None
+    return scale(b, a[0]) if a is not None and not a[1] and b is not None else None

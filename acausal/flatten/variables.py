@@ -1,0 +1,113 @@
+"""Give every bound component the symbols of its variables; connected potentials share one symbol."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import join, unit_of
+from acausal.language import fields as f
+from acausal.language.component import Component, Connector
+from acausal.language.expression import Expr, as_expr
+
+
+@dataclass(frozen=True)
+class VariableArray:
+    """A declared variable with its symbols and attributes, entries in column-major order."""
+
+    path: str
+    expr: Expr
+    declared: f.Variable
+    owner: Component
+    start: Expr
+    fixed: bool
+    guessed: bool
+    nominal: np.ndarray
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the entries in the user's words."""
+        shape = self.expr.shape
+        if not shape:
+            return [self.path]
+        return [f"{self.path}[{','.join(map(str, i[::-1]))}]" for i in np.ndindex(shape[::-1])]
+
+
+def create_variables(components: list[Component], same: list[tuple[Connector, ...]]) -> list[VariableArray]:
+    """Create the symbols of all components and set them as attributes."""
+    arrays: list[VariableArray] = []
+    inside: set[int] = set()
+    for group in same:
+        _connectors(group, any(c._is_root for c in group), arrays)
+        inside.update(id(member) for connector in group for member in _members(connector))
+    for component in components:
+        if id(component) not in inside:
+            for name, declared in component.fields.items():
+                if isinstance(declared, f.Variable):
+                    setattr(component, name, _create(component, name, declared, arrays))
+    return arrays
+
+
+def _connectors(group: tuple[Connector, ...], is_root: bool, arrays: list[VariableArray]) -> None:
+    """Give a set of connected connectors common potentials, and each its own flows."""
+    for others in zip(*(_members(c) for c in group), strict=True):
+        lead = others[0]
+        for name, declared in lead.fields.items():
+            if not isinstance(declared, f.Variable) or (declared.root and not is_root):
+                continue
+            if declared.flow:
+                for connector in others:
+                    setattr(connector, name, _create(connector, name, declared, arrays))
+                continue
+            given = next((c for c in others if name in c._values), lead)
+            shared = _create(given, name, declared, arrays)
+            for connector in others:
+                setattr(connector, name, shared)
+
+
+def _members(connector: Component) -> list[Component]:
+    """Return a connector and its records."""
+    members = [connector]
+    for name, declared in connector.fields.items():
+        if isinstance(declared, f.Part):
+            members.extend(_members(getattr(connector, name)))
+    return members
+
+
+def _create(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
+    path = join(owner._path, name)
+    shape = declared.shape(owner) if callable(declared.shape) else (declared.shape or ())
+    symbol = ca.SX.sym(path, *shape)
+    expr = Expr(symbol, unit_of(declared, owner), path)
+    given = owner._values.get(name)
+    start = given if isinstance(given, f.Start) else f.Start(f.evaluate(declared.start, owner), declared.fixed)
+    nominal = np.asarray(declared.nominal(owner) if callable(declared.nominal) else declared.nominal, dtype=float)
+    arrays.append(
+        VariableArray(
+            path,
+            expr,
+            declared,
+            owner,
+            _fill(start.value, shape, path, "start"),
+            start.fixed,
+            isinstance(given, f.Start),
+            np.broadcast_to(nominal, shape).flatten(order="F"),
+        )
+    )
+    return expr
+
+
+def _fill(value: Any, shape: tuple[int, ...], path: str, what: str) -> Expr:
+    """Return the value as an expression of the given shape; one number fills an array."""
+    if callable(value):
+        raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
+    given = as_expr(value)
+    if not given.shape and shape:
+        return Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
+    if given.shape != shape:
+        raise DeclarationError(f"{what} of `{path}` has shape {given.shape}; it must have shape {shape}.")
+    return given

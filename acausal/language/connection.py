@@ -1,0 +1,117 @@
+"""Statements of connections(): what is joined, and how over-determined records are rooted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from acausal.errors import ConnectError
+from acausal.language.component import Component, Connector
+
+
+@dataclass(frozen=True, eq=False)
+class Connect:
+    """Two ports are one point."""
+
+    a: Connector
+    b: Connector
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """The component states how the record of `b` follows from that of `a` and back."""
+
+    a: Connector
+    b: Connector
+
+
+@dataclass(frozen=True, eq=False)
+class Root:
+    """The component defines the record of this connector; priority None: it always does."""
+
+    connector: Connector
+    priority: int | None = None
+
+
+def connect(a: Any, b: Any) -> Connect:
+    """Join two ports: potentials become equal, flows sum to zero.
+
+    Raises
+    ------
+    ConnectError
+        If one of them is not a port, or their classes differ.
+    """
+    for port in (a, b):
+        if not isinstance(port, Connector):
+            raise ConnectError(f"connect() joins two ports, but {_describe(port)} is none. {_ports_of(port)}")
+    if type(a) is not type(b):
+        raise ConnectError(
+            f"{_describe(a)} and {_describe(b)} cannot be connected: a port connects only to a port of its own class."
+        )
+    if a is b:
+        raise ConnectError(f"{_describe(a)} is connected to itself.")
+    return Connect(a, b)
+
+
+def chain(*items: Any) -> Iterator[Connect]:
+    """Join each part's second end to the next one's first end.
+
+    Parameters
+    ----------
+    *items : Component or Connector
+        Parts in order; a port may stand for a part at either end.
+    """
+    if len(items) < 2:
+        raise ConnectError("chain() joins at least two parts.")
+    for left, right in zip(items, items[1:], strict=False):
+        yield connect(_end(left, 1), _end(right, 0))
+
+
+def branch(a: Any, b: Any) -> Branch:
+    """State that the component relates the over-determined records of two of its connectors."""
+    return Branch(a, b)
+
+
+def root(connector: Any) -> Root:
+    """State that the component defines the over-determined record of this connector."""
+    return Root(connector)
+
+
+def potential_root(connector: Any, priority: int = 0) -> Root:
+    """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
+    return Root(connector, priority)
+
+
+def is_root(connector: Any) -> bool:
+    """Tell in equations() whether the connector was chosen as a root."""
+    return connector._is_root
+
+
+def rooted(a: Any, b: Any | None = None) -> bool:
+    """Tell in equations() whether `a` is nearer to the root than the other end of its branch (than `b`)."""
+    if b is not None:
+        return a in b._parents
+    return not any(parent._owner is a._owner for parent in a._parents)
+
+
+def _end(item: Any, which: int) -> Any:
+    if isinstance(item, Connector):
+        return item
+    if not isinstance(item, Component):
+        raise ConnectError(f"chain() joins parts and ports, but {item!r} is neither.")
+    name = type(item).ends[which]
+    end = getattr(item, name, None) if name else None
+    if end is None:
+        side = ("first", "second")[which]
+        raise ConnectError(f"{_describe(item)} has no {side} end for chain(). {_ports_of(item)}")
+    return end
+
+
+def _describe(item: Any) -> str:
+    return f"{item._path or 'the model'} ({type(item).__name__})" if isinstance(item, Component) else repr(item)
+
+
+def _ports_of(item: Any) -> str:
+    ports = getattr(item, "_ports", ())
+    return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -1,0 +1,270 @@
+"""Symbolic expressions: a CasADi SX matrix with a unit, and equations between two of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError, UnitsError
+from acausal.units import Dimension, parse
+
+DIMENSIONLESS = parse("1")
+Unit = Dimension | tuple[Dimension, ...] | None
+
+
+class Expr:
+    """A symbolic scalar, vector or matrix with its unit.
+
+    Parameters
+    ----------
+    sx : casadi.SX
+        The expression; a scalar is 1 x 1, a vector n x 1.
+    unit : Dimension, tuple of Dimension or None
+        Its unit, one for each row, or None where it is not known (numeric literals).
+    name : str
+        The path of a declared variable or parameter, for messages.
+    """
+
+    __slots__ = ("name", "sx", "unit")
+    __array_ufunc__ = None
+
+    def __init__(self, sx: ca.SX, unit: Unit = None, name: str = "") -> None:
+        self.sx = sx
+        self.unit = unit
+        self.name = name
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape as numpy would give it: (), (n,) or (n, m)."""
+        n, m = self.sx.shape
+        return (n, m) if m != 1 else ((n,) if n != 1 else ())
+
+    @property
+    def T(self) -> Expr:
+        """Transpose."""
+        return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None)
+
+    def __repr__(self) -> str:
+        return self.name or str(self.sx)
+
+    def __len__(self) -> int:
+        return self.sx.shape[0]
+
+    def __getitem__(self, index: Any) -> Expr:
+        try:
+            sx = self.sx[index]
+        except RuntimeError:
+            raise IndexError(f"index {index} is outside of {self!r} of shape {self.shape}") from None
+        if isinstance(self.unit, tuple):
+            unit: Unit = self.unit[index] if isinstance(index, int | slice) else None
+        else:
+            unit = self.unit
+        return Expr(sx, unit, f"{self.name}[{index}]" if self.name and isinstance(index, int) else "")
+
+    def __iter__(self):
+        return (self[k] for k in range(len(self)))
+
+    def __add__(self, other: Any) -> Any:
+        return _sum(self, other, "+", lambda a, b: a + b)
+
+    def __radd__(self, other: Any) -> Any:
+        return _sum(other, self, "+", lambda a, b: a + b)
+
+    def __sub__(self, other: Any) -> Any:
+        return _sum(self, other, "-", lambda a, b: a - b)
+
+    def __rsub__(self, other: Any) -> Any:
+        return _sum(other, self, "-", lambda a, b: a - b)
+
+    def __mul__(self, other: Any) -> Any:
+        return _product(self, other)
+
+    def __rmul__(self, other: Any) -> Any:
+        return _product(other, self)
+
+    def __truediv__(self, other: Any) -> Any:
+        return _quotient(self, other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return _quotient(other, self)
+
+    def __matmul__(self, other: Any) -> Any:
+        return _matrix_product(self, other)
+
+    def __rmatmul__(self, other: Any) -> Any:
+        return _matrix_product(other, self)
+
+    def __neg__(self) -> Expr:
+        return Expr(-self.sx, self.unit)
+
+    def __pos__(self) -> Expr:
+        return self
+
+    def __pow__(self, power: Any) -> Any:
+        known = isinstance(self.unit, Dimension) and isinstance(power, int | float) and float(power).is_integer()
+        unit = self.unit ** int(power) if known else None  # type: ignore[operator]
+        return Expr(self.sx ** as_expr(power).sx, unit)
+
+    def __eq__(self, other: object) -> Any:
+        return equation(self, other)
+
+    __hash__ = object.__hash__
+
+    def __lt__(self, other: Any) -> Condition:
+        return Condition(self - other, "<")
+
+    def __le__(self, other: Any) -> Condition:
+        return Condition(self - other, "<=")
+
+    def __gt__(self, other: Any) -> Condition:
+        return Condition(other - self, "<")
+
+    def __ge__(self, other: Any) -> Condition:
+        return Condition(other - self, "<=")
+
+    def __bool__(self) -> bool:
+        raise DeclarationError(
+            f"{self!r} is symbolic: Python cannot decide on it with `if`, `and`, `or` or `in`. "
+            "Use piecewise((value, condition), ..., otherwise) for a switch in time, "
+            "or declare the field structural(...) if the equations themselves depend on it."
+        )
+
+
+class Condition:
+    """The relation `excess < 0` or `excess <= 0`, as used in piecewise."""
+
+    def __init__(self, excess: Expr, kind: str) -> None:
+        self.excess = excess
+        self.kind = kind
+
+    def __bool__(self) -> bool:
+        raise DeclarationError(
+            "a comparison of symbolic expressions has no truth value while the model is built. "
+            "Use piecewise((value, condition), ..., otherwise), "
+            "or declare the field structural(...) if the equations themselves depend on it."
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Equation:
+    """The statement that two expressions of equal shape are equal."""
+
+    lhs: Expr
+    rhs: Expr
+
+    def __bool__(self) -> bool:
+        raise DeclarationError(
+            "an equation has no truth value: `a == b == c`, `x in [...]` and `if a == b` cannot be used with symbolic "
+            "expressions. Yield one equation for each `==`."
+        )
+
+
+def as_expr(value: Any) -> Expr:
+    """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
+    if isinstance(value, Expr):
+        return value
+    if isinstance(value, int | float | np.number | np.ndarray):
+        return Expr(ca.SX(ca.DM(value)))
+    if isinstance(value, ca.DM | ca.SX):
+        return Expr(ca.SX(value))
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        rows = [as_expr(item) for item in value]
+        matrix = any(len(row.shape) == 1 for row in rows)
+        sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
+        units = [row.unit for row in rows]
+        known = all(isinstance(u, Dimension) for u in units) and not matrix
+        return Expr(sx, (units[0] if len(set(units)) == 1 else tuple(units)) if known else None)  # type: ignore[arg-type]
+    raise DeclarationError(f"cannot use a {type(value).__name__} ({value!r}) in an expression; give a number or a symbol")
+
+
+def equation(lhs: Any, rhs: Any) -> Any:
+    """State that two expressions are equal.
+
+    Raises
+    ------
+    DeclarationError
+        If the shapes differ.
+    UnitsError
+        If the units certainly differ.
+    """
+    if is_deferred(lhs, rhs):
+        raise DeclarationError("an equation is stated inside equations(), with self.<name>, not in the class body")
+    a, b = as_expr(lhs), as_expr(rhs)
+    if a.shape != b.shape:
+        raise DeclarationError(
+            f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
+            "Write one entry for each entry of the other side, for instance (0, 0, 0) for a vector of zeros."
+        )
+    _same_unit(a, b, "==")
+    return Equation(a, b)
+
+
+def is_deferred(*values: Any) -> bool:
+    """Tell whether one of the values is a field of a class body, known only when the model is built."""
+    return any(getattr(value, "is_deferred", False) for value in values)
+
+
+def _short(value: Expr) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _same_unit(a: Expr, b: Expr, operator: str) -> Unit:
+    """Return the common unit; None fits everything."""
+    if a.unit is None or b.unit is None:
+        return a.unit if b.unit is None and not b.sx.is_constant() else (b.unit if a.unit is None else a.unit)
+    if a.unit is b.unit or a.unit == b.unit:
+        return a.unit
+    if isinstance(a.unit, tuple) != isinstance(b.unit, tuple):
+        one, many = (a, b) if isinstance(b.unit, tuple) else (b, a)
+        if all(u == one.unit for u in many.unit):  # type: ignore[union-attr]
+            return one.unit
+    show = [", ".join(map(str, u)) if isinstance(u, tuple) else str(u) for u in (a.unit, b.unit)]
+    raise UnitsError(f"units differ: {_short(a)} is in [{show[0]}], {_short(b)} in [{show[1]}], joined by `{operator}`")
+
+
+def _sum(left: Any, right: Any, symbol: str, operate: Callable[[Any, Any], Any]) -> Any:
+    if is_deferred(left, right):
+        return NotImplemented
+    a, b = as_expr(left), as_expr(right)
+    if a.shape != b.shape:
+        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} {symbol} {_short(b)}")
+    return Expr(operate(a.sx, b.sx), _same_unit(a, b, symbol))
+
+
+def _product(left: Any, right: Any) -> Any:
+    if is_deferred(left, right):
+        return NotImplemented
+    a, b = as_expr(left), as_expr(right)
+    if a.shape and b.shape and a.shape != b.shape:
+        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices")
+    return Expr(a.sx * b.sx, _times(a.unit, b.unit))
+
+
+def _matrix_product(left: Any, right: Any) -> Any:
+    if is_deferred(left, right):
+        return NotImplemented
+    a, b = as_expr(left), as_expr(right)
+    left = a.sx.T if len(a.shape) == 1 else a.sx
+    if not a.shape or not b.shape or left.shape[1] != b.sx.shape[0]:
+        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} @ {_short(b)}")
+    sx = left @ b.sx
+    return Expr(sx.T if len(a.shape) == 1 and len(b.shape) == 2 else sx, _times(a.unit, b.unit))
+
+
+def _quotient(left: Any, right: Any) -> Any:
+    if is_deferred(left, right):
+        return NotImplemented
+    a, b = as_expr(left), as_expr(right)
+    if b.shape:
+        raise DeclarationError(f"cannot divide by an array of shape {b.shape}: {_short(b)}")
+    unit = a.unit / b.unit if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension) else None
+    return Expr(a.sx / b.sx, unit)
+
+
+def _times(a: Unit, b: Unit) -> Unit:
+    return a * b if isinstance(a, Dimension) and isinstance(b, Dimension) else None

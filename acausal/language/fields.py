@@ -1,0 +1,308 @@
+"""Fields of a component class: what it has. The values appear when the model is built."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from acausal.language.expression import Condition
+
+NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
+MISSING: Any = type("Missing", (), {"__repr__": lambda self: "no default", "__bool__": lambda self: False})()
+Shape = tuple[int, ...] | Callable[[Any], tuple[int, ...]] | None
+
+
+class Deferrable:
+    """Something in a class body whose value is known only in an instance; arithmetic with it waits as well."""
+
+    is_deferred = True
+    __array_ufunc__ = None
+
+    def evaluate(self, owner: Any) -> Any:
+        """Return the value in a built component."""
+        raise NotImplementedError
+
+    def __getitem__(self, index: Any) -> Deferred:
+        return Deferred(operator.getitem, (self, index))
+
+    def __neg__(self) -> Deferred:
+        return Deferred(operator.neg, (self,))
+
+
+def _binary(operate: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
+    def forward(self: Any, other: Any) -> Deferred:
+        return Deferred(operate, (self, other))
+
+    def backward(self: Any, other: Any) -> Deferred:
+        return Deferred(operate, (other, self))
+
+    return forward, backward
+
+
+for _name in ("add", "sub", "mul", "truediv", "floordiv", "matmul", "pow"):
+    _forward, _backward = _binary(getattr(operator, _name))
+    setattr(Deferrable, f"__{_name}__", _forward)
+    setattr(Deferrable, f"__r{_name}__", _backward)
+
+
+class Deferred(Deferrable):
+    """A function of deferred values, evaluated in the component whose class body holds it."""
+
+    def __init__(self, function: Callable[..., Any], arguments: Sequence[Any]) -> None:
+        self.function = function
+        self.arguments = arguments
+
+    def evaluate(self, owner: Any) -> Any:
+        """Return the value in the built component `owner`."""
+        return self.function(*[evaluate(argument, owner) for argument in self.arguments])
+
+
+def evaluate(value: Any, owner: Any) -> Any:
+    """Replace every deferred value inside `value` by its value in the built component `owner`."""
+    if isinstance(value, Deferrable):
+        return value.evaluate(owner)
+    if isinstance(value, Condition):
+        return Condition(evaluate(value.excess, owner), value.kind)
+    if isinstance(value, Start):
+        return Start(evaluate(value.value, owner), value.fixed)
+    if isinstance(value, list | tuple):
+        return type(value)(evaluate(item, owner) for item in value)
+    return value
+
+
+@dataclass(frozen=True)
+class Start:
+    """A start value; `fixed` makes it an equation of the initial system, otherwise it is a guess."""
+
+    value: Any
+    fixed: bool
+
+
+def fixed(value: Any) -> Any:
+    """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
+
+    Parameters
+    ----------
+    value : float, sequence or parameter
+        Value of the variable at the start time, in its unit and shape.
+    """
+    return Start(value, True)
+
+
+def guess(value: Any) -> Any:
+    """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
+
+    Parameters
+    ----------
+    value : float, sequence or parameter
+        Guess in the unit and shape of the variable.
+    """
+    return Start(value, False)
+
+
+@dataclass(eq=False)
+class Field(Deferrable):
+    """A declared member of a component class."""
+
+    description: str
+    unit: str | Sequence[str] | Callable[[Any], Sequence[str]] | None = None
+    shape: Shape = None
+    default: Any = MISSING
+    name: str = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, owner: Any, cls: type | None = None) -> Any:
+        """Give the field in a class, and its path in a template that is not built."""
+        return self if owner is None else owner._member_path(self.name, self)
+
+    def evaluate(self, owner: Any) -> Any:
+        """Return the value of the field in the built component `owner`."""
+        return getattr(owner, self.name)
+
+
+@dataclass(eq=False)
+class Structural(Field):
+    """Fixes sizes and equations; a plain Python value in an instance."""
+
+    choices: tuple[Any, ...] | None = None
+    minimum: float | None = None
+    effect: bool = False
+
+
+@dataclass(eq=False)
+class Parameter(Field):
+    """A number or array that can be changed after compiling."""
+
+    minimum: float | None = None
+    positive: bool = False
+
+
+@dataclass(eq=False)
+class Variable(Field):
+    """An unknown of the model."""
+
+    start: Any = 0.0
+    fixed: bool = False
+    select: int = DEFAULT
+    nominal: Any = 1.0
+    causality: str = ""
+    flow: bool = False
+    root: bool = False
+
+
+@dataclass(eq=False)
+class Part(Field):
+    """A component inside: a template, or a method that makes it from structural values."""
+
+    make: Any = None
+    many: bool = False
+    is_port: bool = False
+
+
+@dataclass(eq=False)
+class Outer(Field):
+    """The one component of a class in the whole model."""
+
+    cls: type = object
+
+
+def structural(
+    description: str,
+    *,
+    default: Any = MISSING,
+    choices: Sequence[Any] | None = None,
+    minimum: float | None = None,
+    shape: Shape = None,
+) -> Any:
+    """Declare a structural parameter: fixed when the model is compiled, a plain Python value in equations().
+
+    Parameters
+    ----------
+    description : str
+        What it is.
+    default : object
+        Value where none is given; a function of the component for one that depends on other structural parameters.
+    choices : sequence, optional
+        The allowed values.
+    minimum : float, optional
+        The least allowed value.
+    shape : tuple of int, optional
+        Shape of an array of numbers.
+    """
+    return Structural(description, None, shape, default, choices=tuple(choices) if choices else None, minimum=minimum)
+
+
+def effect(description: str, *, default: Any = True, choices: Sequence[Any] = (True, False)) -> Any:
+    """Declare a physical effect that can be switched: a structural parameter that the tool can list and price."""
+    return Structural(description, None, None, default, choices=tuple(choices), effect=True)
+
+
+def parameter(
+    description: str,
+    *,
+    unit: str | Sequence[str] = "1",
+    default: Any = MISSING,
+    shape: Shape = None,
+    minimum: float | None = None,
+    positive: bool = False,
+) -> Any:
+    """Declare a parameter: changeable after compiling, except for entries that are exactly 0 when compiled.
+
+    Parameters
+    ----------
+    description : str
+        What it is, and in which frame it is resolved.
+    unit : str or sequence of str
+        SI unit, or one for each entry.
+    default : float, array or callable
+        Value where none is given; a function of the component for one that follows other parameters.
+    shape : tuple of int, optional
+        Shape where the annotation does not tell.
+    minimum : float, optional
+        Least allowed value of every entry.
+    positive : bool
+        True if every entry must be greater than 0.
+    """
+    return Parameter(description, unit, shape, default, minimum=minimum, positive=positive)
+
+
+def variable(
+    description: str,
+    *,
+    unit: str | Sequence[str] | Callable[[Any], Sequence[str]] = "1",
+    shape: Shape = None,
+    start: Any = 0.0,
+    fixed: bool = False,
+    select: int = DEFAULT,
+    nominal: Any = 1.0,
+    root: bool = False,
+) -> Any:
+    """Declare a variable.
+
+    Parameters
+    ----------
+    description : str
+        What it is, and in which frame it is resolved.
+    unit : str or sequence of str
+        SI unit, or one for each entry.
+    shape : tuple of int or callable, optional
+        Shape where the annotation does not tell; a function of the component if it depends on structural parameters.
+    start : float or array
+        Guess at the start, or value at the start if `fixed`.
+    fixed : bool
+        True makes `start` an equation of the initial system.
+    select : int
+        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how gladly it becomes a state.
+    nominal : float or array or callable
+        Typical size, in its unit; absolute tolerance = tolerance * nominal.
+    root : bool
+        True for a variable that a connector has only when it is chosen as a root.
+    """
+    return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
+
+
+def input(description: str, *, unit: str = "1", shape: Shape = None, start: Any = 0.0) -> Any:  # noqa: A001
+    """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
+    return Variable(description, unit, shape, start=start, causality="input")
+
+
+def output(description: str, *, unit: str = "1", shape: Shape = None, nominal: Any = 1.0) -> Any:
+    """Declare an output; those of the model are the columns of its table of results."""
+    return Variable(description, unit, shape, nominal=nominal, causality="output")
+
+
+def flow(description: str, *, unit: str = "1", shape: Shape = None) -> Any:
+    """Declare a flow variable of a connector: the flows into the components of a connection set sum to zero."""
+    return Variable(description, unit, shape, flow=True)
+
+
+def port(connector: Any, description: str = "") -> Any:
+    """Declare a port: `port(Frame)`, or as decorator of a method that returns a connector or None.
+
+    Parameters
+    ----------
+    connector : Connector class or method
+        The class of the port, or a method that makes it from structural values (None: no such port).
+    description : str
+        What is fixed to it.
+    """
+    return Part(description or getattr(connector, "__doc__", None) or "", make=connector, is_port=True)
+
+
+def part(make: Callable[[Any], Any]) -> Any:
+    """Decorate a method that makes a part from structural values; None leaves the part out."""
+    return Part(make.__doc__ or "", make=make)
+
+
+def parts(make: Callable[[Any], Any]) -> Any:
+    """Decorate a method that makes a list of parts from structural values."""
+    return Part(make.__doc__ or "", make=make, many=True)
+
+
+def outer(cls: type) -> Any:
+    """Declare a reference to the one component of class `cls` in the model, such as the World."""
+    return Outer(f"the {cls.__name__} of the model", cls=cls)

@@ -1,0 +1,171 @@
+"""Functions of expressions; with a field of a class body they wait until the model is built."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextvars import ContextVar
+from fractions import Fraction
+from functools import wraps
+from typing import Any
+
+import casadi as ca
+
+from acausal.errors import DeclarationError, UnitsError
+from acausal.language.expression import DIMENSIONLESS, Condition, Expr, as_expr, is_deferred
+from acausal.language.fields import Deferred
+from acausal.units import Dimension, parse
+
+_SECOND = parse("s")
+time = Expr(ca.SX.sym("time"), _SECOND, "time")
+initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
+
+
+class Pending:
+    """What equations ask for while a model is flattened: derivatives and switching conditions.
+
+    `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
+    `switches` holds (mode, condition): `mode` is 1 while the condition holds.
+    """
+
+    def __init__(self) -> None:
+        self.derivatives: list[tuple[ca.SX, ca.SX]] = []
+        self.switches: list[tuple[ca.SX, Condition]] = []
+
+
+PENDING: ContextVar[Pending] = ContextVar("pending")
+
+
+def _pending(what: str) -> Pending:
+    try:
+        return PENDING.get()
+    except LookupError:
+        raise DeclarationError(f"{what} can be used inside equations() only") from None
+
+
+def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(function)
+    def call(*arguments: Any) -> Any:
+        if is_deferred(*arguments):
+            return Deferred(function, arguments)
+        return function(*arguments)
+
+    return call
+
+
+def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any], Any]:
+    def function(x: Any) -> Expr:
+        x = as_expr(x)
+        if isinstance(x.unit, Dimension) and x.unit != DIMENSIONLESS:
+            raise UnitsError(f"{name} needs a number or an angle, but {x!r} is in [{x.unit}]")
+        return Expr(operate(x.sx), DIMENSIONLESS if x.unit is not None else None)
+
+    function.__name__ = name
+    function.__doc__ = f"{name.capitalize()} of an expression, entry by entry; the argument is dimensionless or in rad."
+    return _deferrable(function)
+
+
+sin = _elementary("sin", ca.sin)
+cos = _elementary("cos", ca.cos)
+tan = _elementary("tan", ca.tan)
+asin = _elementary("asin", ca.asin)
+acos = _elementary("acos", ca.acos)
+exp = _elementary("exp", ca.exp)
+log = _elementary("log", ca.log)
+
+
+@_deferrable
+def sqrt(x: Any) -> Any:
+    """Square root of an expression, entry by entry."""
+    x = as_expr(x)
+    return Expr(ca.sqrt(x.sx), x.unit ** Fraction(1, 2) if isinstance(x.unit, Dimension) else None)
+
+
+@_deferrable
+def sign(x: Any) -> Any:
+    """Sign of an expression, entry by entry: -1, 0 or 1."""
+    return Expr(ca.sign(as_expr(x).sx), DIMENSIONLESS)
+
+
+@_deferrable
+def atan2(y: Any, x: Any) -> Any:
+    """Angle of the point (x, y) in rad, in (-pi, pi]."""
+    return Expr(ca.atan2(as_expr(y).sx, as_expr(x).sx), DIMENSIONLESS)
+
+
+@_deferrable
+def dot(a: Any, b: Any) -> Any:
+    """Scalar product of two vectors, both resolved in the same frame."""
+    return as_expr(a) @ as_expr(b)
+
+
+@_deferrable
+def cross(a: Any, b: Any) -> Any:
+    """Vector product of two vectors of length 3, both resolved in the same frame."""
+    a, b = as_expr(a), as_expr(b)
+    if a.shape != (3,) or b.shape != (3,):
+        raise DeclarationError(f"cross needs two vectors of length 3, not shapes {a.shape} and {b.shape}")
+    unit = a.unit * b.unit if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension) else None
+    return Expr(ca.cross(a.sx, b.sx), unit)
+
+
+def der(x: Any) -> Any:
+    """Time derivative of an expression.
+
+    Parameters
+    ----------
+    x : Expr
+        Any expression of variables, parameters and time.
+
+    Returns
+    -------
+    Expr
+        Derivative, of the shape of `x`, its unit divided by s.
+    """
+    pending = _pending("der()")
+    x = as_expr(x)
+    placeholder = ca.SX.sym("der", *x.sx.shape)
+    pending.derivatives.append((placeholder, x.sx))
+    if isinstance(x.unit, tuple):
+        unit: Any = tuple(u / _SECOND for u in x.unit)
+    else:
+        unit = x.unit / _SECOND if x.unit is not None else None
+    return Expr(placeholder, unit, f"der({x.name})" if x.name else "")
+
+
+def piecewise(*cases: Any, smooth: bool = False) -> Any:
+    """Value of the first case whose condition holds.
+
+    Parameters
+    ----------
+    *cases : (value, Condition) pairs, then a value
+        The last argument, without a condition, holds otherwise. A condition compares `time` with an expression of
+        parameters; such instants are break times: the integration stops there exactly.
+    smooth : bool
+        True promises that value and first two derivatives are continuous, so that no break time is needed.
+
+    Returns
+    -------
+    Expr
+        The value, all cases having one shape.
+
+    Examples
+    --------
+    >>> torque = piecewise((0.01 * (1 - exp(-time / 0.167)), time <= 0.7), 0)  # doctest: +SKIP
+    """
+    flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
+    if is_deferred(*flat):
+        return Deferred(lambda *c: piecewise(*c, smooth=smooth), cases)
+    value = as_expr(cases[-1])
+    for choice, condition in reversed(cases[:-1]):
+        if not isinstance(condition, Condition):
+            raise DeclarationError("a case of piecewise is a pair (value, condition), with a condition such as time < 1")
+        choice = as_expr(choice)
+        if choice.shape != value.shape:
+            raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
+        if smooth:
+            mode = condition.excess.sx < 0 if condition.kind == "<" else condition.excess.sx <= 0
+        else:
+            mode = ca.SX.sym("mode")
+            _pending("piecewise").switches.append((mode, condition))
+        value = Expr(ca.if_else(mode, choice.sx, value.sx), choice.unit if choice.unit is not None else value.unit)
+    return value

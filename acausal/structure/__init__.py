@@ -1,0 +1,19 @@
+"""Structural analysis of equations: singularity, index reduction, states, block triangular form, tearing."""
+
+from acausal.structure.analyse import analyse
+from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
+from acausal.structure.plan import Block, Plan
+from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.system import System
+
+__all__ = [
+    "Block",
+    "DulmageMendelsohn",
+    "Part",
+    "Plan",
+    "StructuralSingularity",
+    "System",
+    "analyse",
+    "components",
+    "decompose",
+]

@@ -1,0 +1,45 @@
+"""The structural stage: from incidence to a plan of solution."""
+
+from __future__ import annotations
+
+from acausal.structure.blt import block_triangular
+from acausal.structure.check import check
+from acausal.structure.observed import split_observed
+from acausal.structure.pantelides import pantelides
+from acausal.structure.plan import Plan
+from acausal.structure.states import match_algebraic
+from acausal.structure.system import System
+from acausal.structure.tearing import tear
+
+
+def analyse(system: System) -> Plan:
+    """Reduce the index, choose states, and order, split and tear the equations.
+
+    Raises
+    ------
+    StructuralSingularity
+        If the equations cannot determine the variables, whatever their coefficients.
+
+    """
+    check(system)
+    extension = pantelides(system)
+    extended = extension.system()
+    equation_of = match_algebraic(extended).equation_of
+    states = tuple(v for v, equation in enumerate(equation_of) if equation < 0)
+    pairs = [(v, equation) for v, equation in enumerate(equation_of) if equation >= 0]
+    blocks = block_triangular(extended.rows, pairs)
+    needed, observed = split_observed(extended, states, blocks)
+    torn = tear(extended, needed)
+    assigned = block_triangular(extended.rows, torn)
+    torn_variables, torn_equations = {v for v, _ in torn}, {e for _, e in torn}
+    return Plan(
+        system=extended,
+        differentiated=tuple(extension.differentiated),
+        created=tuple(extension.created),
+        states=states,
+        blocks=blocks,
+        algebraic=tuple(v for block in needed for v in block.variables if v not in torn_variables),
+        residuals=tuple(e for block in needed for e in block.equations if e not in torn_equations),
+        assigned=tuple((block.variables[0], block.equations[0]) for block in assigned),
+        observed=tuple(observed),
+    )

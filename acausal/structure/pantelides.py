@@ -1,0 +1,42 @@
+"""Index reduction: which equations must be differentiated."""
+
+from __future__ import annotations
+
+from acausal.structure.dulmage_mendelsohn import decompose
+from acausal.structure.extension import Extension
+from acausal.structure.incidence import lowest
+from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.system import System
+
+LIMIT = 10
+
+
+def pantelides(system: System) -> Extension:
+    """Differentiate until the highest derivatives can be matched (Pantelides 1988, all colourings of a round at once).
+
+    The equations that Pantelides colours from all unmatched ones are the over-determined part of the equations
+    with the highest derivatives, and each of them has to be differentiated; definitions of declared variables are
+    left alone, their derivatives being written in the system.
+
+    Raises
+    ------
+    StructuralSingularity
+        If an equation would have to be differentiated more than `LIMIT` times, or only definitions remain.
+
+    """
+    extension = Extension(system)
+    newest = list(range(system.n_equations))
+    times = [0] * system.n_equations
+    while True:
+        derivative = extension.derivative
+        rows = [[v for v in extension.rows[e] if derivative[v] < 0] for e in newest]
+        over = decompose(rows, len(derivative)).over
+        if not over.equations:
+            return extension
+        coloured = [e for e in over.equations if system.defines[e] < 0]
+        if not coloured or any(times[e] >= LIMIT for e in coloured):
+            root = lowest(derivative)
+            raise StructuralSingularity(over=(Part.of(over.equations, (root[v] for v in over.variables)),))
+        for e in coloured:
+            newest[e] = extension.differentiate(newest[e])
+            times[e] += 1

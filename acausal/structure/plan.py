@@ -1,0 +1,53 @@
+"""Result of the structural analysis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from acausal.structure.system import System
+
+
+@dataclass(frozen=True)
+class Block:
+    """Equations to be solved together; `equations[i]` is matched with `variables[i]`."""
+
+    equations: tuple[int, ...]
+    variables: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How to solve a `System`.
+
+    Parameters
+    ----------
+    system : System
+        The system, extended at the end by differentiated equations and created variables.
+    differentiated : tuple of int
+        Equation of which each added equation is the derivative (may itself be an added one).
+    created : tuple of int
+        Variable of which each added variable is the derivative.
+    states : tuple of int
+        The states, ascending.
+    blocks : tuple of Block
+        Block lower triangular form of all equations and all other variables, in order of solution.
+    algebraic : tuple of int
+        Unknowns of the integrated system.
+    residuals : tuple of int
+        Equations of the integrated system, as many as `algebraic`.
+    assigned : tuple of tuple of int
+        (variable, equation) substituted into the integrated system, in order of evaluation.
+    observed : tuple of tuple of int
+        (variable, equation) that no state derivative needs, in order of evaluation.
+
+    """
+
+    system: System
+    differentiated: tuple[int, ...]
+    created: tuple[int, ...]
+    states: tuple[int, ...]
+    blocks: tuple[Block, ...]
+    algebraic: tuple[int, ...]
+    residuals: tuple[int, ...]
+    assigned: tuple[tuple[int, int], ...]
+    observed: tuple[tuple[int, int], ...]

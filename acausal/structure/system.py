@@ -1,0 +1,51 @@
+"""What the structural analysis sees of a model: integers only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class System:
+    """Incidence of equations and variables; each derivative is a variable of its own.
+
+    Parameters
+    ----------
+    rows : tuple of tuple of int
+        Variables (and derivatives) that occur in each equation.
+    explicit : tuple of frozenset of int
+        Those that occur linearly with a coefficient made of numbers and parameters only.
+    derivative : tuple of int
+        Variable that is the time derivative of each variable, or -1; no two variables share one.
+    declared : mapping of int to tuple of int
+        Variables of the declared expression of the derivative; such a variable has no `derivative`.
+    defines : tuple of int
+        Declared variable that each equation defines, or -1.
+    preference : tuple of int
+        Preference of each variable to be a state: -2 never, -1 avoid, 0 default, 1 prefer, 2 always.
+
+    """
+
+    rows: tuple[tuple[int, ...], ...]
+    explicit: tuple[frozenset[int], ...]
+    derivative: tuple[int, ...]
+    declared: Mapping[int, tuple[int, ...]]
+    defines: tuple[int, ...]
+    preference: tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        if not len(self.rows) == len(self.explicit) == len(self.defines):
+            raise ValueError("rows, explicit and defines must have one entry an equation")
+        if len(self.derivative) != len(self.preference):
+            raise ValueError("derivative and preference must have one entry a variable")
+
+    @property
+    def n_equations(self) -> int:
+        """Number of equations."""
+        return len(self.rows)
+
+    @property
+    def n_variables(self) -> int:
+        """Number of variables, derivatives included."""
+        return len(self.derivative)
