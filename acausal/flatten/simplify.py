@@ -54,7 +54,6 @@ class Simplifier:
         self.rank = rank
         self.result = Simplification(self.up, rank, tape.solved)
         self.extra: list[Linear] = []
-        self.fresh: list[int] = []
         self.closed: set[int] = set()
 
     def run(self) -> Simplification:
@@ -66,8 +65,7 @@ class Simplifier:
                     self._visit(row)
             while self.extra:
                 self._assign(self.extra.pop(), None)
-            queue = self.tape.update(self.fresh) if self.fresh else []
-            self.fresh = []
+            queue = self.tape.update()
         return self.result
 
     def _visit(self, row: int) -> None:
@@ -129,8 +127,7 @@ class Simplifier:
         return unknown
 
     def _replace(self, unknown: int, solution: Linear, row: int | None) -> None:
-        self.tape.solved[unknown] = solution
-        self.fresh.append(unknown)
+        self.tape.solve(unknown, solution)
         if row is not None:
             self.result.used[row] = unknown
         upper, lower = self.up[unknown], self.down[unknown]

@@ -51,6 +51,8 @@ class Tape:
         for row, node in enumerate(self.residual):
             self.residuals_at.setdefault(node, []).append(row)
         self.solved: dict[int, Linear] = {}
+        self.followers: dict[int, list[int]] = {}
+        self._stale: list[int] = []
         self.value: list[Linear | None] = [None] * len(self.op)
         for node in range(len(self.op)):
             self.value[node] = self._evaluate(node)
@@ -116,9 +118,18 @@ class Tape:
             assert result is not None
         return result
 
-    def update(self, unknowns: list[int]) -> list[int]:
+    def solve(self, unknown: int, solution: Linear) -> None:
+        """Remember what an unknown is; the aliases that led to it now lead on."""
+        self.solved[unknown] = solution
+        led_here = [unknown, *self.followers.pop(unknown, [])]
+        self._stale.extend(self.input[u] for u in led_here if u in self.input)
+        for other, _ in solution[1]:
+            self.followers.setdefault(other, []).extend(led_here)
+
+    def update(self) -> list[int]:
         """Evaluate everything that depends on newly solved unknowns; return the residuals whose value changed."""
-        queue = sorted({self.input[u] for u in unknowns if u in self.input})
+        queue = sorted(set(self._stale))
+        self._stale = []
         queued = set(queue)
         changed: list[int] = []
         while queue:

@@ -168,7 +168,7 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.number | np.ndarray):
-        return Expr(ca.SX(ca.DM(value)))
+        return Expr(ca.SX(ca.sparsify(ca.DM(value))))
     if isinstance(value, ca.DM | ca.SX):
         return Expr(ca.SX(value))
     if isinstance(value, Sequence) and not isinstance(value, str):

@@ -78,7 +78,7 @@ class HandModel:
 
 @dataclass(frozen=True)
 class HandRun:
-    """One run: the tip in the frame that turns with the hub, all unknowns (a column per time), cost in IDAS's counts."""
+    """One run: the tip in the frame that turns with the hub, all unknowns (a column per time), and its cost."""
 
     time: np.ndarray
     tip_deflection: np.ndarray

@@ -53,4 +53,5 @@ def test_work_of_the_hub_is_energy(volumes: int) -> None:
     end = ca.integrator("energy", "idas", dae | {"quad": power}, 0.0, list(times), options)(x0=0, z0=0)
     stored = energy(model, times, np.asarray(end["xf"]))
     assert stored.max() > 200.0
-    assert np.abs(np.asarray(end["qf"]).ravel() - stored).max() < 2e-5 * stored.max()
+    # bending and stretching carry 2 J of 276 J, so a wrong inertia term cannot hide in the rigid motion
+    assert np.abs(np.asarray(end["qf"]).ravel() - stored).max() < 1e-6 * stored.max()

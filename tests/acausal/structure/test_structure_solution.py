@@ -77,12 +77,11 @@ def test_ring_is_cut_where_the_evaluation_would_be_circular() -> None:
     evaluable(plan)
 
 
-def test_substitution_that_fills_is_refused() -> None:
-    others = " ".join(f"x{k}" for k in range(6))
-    users = [f"y x{k}" for k in range(6)]
-    system = Model([f"{others} | y", *users]).system
-    blocks = [Block(tuple(range(7)), tuple(range(7)))]
-    assert tear(system, blocks) == []
+@pytest.mark.parametrize(("users", "torn"), [(2, True), (3, False)])
+def test_substitution_pays_up_to_no_net_fill(users: int, torn: bool) -> None:
+    model = Model(["p q | y", *(f"y z{k}" for k in range(users))])
+    blocks = [Block((k,), (v,)) for k, v in enumerate(range(2, 3 + users))]
+    assert tear(model.system, blocks) == [(model.index["y"], 0)] * torn
 
 
 def test_long_equation_is_substituted_where_nothing_uses_its_variable() -> None:

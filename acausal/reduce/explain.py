@@ -1,0 +1,64 @@
+"""Explain a structural singularity in the user's words."""
+
+from __future__ import annotations
+
+from acausal.flatten import FlatModel
+from acausal.structure import Part, StructuralSingularity
+
+MOST = 10
+
+
+def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
+    """Return the message: what is wrong, the smallest offending parts, the likely cause and the mend.
+
+    Parameters
+    ----------
+    flat : FlatModel
+        The model.
+    singularity : StructuralSingularity
+        Its over- and under-determined parts.
+    surplus : int
+        Equations minus unknowns.
+    """
+    if surplus > 0:
+        head = f"the model has {surplus} equation{_s(surplus)} more than unknowns."
+    elif surplus < 0:
+        head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
+    else:
+        head = "the model has as many equations as unknowns, but they cannot determine all of them."
+    lines = [head]
+    if singularity.over:
+        part = singularity.over[0]
+        lines.append(
+            f"These {len(part.equations)} equations hold only {len(part.variables)} unknown{_s(len(part.variables))} "
+            f"({_names(flat, part)}):"
+        )
+        lines += _equations(flat, part)
+        lines.append("One of them is too many: remove it, or add a part that gives way (a joint, a spring).")
+    if singularity.under:
+        part = singularity.under[0]
+        lines.append(f"Nothing determines {_names(flat, part)}.")
+        if part.equations:
+            lines.append(f"Only {len(part.equations)} equation{_s(len(part.equations))} hold them:")
+            lines += _equations(flat, part)
+        lines.append(
+            "Add the missing equation, or connect the part; "
+            "a mass or inertia of 0 at a free end also leaves its motion undetermined."
+        )
+    return "\n".join(lines)
+
+
+def _names(flat: FlatModel, part: Part) -> str:
+    names = [f"`{flat.names[v]}`" for v in part.variables[:MOST]]
+    more = len(part.variables) - MOST
+    return ", ".join(names) + (f" and {more} more" if more > 0 else "")
+
+
+def _equations(flat: FlatModel, part: Part) -> list[str]:
+    rows = [f"  {flat.origins[e]}" for e in part.equations[:MOST]]
+    more = len(part.equations) - MOST
+    return rows + ([f"  and {more} more"] if more > 0 else [])
+
+
+def _s(n: int) -> str:
+    return "" if n == 1 else "s"

@@ -1,0 +1,73 @@
+"""Read the incidence of a flat model: what the structural passes see of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from acausal.flatten import FlatModel
+from acausal.language.functions import initial, time
+from acausal.structure import System
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Jacobian of residuals: columns of each row, and the coefficients that are numbers or functions of parameters.
+
+    `explicit` maps (row, column) to its coefficient.
+    """
+
+    rows: tuple[tuple[int, ...], ...]
+    explicit: dict[tuple[int, int], ca.SX]
+
+
+def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
+    """Return the incidence of `residuals` and their constant coefficients, from one sparse Jacobian.
+
+    Parameters
+    ----------
+    residuals, unknowns : casadi.SX
+        Columns.
+    others : casadi.SX
+        What else a coefficient must not depend on: time, modes.
+    """
+    J = ca.sparsify(ca.jacobian(residuals, unknowns))
+    entries = J.nonzeros()
+    row, column = (np.array(i) for i in J.sparsity().get_triplet())
+    varying = np.array(ca.which_depends(ca.vertcat(*entries), ca.vertcat(unknowns, others), 1, True), dtype=bool)
+    rows: list[list[int]] = [[] for _ in range(residuals.numel())]
+    explicit = {}
+    for i, j, entry, varies in zip(row.tolist(), column.tolist(), entries, varying, strict=True):
+        rows[i].append(j)
+        if not varies:
+            explicit[i, j] = entry
+    return Linear(tuple(map(tuple, rows)), explicit)
+
+
+def system_of(flat: FlatModel) -> tuple[System, Linear]:
+    """Return the System of a flat model, and its Jacobian."""
+    modes = ca.vertcat(*[mode for mode, _ in flat.switches])
+    linear = jacobian(flat.residuals, flat.unknowns, ca.vertcat(time.sx, initial.sx, modes))
+    explicit: list[set[int]] = [set() for _ in linear.rows]
+    for i, j in linear.explicit:
+        explicit[i].add(j)
+    declared: dict[int, tuple[int, ...]] = {}
+    if flat.declared:
+        column = ca.vertcat(*flat.declared.values())
+        function = ca.Function("declared", [flat.unknowns, time.sx, flat.parameters, modes], [column])
+        pattern = function.jac_sparsity(0, 0)
+        found: list[list[int]] = [[] for _ in flat.declared]
+        for i, j in zip(*pattern.get_triplet(), strict=True):
+            found[i].append(j)
+        declared = {k: tuple(js) for k, js in zip(flat.declared, found, strict=True)}
+    system = System(
+        rows=linear.rows,
+        explicit=tuple(frozenset(e) for e in explicit),
+        derivative=flat.derivative,
+        declared={k: v for k, v in declared.items() if flat.derivative[k] < 0},
+        defines=tuple(d if d >= 0 and d in declared and flat.derivative[d] < 0 else -1 for d in flat.defines),
+        preference=flat.preference,
+    )
+    return system, linear

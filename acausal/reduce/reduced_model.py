@@ -1,0 +1,65 @@
+"""The reduced model: a semi-explicit DAE of index 1, and how everything else follows from its unknowns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi as ca
+
+from acausal.flatten import FlatModel
+from acausal.structure import Plan
+
+
+@dataclass(frozen=True)
+class ReducedModel:
+    """der(x) = ode(x, z, p, t), 0 = alg(x, z, p, t).
+
+    Parameters
+    ----------
+    flat : FlatModel
+        Where it comes from.
+    plan : Plan
+        The structural decisions.
+    unknowns : casadi.SX
+        All unknowns of the extended system.
+    names : tuple of str
+        Their names.
+    x, z, ode, alg : casadi.SX
+        States, algebraic unknowns and the equations of the integrated system.
+    definitions : (casadi.SX, casadi.SX)
+        Unknowns that were assigned or are observed, in order of evaluation, and what they are.
+    """
+
+    flat: FlatModel
+    plan: Plan
+    unknowns: ca.SX
+    names: tuple[str, ...]
+    x: ca.SX
+    z: ca.SX
+    ode: ca.SX
+    alg: ca.SX
+    definitions: tuple[ca.SX, ca.SX]
+
+    @cached_property
+    def modes(self) -> ca.SX:
+        """Mode symbols of the switches, a column."""
+        return ca.vertcat(*[mode for mode, _ in self.flat.switches])
+
+    @cached_property
+    def _resolved(self) -> ca.SX:
+        """Definitions in terms of x, z, parameters and time alone."""
+        symbols, expressions = self.definitions
+        return ca.substitute_inplace([symbols], [expressions], [])[0][0] if symbols.numel() else expressions
+
+    def resolve(self, expression: ca.SX) -> ca.SX:
+        """Express anything of the model in x, z, parameters and time.
+
+        Parameters
+        ----------
+        expression : casadi.SX
+            In original symbols of the model or in remaining unknowns.
+        """
+        was, becomes = self.flat.eliminated
+        first = ca.substitute([expression], [was], [becomes])
+        return ca.substitute(first, [self.definitions[0]], [self._resolved])[0]

@@ -1,0 +1,74 @@
+"""Body: a rigid body with mass and inertia tensor."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal import Component, Matrix33, Scalar, Vector3, cross, dot, is_root, outer, parameter, port, potential_root
+from acausal import structural, variable
+from components.frame import Frame
+from components.orientation import axes_rotations, quaternion_of, resolve1, resolve2
+from components.world import World
+
+
+class Body(Component):
+    """Rigid body with mass, centre of mass and inertia; a body that nothing else guides moves freely.
+
+    Parameters
+    ----------
+    m : float
+        Mass in kg.
+    r_CM : array of 3 floats
+        Centre of mass from frame_a, resolved in frame_a, in m.
+    I : 3 x 3 array
+        Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2.
+    angles_start, sequence_start, angles_fixed
+        Orientation of a freely moving body at the start: angles in rad about the axes of the sequence.
+
+    Notes
+    -----
+    f = m (a + z x r_CM + w x (w x r_CM) - g),  t = I z + w x I w + r_CM x f: Newton and Euler in body axes.
+    """
+
+    ends = ("frame_a", "")
+    m: Scalar = parameter("mass", unit="kg", minimum=0)
+    r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=(0, 0, 0))
+    I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=np.zeros((3, 3)))
+    angles_start = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    sequence_start = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
+    angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    world: World = outer(World)
+    frame_a: Frame = port(Frame, "coordinate system fixed to the body")
+    r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
+    v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
+    a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
+    w_a: Vector3 = variable("angular velocity, resolved in frame_a", unit="rad/s")
+    z_a: Vector3 = variable("angular acceleration, resolved in frame_a", unit="rad/s2")
+
+    def connections(self):
+        yield potential_root(self.frame_a)
+
+    def equations(self):
+        frame, w, z = self.frame_a, self.frame_a.R.w, self.frame_a.z
+        g = resolve2(frame.R, self.world.acceleration(self._centre()))
+        acceleration = frame.a + cross(z, self.r_CM) + cross(w, cross(w, self.r_CM))
+        yield frame.f == self.m * (acceleration - g)
+        yield frame.t == self.I @ z + cross(w, self.I @ w) + cross(self.r_CM, frame.f)
+        yield self.r_0 == frame.r_0
+        yield self.v_0 == resolve1(frame.R, frame.v)
+        yield self.a_0 == resolve1(frame.R, frame.a)
+        yield self.w_a == w
+        yield self.z_a == z
+
+    def initial_equations(self):
+        if self.angles_fixed and is_root(self.frame_a):
+            yield self.frame_a.Q == quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
+
+    def stored_energy(self):
+        """Kinetic and potential energy."""
+        frame, w = self.frame_a, self.frame_a.R.w
+        v = frame.v + cross(w, self.r_CM)
+        return self.m * (dot(v, v) / 2 + self.world.potential(self._centre())) + dot(w, self.I @ w) / 2
+
+    def _centre(self):
+        return self.frame_a.r_0 + resolve1(self.frame_a.R, self.r_CM)

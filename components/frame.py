@@ -1,0 +1,105 @@
+"""Frame: the connector of mechanics in three dimensions, and move(), which relates two of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from acausal import Component, Connector, Expr, Vector3, cross, der, flow, port, rooted, variable
+from components.orientation import (
+    Orientation,
+    from_quaternion,
+    inverse_rotation,
+    quaternion_rate,
+    resolve1,
+    resolve2,
+    skew,
+)
+
+
+class Frame(Connector):
+    """Coordinate system fixed to a body, with its motion at all levels and the cut force and torque.
+
+    Velocities and accelerations are those of the origin relative to the world, resolved in this frame.
+    """
+
+    r_0: Vector3 = variable("position of the origin, resolved in the world", unit="m")
+    R = Orientation()
+    v: Vector3 = variable("velocity of the origin, resolved in this frame", unit="m/s")
+    a: Vector3 = variable("acceleration of the origin, resolved in this frame", unit="m/s2")
+    z: Vector3 = variable("angular acceleration, resolved in this frame", unit="rad/s2")
+    f: Vector3 = flow("cut force, resolved in this frame", unit="N")
+    t: Vector3 = flow("cut torque, resolved in this frame", unit="N.m")
+    Q = variable("quaternion of a free frame", shape=(4,), start=(0, 0, 0, 1), root=True)
+
+    def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
+        """Motion of a rigid frame, resolved in its own axes."""
+        yield self.r_0, resolve1(self.R, self.v)
+        yield self.R.T, -skew(self.R.w) @ self.R.T
+        yield self.v, self.a - cross(self.R.w, self.v)
+        yield self.R.w, self.z
+
+    def residual(self, other: Any) -> Iterator[Any]:
+        """Equal position, and a relative rotation matrix whose off-diagonal entries vanish."""
+        yield self.r_0 == other.r_0
+        T_rel = other.R.T @ self.R.T.T
+        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == _zero(3)
+
+    def root_equations(self) -> Iterator[Any]:
+        """Quaternion of a free frame; the feedback keeps its norm at 1 (Baumgarte, rate 1/s)."""
+        yield self.R.T == from_quaternion(self.Q).T
+        e, s = quaternion_rate(self.Q, self.R.w)
+        defect = 1 - self.Q @ self.Q
+        yield der(self.Q[:3]) == e + defect * self.Q[:3]
+        yield der(self.Q[3]) == s + defect * self.Q[3]
+
+
+def _zero(n: int) -> Expr:
+    from acausal.language.expression import as_expr
+
+    return as_expr(np.zeros(n))
+
+
+class TwoFrames(Component):
+    """Base of components with two frames."""
+
+    ends = ("frame_a", "frame_b")
+    frame_a: Frame = port(Frame, "coordinate system at the first end")
+    frame_b: Frame = port(Frame, "coordinate system at the second end")
+
+
+def move(frame_a: Any, frame_b: Any, r: Any, R: Any) -> Iterator[Any]:
+    """Equations of all levels of motion of frame_b relative to frame_a, written away from the root.
+
+    Parameters
+    ----------
+    frame_a, frame_b : Frame
+        The two frames, joined by a branch().
+    r : Expr or array, shape (3,)
+        Position of frame_b relative to frame_a, resolved in frame_a, in m.
+    R : RelativeOrientation
+        Orientation of frame_b relative to frame_a.
+
+    Notes
+    -----
+    With dr, ddr the derivatives of r seen from frame_a and T, w those of R:
+    v_b = T (v_a + w_a x r + dr), z_b = T z_a + der(w) + (T w_a) x w,
+    a_b = T (a_a + z_a x r + w_a x (w_a x r) + 2 w_a x dr + ddr).
+    """
+    if not rooted(frame_a, frame_b):
+        frame_a, frame_b, r, R = frame_b, frame_a, -resolve2(R, r), inverse_rotation(R)
+    a, b = frame_a, frame_b
+    w_a = a.R.w
+    dr = _der(r)
+    yield b.r_0 == a.r_0 + resolve1(a.R, r)
+    yield b.R.T == R.T @ a.R.T
+    yield b.R.w == resolve2(R, w_a) + R.w
+    yield b.v == resolve2(R, a.v + cross(w_a, r) + dr)
+    yield b.z == resolve2(R, a.z) + cross(resolve2(R, w_a), R.w) + _der(R.w)
+    yield b.a == resolve2(R, a.a + cross(a.z, r) + cross(w_a, cross(w_a, r)) + 2 * cross(w_a, dr) + _der(dr))
+
+
+def _der(x: Any) -> Any:
+    return np.zeros(3) if isinstance(x, np.ndarray) else der(x)

@@ -1,0 +1,128 @@
+"""Orientation objects: a rotation matrix with its angular velocity, and the functions that use them.
+
+An orientation R of frame 2 relative to frame 1 holds `T`, which turns coordinates of frame 1 into those of frame 2, and
+`w`, the angular velocity of frame 2 relative to frame 1, resolved in frame 2. Names as in Modelica's MultiBody.Frames.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from acausal import Expr, cos, cross, der, sin
+from acausal import Record as _Record
+from acausal import Matrix33, Vector3, variable
+
+
+@dataclass(frozen=True)
+class RelativeOrientation:
+    """Orientation of one frame relative to another: rotation matrix T (3, 3) and angular velocity w (3,)."""
+
+    T: Any
+    w: Any
+
+
+class Orientation(_Record):
+    """Orientation of a frame relative to the world."""
+
+    T: Matrix33 = variable("rotation matrix from the world to this frame", start=np.eye(3))
+    w: Vector3 = variable("angular velocity, resolved in this frame", unit="rad/s")
+
+
+def unit_vector(n: Any) -> np.ndarray:
+    """Return a vector of numbers scaled to length 1."""
+    n = np.asarray(n, dtype=float)
+    return n / np.linalg.norm(n)
+
+
+def skew(v: Any) -> Any:
+    """Return the matrix S with S u = v x u."""
+    from acausal.language.expression import as_expr
+
+    return as_expr([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def resolve1(R: Any, v: Any) -> Any:
+    """Turn a vector resolved in frame 2 into frame 1: T' v."""
+    return R.T.T @ v
+
+
+def resolve2(R: Any, v: Any) -> Any:
+    """Turn a vector resolved in frame 1 into frame 2: T v."""
+    return R.T @ v
+
+
+def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
+    """Rotate by the angle phi about the axis n.
+
+    Parameters
+    ----------
+    n : array of 3 floats
+        Axis of rotation, the same in both frames, of length 1.
+    phi : Expr
+        Angle in rad.
+    """
+    outer = np.outer(n, n)
+    cross_n = np.cross(np.eye(3), -n)  # skew(n)
+    T = outer + (np.eye(3) - outer) * cos(phi) - cross_n * sin(phi)
+    return RelativeOrientation(T, n * der(phi))
+
+
+def fixed_rotation(T: np.ndarray) -> RelativeOrientation:
+    """Rotate by a constant matrix."""
+    return RelativeOrientation(T, np.zeros(3))
+
+
+def absolute_rotation(R1: Any, R_rel: Any) -> RelativeOrientation:
+    """Orientation of frame 2, from that of frame 1 and that of frame 2 relative to frame 1."""
+    return RelativeOrientation(R_rel.T @ R1.T, R_rel.T @ R1.w + R_rel.w)
+
+
+def inverse_rotation(R: Any) -> RelativeOrientation:
+    """Orientation of frame 1 relative to frame 2."""
+    return RelativeOrientation(R.T.T, -(R.T.T @ R.w))
+
+
+def null_rotation() -> RelativeOrientation:
+    """Orientation of a frame relative to itself."""
+    return fixed_rotation(np.eye(3))
+
+
+def from_quaternion(Q: Any) -> RelativeOrientation:
+    """Orientation that a quaternion Q = (vector part, scalar part) of length 1 describes, with w = G(Q) der(Q)."""
+    e, s = Q[:3], Q[3]
+    T = 2 * (outer_product(e, e) - s * skew(e)) + (2 * s * s - 1) * np.eye(3)
+    dQ = der(Q)
+    return RelativeOrientation(T, 2 * (s * dQ[:3] - dQ[3] * e - cross(e, dQ[:3])))
+
+
+def outer_product(a: Any, b: Any) -> Any:
+    """Return the matrix a b'."""
+    from acausal.language.expression import as_expr
+
+    return as_expr([[a[i] * b[j] for j in range(3)] for i in range(3)])
+
+
+def quaternion_rate(Q: Any, w: Any) -> tuple[Expr, Expr]:
+    """Vector and scalar part of der(Q) for an angular velocity w resolved in the turned frame."""
+    e, s = Q[:3], Q[3]
+    return 0.5 * (s * w + cross(e, w)), -0.5 * (e @ w)
+
+
+def quaternion_of(T: np.ndarray) -> np.ndarray:
+    """Return the quaternion (vector part, scalar part) of a rotation matrix of numbers."""
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(np.asarray(T).T).as_quat(canonical=True)
+
+
+def axes_rotations(sequence: Any, angles: Any) -> np.ndarray:
+    """Rotation matrix of numbers, from three turns about the axes 1, 2 or 3 of `sequence` (the turned ones)."""
+    T = np.eye(3)
+    for axis, angle in zip(sequence, angles, strict=True):
+        n = np.eye(3)[int(axis) - 1]
+        outer = np.outer(n, n)
+        T = (outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), -n) * np.sin(angle)) @ T
+    return T

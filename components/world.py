@@ -1,0 +1,75 @@
+"""World: the inertial frame and the field of gravity."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import Component, Scalar, dot, parameter, port, root, sqrt, structural
+from components.frame import Frame
+from components.orientation import unit_vector
+
+
+class World(Component):
+    """The inertial frame, and the field of gravity that acts on all bodies. Every model has exactly one.
+
+    Parameters
+    ----------
+    gravity : "uniform", "point" or None
+        Kind of the field: g n everywhere, -mu r / |r|^3, or none.
+    g : float
+        Acceleration of uniform gravity in m/s2.
+    n : array of 3 floats
+        Direction of uniform gravity, resolved in the world; any length but 0.
+    mu : float
+        Gravity constant of the central body in m3/s2 for point gravity.
+    """
+
+    ends = ("", "frame_b")
+    gravity: Any = structural("kind of gravity", default="uniform", choices=("uniform", "point", None))
+    g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665)
+    n = structural("direction of gravity, resolved in the world", default=(0, -1, 0), shape=(3,))
+    mu: Scalar = parameter("gravity constant of the central body", unit="m3/s2", default=3.986004418e14)
+    frame_b: Frame = port(Frame, "the inertial frame")
+
+    def check(self) -> None:
+        """Refuse a direction of length 0."""
+        require_direction(self, self.n, "n")
+
+    def connections(self):
+        yield root(self.frame_b)
+
+    def equations(self):
+        frame, zero = self.frame_b, np.zeros(3)
+        yield frame.r_0 == zero
+        yield frame.R.T == np.eye(3)
+        yield frame.R.w == zero
+        yield frame.v == zero
+        yield frame.a == zero
+        yield frame.z == zero
+
+    def acceleration(self, r: Any) -> Any:
+        """Acceleration of gravity at the position r, resolved in the world, in m/s2."""
+        if self.gravity == "uniform":
+            return unit_vector(self.n) * self.g
+        if self.gravity == "point":
+            return -self.mu / (dot(r, r) * sqrt(dot(r, r))) * r
+        return np.zeros(3)
+
+    def potential(self, r: Any) -> Any:
+        """Potential of gravity at the position r, resolved in the world, in J/kg."""
+        if self.gravity == "uniform":
+            return -self.g * dot(unit_vector(self.n), r)
+        if self.gravity == "point":
+            return -self.mu / sqrt(dot(r, r))
+        return 0.0
+
+
+def require_direction(component: Any, vector: Any, name: str) -> None:
+    """Refuse a vector of length 0 where a direction is needed."""
+    from acausal import DeclarationError
+
+    if not np.linalg.norm(vector) > 0:
+        where = f"{component._path} ({type(component).__name__})"
+        raise DeclarationError(f"`{name}` of {where} has length 0; give a direction, for instance {name}=(0, 0, 1).")
