@@ -4,6 +4,7 @@ Compose a model from connected components; the engine flattens it, reduces its i
 integrates them.
 """
 
+from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,
     ConnectError,
@@ -17,16 +18,24 @@ from acausal.errors import (
 )
 from acausal.language import *  # noqa: F403
 from acausal.language import __all__ as _language
+from acausal.result import Result
+from acausal.solve import Linearization, linearize, simulate
 
 __all__ = [
     *_language,
     "AcausalError",
+    "CompiledModel",
     "ConnectError",
     "DeclarationError",
     "ExportError",
     "InitializationError",
+    "Linearization",
+    "Result",
     "SimulationError",
     "StructurallySingularError",
     "UnbalancedModelError",
     "UnitsError",
+    "compile",
+    "linearize",
+    "simulate",
 ]

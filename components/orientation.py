@@ -65,7 +65,7 @@ def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
         Angle in rad.
     """
     outer = np.outer(n, n)
-    cross_n = np.cross(np.eye(3), -n)  # skew(n)
+    cross_n = np.cross(np.eye(3), n)  # skew(n)
     T = outer + (np.eye(3) - outer) * cos(phi) - cross_n * sin(phi)
     return RelativeOrientation(T, n * der(phi))
 
@@ -124,5 +124,5 @@ def axes_rotations(sequence: Any, angles: Any) -> np.ndarray:
     for axis, angle in zip(sequence, angles, strict=True):
         n = np.eye(3)[int(axis) - 1]
         outer = np.outer(n, n)
-        T = (outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), -n) * np.sin(angle)) @ T
+        T = (outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)) @ T
     return T

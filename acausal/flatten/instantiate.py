@@ -81,6 +81,8 @@ class Instantiation:
                 setattr(bound, name, self._parameter(bound, name, declared))
             elif isinstance(declared, f.Part):
                 parts.append((name, declared))
+            elif owner is None and isinstance(declared, f.Variable) and declared.causality == "input":
+                self._top_input(bound, name, declared)
         bound.check()
         for name, declared in parts:
             self._part(bound, name, declared)
@@ -141,12 +143,19 @@ class Instantiation:
             self.parameters.limits.append((path, expression.sx, declared))
         return expression
 
-    def _free(self, path: str, value: np.ndarray, unit: Any) -> Expr:
+    def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
+        """An input at the top of the model is a parameter, whatever its value."""
+        shape = declared.shape if isinstance(declared.shape, tuple) else ()
+        given = self.overrides.pop(name, bound._values.pop(name, declared.start))
+        value = np.broadcast_to(np.asarray(given, dtype=float), shape)
+        setattr(bound, name, self._free(name, value, unit_of(declared, bound), fold=False))
+
+    def _free(self, path: str, value: np.ndarray, unit: Any, fold: bool = True) -> Expr:
         """Make a symbol for each entry that is not exactly 0."""
         entries = []
         for index in np.ndindex(value.shape):
             name = path + (f"[{','.join(map(str, index))}]" if index else "")
-            if value[index] == 0:
+            if fold and value[index] == 0:
                 self.parameters.structural_zeros.append(name)
                 entries.append(ca.SX(0))
                 continue

@@ -47,7 +47,7 @@ def create_variables(components: list[Component], same: list[tuple[Connector, ..
     for component in components:
         if id(component) not in inside:
             for name, declared in component.fields.items():
-                if isinstance(declared, f.Variable):
+                if isinstance(declared, f.Variable) and name not in vars(component):
                     setattr(component, name, _create(component, name, declared, arrays))
     return arrays
 

@@ -2,7 +2,7 @@
 
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.connection import branch, chain, connect, is_root, potential_root, root, rooted
-from acausal.language.expression import Condition, Equation, Expr
+from acausal.language.expression import Condition, Equation, Expr, as_expr
 from acausal.language.fields import (
     ALWAYS,
     AVOID,
@@ -14,6 +14,7 @@ from acausal.language.fields import (
     flow,
     guess,
     input,
+    observed,
     outer,
     output,
     parameter,
@@ -61,6 +62,7 @@ __all__ = [
     "Scalar",
     "Vector3",
     "acos",
+    "as_expr",
     "asin",
     "atan2",
     "branch",
@@ -79,6 +81,7 @@ __all__ = [
     "input",
     "is_root",
     "log",
+    "observed",
     "outer",
     "output",
     "parameter",

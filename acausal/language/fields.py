@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from acausal.language.expression import Condition
+from acausal.language.expression import Condition, Expr, as_expr
 
 NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "no default", "__bool__": lambda self: False})()
@@ -170,6 +170,20 @@ class Outer(Field):
     cls: type = object
 
 
+@dataclass(eq=False)
+class Observed(Field):
+    """A quantity computed from results when somebody asks for it; no variable and no equation."""
+
+    compute: Any = None
+
+    def __get__(self, owner: Any, cls: type | None = None) -> Any:
+        """Compute the expression in a built component."""
+        if owner is None or not owner._is_bound:
+            return super().__get__(owner, cls)
+        value = as_expr(self.compute(owner))
+        return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name)
+
+
 def structural(
     description: str,
     *,
@@ -301,6 +315,11 @@ def part(make: Callable[[Any], Any]) -> Any:
 def parts(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a list of parts from structural values."""
     return Part(make.__doc__ or "", make=make, many=True)
+
+
+def observed(compute: Callable[[Any], Any]) -> Any:
+    """Decorate a method that returns an expression: readable in results like a variable, at no cost before."""
+    return Observed(compute.__doc__ or "", compute=compute)
 
 
 def outer(cls: type) -> Any:

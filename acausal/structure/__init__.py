@@ -1,6 +1,7 @@
 """Structural analysis of equations: singularity, index reduction, states, block triangular form, tearing."""
 
 from acausal.structure.analyse import analyse
+from acausal.structure.conditions import Completion, complete
 from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
 from acausal.structure.plan import Block, Plan
 from acausal.structure.singularity import Part, StructuralSingularity
@@ -8,12 +9,14 @@ from acausal.structure.system import System
 
 __all__ = [
     "Block",
+    "Completion",
     "DulmageMendelsohn",
     "Part",
     "Plan",
     "StructuralSingularity",
     "System",
     "analyse",
+    "complete",
     "components",
     "decompose",
 ]

@@ -1,0 +1,70 @@
+"""What compiling did, as data and as text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal.compiler.compiled_model import CompiledModel
+
+SHOWN = 12
+
+
+def report(compiled: CompiledModel) -> dict[str, Any]:
+    """Return sizes at each stage, states, blocks, what was removed, and seconds of each stage."""
+    reduced = compiled.reduced
+    flat, plan = reduced.flat, reduced.plan
+    sizes = [len(block.variables) for block in plan.blocks]
+    return {
+        "model": type(compiled.tree).__name__,
+        **flat.counts,
+        "equations_reduced": compiled.nx + compiled.nz,
+        "differentiated": len(plan.differentiated),
+        "states": list(compiled.states),
+        "preferences": [int(plan.system.preference[k]) for k in plan.states],
+        "algebraic": list(compiled.algebraic),
+        "assigned": len(plan.assigned),
+        "observed": len(plan.observed),
+        "blocks": len(sizes),
+        "largest_block": max(sizes, default=0),
+        "jacobian_nonzeros": int(compiled.local.function.nnz_out(1)),
+        "operations": int(compiled.local.function.n_instructions()),
+        "structural_zeros": list(flat.structural_zeros),
+        "redundant_constraints": [str(o) for o in flat.redundant if o.kind.startswith("connection of")],
+        "break_switches": len(flat.switches),
+        "seconds": dict(compiled.seconds),
+    }
+
+
+def summary(compiled: CompiledModel) -> str:
+    """Return the report as text for people."""
+    r = report(compiled)
+    lines = [
+        f"{r['model']}",
+        f"  flattened     {r['equations_flat']:6d} equations, {r['unknowns_flat']} unknowns",
+        f"  simplified    {r['equations_simplified']:6d} equations, {r['unknowns_simplified']} unknowns: removed "
+        f"{r['constants']} constants and {r['aliases']} aliases, {r['redundant']} equations said nothing new",
+        f"  reduced       {r['differentiated']:6d} equations differentiated, {r['assigned']} solved explicitly, "
+        f"{r['observed']} only observed",
+        f"  integrated    {r['equations_reduced']:6d} equations: {len(r['states'])} states, "
+        f"{len(r['algebraic'])} algebraic unknowns; {r['blocks']} blocks, the largest of {r['largest_block']}",
+        f"  states        {_list(r['states'])}{_why(r['preferences'])}",
+        f"  algebraic     {_list(r['algebraic'])}",
+        f"  exact zeros   {_list(r['structural_zeros'])}",
+    ]
+    if r["redundant_constraints"]:
+        lines.append(f"  redundant     {_list(r['redundant_constraints'])}")
+    seconds = r["seconds"]
+    lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
+    return "\n".join(lines)
+
+
+def _list(names: list[str]) -> str:
+    if not names:
+        return "none"
+    text = ", ".join(names[:SHOWN])
+    return text + (f", ... ({len(names)} in all)" if len(names) > SHOWN else "")
+
+
+def _why(preferences: list[int]) -> str:
+    preferred = sum(p > 0 for p in preferences)
+    return f" ({preferred} of them preferred by their components)" if preferred else ""

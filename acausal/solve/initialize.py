@@ -1,0 +1,233 @@
+"""Consistent initial values: a damped Newton iteration on the initial system, in the user's words where it fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.sparse.linalg import splu
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.structure import complete
+
+ITERATIONS = 60
+CONSISTENT = 1e-7
+
+
+@dataclass(frozen=True)
+class InitialSystem:
+    """Which conditions complete the equations at the start.
+
+    Parameters
+    ----------
+    rows : array of int
+        Rows of (alg, conditions) that are solved, as many as unknowns.
+    surplus : array of int
+        Rows that must then hold by themselves.
+    guessed : array of int
+        States that take their guesses.
+    """
+
+    rows: np.ndarray
+    surplus: np.ndarray
+    guessed: np.ndarray
+
+
+def initialize(
+    compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find states and algebraic unknowns that satisfy the equations and the initial conditions.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    p, time, modes : array, float, array
+        Parameters, start time and modes of the switches at the start.
+    initial : "fixed" or "guesses"
+        What to do with states that no condition determines: refuse, or take their guesses.
+
+    Returns
+    -------
+    x, z : arrays
+        States and algebraic unknowns.
+
+    Raises
+    ------
+    InitializationError
+        If conditions are missing or contradict each other, or no solution is found.
+    """
+    if initial not in ("fixed", "guesses"):
+        raise InitializationError(f'initial is {initial!r}; it must be "fixed" or "guesses".')
+    system = _system(compiled, p, time, modes, initial)
+    y = compiled.start(p, time)[0].copy()
+    nx = compiled.nx
+    y = _solve(compiled, system, y, p, time, modes)
+    # The conditions of the initial system hold no longer; the states stay, the rest follows.
+    if not _flag_matters(compiled):
+        return y[:nx], y[nx:]
+    return y[:nx], algebraic(compiled, y, p, time, modes)[nx:]
+
+
+def algebraic(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
+    """Solve for the algebraic unknowns in y = (x, z), with the states as they are."""
+    nx = compiled.nx
+    system = InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(nx))
+    return _newton(compiled, system, y, p, time, modes, 0.0)
+
+
+def _flag_matters(compiled: CompiledModel) -> bool:
+    if "flag" not in compiled.cache:
+        import casadi as ca
+
+        from acausal.language.functions import initial
+
+        column = ca.vertcat(compiled.reduced.ode, compiled.reduced.alg)
+        compiled.cache["flag"] = any(ca.which_depends(column, initial.sx, 1, True))
+    return compiled.cache["flag"]
+
+
+def _system(
+    compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str
+) -> InitialSystem:
+    """Choose conditions, from the pattern of the equations alone."""
+    key = ("initial system", initial)
+    if key in compiled.cache:
+        return compiled.cache[key]
+    nx, nz = compiled.nx, compiled.nz
+    pattern = compiled.local.function.sparsity_out(1)
+    rows: list[list[int]] = [[] for _ in range(pattern.size1())]
+    for i, j in zip(*pattern.get_triplet(), strict=True):
+        rows[i].append(j)
+    equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
+    states = list(range(nx))
+    if initial == "guesses":
+        flat, plan = compiled.reduced.flat, compiled.reduced.plan
+        states.sort(key=lambda k: not flat.guessed[plan.states[k]] if plan.states[k] < len(flat.guessed) else True)
+        conditions = conditions + [[k] for k in states]
+    done = complete(equations, conditions, nx + nz)
+    given = len(rows) - nx - nz
+    if done.free:
+        raise InitializationError(_missing(compiled, done.free))
+    used = [nz + k for k in done.used if k < given]
+    guessed = [states[k - given] for k in done.used if k >= given]
+    surplus = [nz + k for k in done.surplus if k < given]
+    system = InitialSystem(np.array([*range(nz), *used], int), np.array(surplus, int), np.array(sorted(guessed), int))
+    compiled.cache[key] = system
+    return system
+
+
+def _solve(
+    compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> np.ndarray:
+    y = _newton(compiled, system, y, p, time, modes, 1.0)
+    if system.surplus.size:
+        value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]
+        wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(y), initial=0))]
+        if wrong:
+            raise InitializationError(_contradiction(compiled, value, wrong))
+    return y
+
+
+def _newton(
+    compiled: CompiledModel,
+    system: InitialSystem,
+    y: np.ndarray,
+    p: np.ndarray,
+    time: float,
+    modes: np.ndarray,
+    flag: float,
+) -> np.ndarray:
+    """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
+    nx, rows = compiled.nx, system.rows + compiled.nx
+    free = np.setdiff1d(np.arange(len(y)), system.guessed)
+    if not free.size:
+        return y
+    scale = compiled.nominal[free]
+
+    def residual(at: np.ndarray) -> tuple[np.ndarray, sparse.csc_matrix]:
+        local = compiled.at(at[:nx], at[nx:], p, time, modes, flag)
+        return local.value[rows], local.jacobian[rows][:, free]
+
+    value, J = residual(y)
+    for _ in range(ITERATIONS):
+        solve = _factor(compiled, J, system, value)
+        step = -solve(value)
+        damping = 1.0
+        while True:
+            trial = y.copy()
+            trial[free] += damping * step
+            value, J_trial = residual(trial)
+            if np.all(np.isfinite(value)):
+                simplified = solve(value)
+                if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
+                    break
+            damping /= 2
+            if damping < 1e-6:
+                raise InitializationError(_lost(compiled, residual(y)[0], system, time))
+        y, J = trial, J_trial
+        if np.all(np.abs(simplified) <= 1e-11 * (scale + np.abs(y[free]))):
+            return y
+    raise InitializationError(_lost(compiled, value, system, time))
+
+
+def _factor(compiled: CompiledModel, J: sparse.csc_matrix, system: InitialSystem, value: np.ndarray):
+    try:
+        return splu(J.tocsc()).solve
+    except RuntimeError:
+        pass
+    # Singular here: the step of least norm, if there is one, leads on.
+    dense = J.toarray()
+    return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]
+
+
+def _missing(compiled: CompiledModel, free: tuple[int, ...]) -> str:
+    nx = compiled.nx
+    names = [compiled.states[k] for k in free if k < nx] or list(compiled.states)
+    lines = [
+        f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
+        "too few start values are fixed (the model itself is complete).",
+        "Fix for instance:",
+    ]
+    lines += [f"  {_line(name)}" for name in names[:10]]
+    lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
+    return "\n".join(lines)
+
+
+def _line(name: str) -> str:
+    inner = name.removeprefix("der(").removesuffix(")")
+    owner, _, variable = inner.rpartition(".")
+    variable = variable.split("[")[0]
+    if variable == "Q":
+        return f"{name}: the orientation of {owner.rpartition('.')[0]}: angles_fixed=True"
+    return f"{name}: {owner or 'the model'}({variable}=fixed(...))"
+
+
+def _contradiction(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
+    flat, nz = compiled.reduced.flat, compiled.nz
+    lines = ["the initial conditions contradict the equations of the model or each other:"]
+    for k in wrong[:10]:
+        condition = flat.initial[k - nz]
+        lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    lines.append("Remove one of them, or make it a guess: guess(...) instead of fixed(...).")
+    return "\n".join(lines)
+
+
+def _lost(compiled: CompiledModel, value: np.ndarray, system: InitialSystem, time: float) -> str:
+    flat, plan, nz = compiled.reduced.flat, compiled.reduced.plan, compiled.nz
+    order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
+    lines = [f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"]
+    for k in order[:5]:
+        row = system.rows[k]
+        if row < nz:
+            equation = plan.residuals[row]
+            while equation >= len(flat.origins):
+                equation = plan.differentiated[equation - len(flat.origins)]
+            lines.append(f"  {flat.origins[equation]}: off by {value[k]:.4g}")
+        else:
+            condition = flat.initial[row - nz]
+            lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
+    return "\n".join(lines)

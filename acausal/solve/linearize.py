@@ -1,0 +1,135 @@
+"""linearize(): the model as a linear system about its initial point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.compiler.call import Call
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.solve.initialize import initialize
+from acausal.solve.order import state_matrix
+
+
+@dataclass(frozen=True)
+class Linearization:
+    """dx = A x + B u, y = C x + D u: deviations of states, inputs and outputs from the point of linearisation.
+
+    Parameters
+    ----------
+    A, B, C, D : arrays, shapes (n, n), (n, m), (r, n), (r, m)
+        The system matrices.
+    states, inputs, outputs : tuples of str
+        Names of rows and columns.
+    """
+
+    A: np.ndarray
+    B: np.ndarray
+    C: np.ndarray
+    D: np.ndarray
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+    @property
+    def eigenvalues(self) -> np.ndarray:
+        """Eigenvalues of A in 1/s, by size, then by imaginary part."""
+        values = np.linalg.eigvals(self.A)
+        return values[np.lexsort((values.imag, np.round(np.abs(values), 9)))]
+
+    @property
+    def _oscillations(self) -> np.ndarray:
+        values = self.eigenvalues
+        size = np.abs(values).max(initial=0.0)
+        pairs = values[(values.imag > 0) & (values.imag > 1e-9 * size)]
+        return pairs[np.argsort(pairs.imag)]
+
+    @property
+    def frequencies_hz(self) -> np.ndarray:
+        """|Im lambda| / 2 pi, one for each conjugate pair, ascending, zeros left out."""
+        return self._oscillations.imag / (2 * np.pi)
+
+    @property
+    def damping_ratios(self) -> np.ndarray:
+        """-Re lambda / |lambda| of the same pairs."""
+        return -self._oscillations.real / np.abs(self._oscillations)
+
+    @property
+    def mode_shapes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Eigenvalues (n,) and eigenvectors (n, n), one mode a column, in the order of `states`."""
+        return np.linalg.eig(self.A)
+
+
+def linearize(
+    model: Component | CompiledModel,
+    *,
+    parameters: Mapping[str, Any] | None = None,
+    initial: str = "fixed",
+    time: float = 0.0,
+) -> Linearization:
+    """Linearise a model about its consistent initial point.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    parameters : mapping of str to value, optional
+        Values by path.
+    initial : "fixed" or "guesses"
+        See `simulate`.
+    time : float
+        Start time in s.
+
+    Returns
+    -------
+    Linearization
+    """
+    if isinstance(model, CompiledModel):
+        compiled, p = model, model.parameter_values(parameters)
+    else:
+        compiled = compile(model, parameters)
+        p = compiled.parameter_values(None)
+    modes = compiled.modes_at(p, time)[0].copy()
+    x, z = initialize(compiled, p, time, modes, initial)
+    inputs = _inputs(compiled)
+    outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
+    u = ca.vertcat(*[sx for _, sx in inputs])
+    r = compiled.reduced
+    column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
+    J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
+    values = Call(ca.Function("linear", compiled.arguments, [ca.densify(J)]))(x, z, p, time, modes, 0.0)[0]
+    M = values.reshape(J.shape[::-1]).T
+    nx, nz = compiled.nx, compiled.nz
+    A = state_matrix(M[: nx + nz, : nx + nz], nx)
+    gz, gu = M[nx : nx + nz, nx : nx + nz], M[nx : nx + nz, nx + nz :]
+    gx = M[nx : nx + nz, :nx]
+    zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))
+    h = M[nx + nz :]
+    names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
+    return Linearization(
+        A=A,
+        B=M[:nx, nx + nz :] + M[:nx, nx : nx + nz] @ zu,
+        C=h[:, :nx] + h[:, nx : nx + nz] @ zx,
+        D=h[:, nx + nz :] + h[:, nx : nx + nz] @ zu,
+        states=compiled.states,
+        inputs=tuple(name for name, _ in inputs),
+        outputs=tuple(names),
+    )
+
+
+def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
+    """Free parameters that stand for the inputs at the top of the model."""
+    flat = compiled.reduced.flat
+    tops = {n for n, d in compiled.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
+    symbols = flat.parameters.elements() if flat.parameters.numel() else []
+    return [(n, s) for n, s in zip(flat.parameter_names, symbols, strict=True) if n.split("[")[0] in tops]
+
+
+def _entries(name: str, sx: ca.SX) -> list[str]:
+    return [name] if sx.numel() == 1 else [f"{name}[{k}]" for k in range(sx.numel())]

@@ -1,0 +1,76 @@
+"""Order limit of the multistep method: fast, lightly damped oscillations make high orders unstable.
+
+BDF of order k is stable outside of a wedge around the negative real axis of half angle 90, 90, 86.03, 73.35, 51.84
+degrees for k = 1...5 (Hairer & Wanner II, V.2.7). Oscillations that the steps resolve do no harm; those much faster than
+the motion must lie inside of the wedge.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import identity
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigs, splu
+
+from acausal.compiler import CompiledModel
+
+FAST = 30.0
+DENSE = 60
+WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
+
+
+def eigenvalues_of(
+    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> np.ndarray:
+    """Return eigenvalues of the linearised system: all of a small one, the fastest and the slowest of a large one."""
+    nx, nz = compiled.nx, compiled.nz
+    J = compiled.at(x, z, p, t, modes, 0.0).jacobian[: nx + nz]
+    if nx <= DENSE:
+        return np.linalg.eigvals(state_matrix(J, nx))
+    J = J.tocsc()
+    inner = splu(J[nx:, nx:].tocsc()).solve if nz else None
+    to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]
+
+    def rate(v: np.ndarray) -> np.ndarray:
+        return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
+
+    start = np.cos(np.arange(nx))
+    settings = {"which": "LM", "v0": start, "tol": 1e-2, "return_eigenvectors": False, "ncv": min(nx - 1, 20)}
+    try:
+        fast = eigs(LinearOperator((nx, nx), rate), k=4, **settings)  # type: ignore[arg-type]
+        shift = 1e-3 * abs(fast[0]) / nx
+        diagonal = identity(nx + nz, format="csc").multiply(np.r_[np.ones(nx), np.zeros(nz)][:, None])
+        outer = splu((J - shift * diagonal).tocsc()).solve
+
+        def inverse(v: np.ndarray) -> np.ndarray:
+            return outer(np.r_[v, np.zeros(nz)])[:nx]
+
+        slow = shift + 1 / eigs(LinearOperator((nx, nx), inverse), k=4, **settings)  # type: ignore[arg-type]
+    except (ArpackError, RuntimeError):
+        return np.zeros(0)
+    return np.concatenate([slow, fast])
+
+
+def state_matrix(J: np.ndarray, nx: int) -> np.ndarray:
+    """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
+    J = J.toarray() if hasattr(J, "toarray") else np.asarray(J)
+    f, g = J[:nx], J[nx:]
+    return f[:, :nx] - f[:, nx:] @ np.linalg.solve(g[:, nx:], g[:, :nx]) if len(g) else f[:, :nx]
+
+
+def order_limit(values: np.ndarray, duration: float) -> int:
+    """Choose the highest order that keeps every fast oscillation stable.
+
+    Parameters
+    ----------
+    values : array of complex
+        Eigenvalues in 1/s.
+    duration : float
+        Length of the run in s.
+    """
+    size = np.abs(values)
+    moving = size[size > 0.1 / duration]
+    if not moving.size:
+        return 5
+    fast = values[(size > FAST * moving.min()) & (values.imag != 0) & (size * duration > FAST)]
+    angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
+    return next((order for order, wedge in WEDGE.items() if angle < wedge), 2)

@@ -1,0 +1,231 @@
+"""simulate(): from a model to a Result."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Mapping
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.compiler.call import Call
+from acausal.errors import DeclarationError, SimulationError
+from acausal.language.component import Component
+from acausal.language.functions import initial as initial_flag
+from acausal.language.functions import time as time_symbol
+from acausal.result import Result
+from acausal.solve.initialize import algebraic, initialize
+from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
+from acausal.solve.order import eigenvalues_of, order_limit
+
+METHODS = ("idas",)
+
+
+def simulate(
+    model: Component | CompiledModel,
+    *,
+    stop_time: float,
+    start_time: float = 0.0,
+    tolerance: float = 1e-6,
+    intervals: int = 400,
+    parameters: Mapping[str, Any] | None = None,
+    initial: str = "fixed",
+    method: str = "idas",
+    max_order: int | None = None,
+    energy: bool = False,
+    progress: Progress | None = None,
+) -> Result:
+    """Simulate a model.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        A model is compiled first, with the given parameters; a compiled one only takes new values.
+    stop_time, start_time : float
+        In s.
+    tolerance : float
+        Relative tolerance of a step; absolute tolerance = tolerance * nominal value. The error of a result is typically
+        100 to 1000 times larger where bodies oscillate.
+    intervals : int
+        The result has intervals + 1 equidistant points.
+    parameters : mapping of str to value, optional
+        Values by path, such as {"beam.E": 7e10}.
+    initial : "fixed" or "guesses"
+        Whether states without a condition at the start are refused or take their guesses.
+    method : "idas"
+        Integrator.
+    max_order : int, optional
+        Limit of the order of the multistep method, 1 to 5; chosen from the problem where it is not given.
+    energy : bool
+        Integrate the supplied and the dissipated power as well.
+    progress : callable, optional
+        Called now and then in long runs with the fraction that is done and the number of steps.
+
+    Returns
+    -------
+    Result
+        Read any variable by its path.
+
+    Raises
+    ------
+    InitializationError
+        If no consistent initial values exist or are found.
+    SimulationError
+        If the integration fails; its `result` holds what was computed.
+    """
+    _check(start_time, stop_time, tolerance, intervals, method, max_order)
+    if isinstance(model, CompiledModel):
+        compiled, p = model, model.parameter_values(parameters)
+    else:
+        compiled = compile(model, parameters)
+        p = compiled.parameter_values(None)
+    built = compiled.seconds.get("integrators", 0.0)
+    started = clock.perf_counter()
+    times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, intervals + 1)
+    times[-1] = stop_time
+    breaks = _breaks(compiled, p, start_time, stop_time)
+    modes = compiled.modes_at(p, _middle(start_time, breaks, stop_time))[0].copy()
+    x, z = initialize(compiled, p, start_time, modes, initial)
+    if max_order is None:
+        max_order = order_limit(eigenvalues_of(compiled, x, z, p, start_time, modes), stop_time - start_time)
+    run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress), (start_time, stop_time))
+    failure = None
+    try:
+        _integrate(run, p, times, breaks, x, z, modes)
+    except Failure as caught:
+        failure = caught
+    waited = compiled.seconds.get("integrators", 0.0) - built
+    stats = _stats(compiled, run.trace, tolerance, max_order, breaks)
+    stats["solve_seconds"] = clock.perf_counter() - started - waited
+    result = _result(compiled, run.trace, p, (start_time, x, z, modes), times, stats, energy)
+    if failure is not None:
+        raise SimulationError(_failure_text(compiled, run, p, failure), result)
+    return result
+
+
+def _check(start: float, stop: float, tolerance: float, intervals: int, method: str, order: int | None) -> None:
+    if not np.isfinite(start) or not np.isfinite(stop) or stop <= start:
+        raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
+    if not 0 < tolerance < 1:
+        raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
+    if not isinstance(intervals, int) or intervals < 1:
+        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
+    if method not in METHODS:
+        raise DeclarationError(f"method is {method!r}; it must be one of {', '.join(METHODS)}.")
+    if order is not None and order not in range(1, 6):
+        raise DeclarationError(f"max_order is {order!r}; it must be a whole number from 1 to 5.")
+
+
+def _breaks(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> list[float]:
+    inside = compiled.breaks(p)[0]
+    return sorted({float(b) for b in inside if start < b < stop})
+
+
+def _middle(start: float, breaks: list[float], stop: float) -> float:
+    return (start + (breaks[0] if breaks else stop)) / 2
+
+
+def _integrate(
+    run: Integrator, p: np.ndarray, times: np.ndarray, breaks: list[float], x: np.ndarray, z: np.ndarray, modes: np.ndarray
+) -> None:
+    """Go from break to break; the law of each segment holds up to its end."""
+    ends = [*breaks, times[-1]]
+    begin = times[0]
+    for k, end in enumerate(ends):
+        if k:
+            modes = run.compiled.modes_at(p, (begin + end) / 2)[0].copy()
+            z = algebraic(run.compiled, np.concatenate([x, z]), p, begin, modes)[len(x) :]
+        inner = times[(times > begin) & (times < end)]
+        x, z = run.segment(np.concatenate([[begin], inner, [end]]), x, z, modes)
+        begin = end
+
+
+def _stats(
+    compiled: CompiledModel, trace: Trace, tolerance: float, max_order: int, breaks: list[float]
+) -> dict[str, Any]:
+    report = compiled.report
+    return {
+        "equations_flat": report["equations_flat"],
+        "equations_reduced": report["equations_reduced"],
+        "states": compiled.nx,
+        "algebraic": compiled.nz,
+        "compile_seconds": sum(compiled.seconds.values()),
+        "steps": trace.steps,
+        "factorisations": trace.factorisations,
+        "residual_evaluations": trace.residual_evaluations,
+        "calls": trace.calls,
+        "max_order": max_order,
+        "tolerance": tolerance,
+        "method": "idas",
+        "break_times": breaks,
+    }
+
+
+def _result(
+    compiled: CompiledModel,
+    trace: Trace,
+    p: np.ndarray,
+    first: tuple[float, np.ndarray, np.ndarray, np.ndarray],
+    times: np.ndarray,
+    stats: dict[str, Any],
+    energy: bool,
+) -> Result:
+    t0, x0, z0, modes0 = first
+    t = np.concatenate([[t0], *trace.times])
+    x = np.vstack([x0[None], *trace.x])
+    z = np.vstack([z0[None], *trace.z])
+    modes = np.vstack([modes0[None], *trace.modes])
+    rows = np.searchsorted(t, times[times <= t[-1]])
+    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], p)
+    if energy:
+        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], p)
+        held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
+        supplied, dissipated = trace.energy[-1][-1] if trace.energy else (0.0, 0.0)
+        change = held[1] - held[0]
+        stats |= {
+            "energy_supplied": float(supplied),
+            "energy_stored_change": float(change),
+            "energy_dissipated": float(dissipated),
+            "energy_method": float(supplied - change - dissipated),
+        }
+    return Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
+
+
+class Evaluator:
+    """Values of expressions of the model along a run."""
+
+    def __init__(
+        self, compiled: CompiledModel, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, p: np.ndarray
+    ) -> None:
+        self.compiled = compiled
+        self.columns = [x.T, z.T, p, t[None], modes.T]
+
+    def __call__(self, expression: ca.SX) -> np.ndarray:
+        """Return one row for each time, one column for each entry of a column of expressions."""
+        c = self.compiled
+        resolved = c.reduced.resolve(ca.substitute(ca.densify(expression), initial_flag.sx, 0))
+        arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
+        n = self.columns[3].shape[1]
+        function = ca.Function("observe", arguments, [resolved]).map(n)
+        x, z, p, t, modes = self.columns
+        call = Call(function)
+        values = [x.flatten("F"), z.flatten("F"), np.tile(p, n), t[0], modes.flatten("F")]
+        return call(*values)[0].reshape(n, -1).copy()
+
+
+def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failure: Failure) -> str:
+    trace, flat = run.trace, compiled.reduced.flat
+    lines = [f"the integration stopped after t = {failure.time:.6g} s ({trace.steps} steps)."]
+    if trace.x:
+        x, z, modes = trace.x[-1][-1], trace.z[-1][-1], trace.modes[-1][-1]
+        rates = compiled.at(x, z, p, failure.time, modes, 0.0).value[: compiled.nx] / compiled.nominal[: compiled.nx]
+        fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
+        lines.append("The fastest changes there: " + ", ".join(f"der({compiled.states[k]})" for k in fastest) + ".")
+    del flat
+    lines.append(
+        "A motion that grows without bound, a force that becomes infinite or a jump that no break time declares "
+        "stops an integrator; look at the results until then, which are kept."
+    )
+    return "\n".join(lines)
