@@ -62,13 +62,13 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     variables = ca.vertcat(*[ca.vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(variables.elements())}
     declared = _declared(raw)
-    chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in _integrated(raw, declared)})
+    integrated = _integrated(raw, declared)
+    chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
     def resolved(expressions: list[ca.SX]) -> list[ca.SX]:
         return ca.substitute(expressions, [placeholders], [derivatives])
 
-    integrated = sorted(_integrated(raw, declared))
     for k in integrated:
         raw.equations.residuals.append(chain.levels[1][k] - declared[k])
         raw.equations.origins.append(Origin(variables[k].name(), "root", "declared derivative"))
@@ -116,14 +116,16 @@ def _declared(raw: _Raw) -> dict[int, ca.SX]:
     }
 
 
-def _integrated(raw: _Raw, declared: dict[int, ca.SX]) -> set[int]:
+def _integrated(raw: _Raw, declared: dict[int, ca.SX]) -> list[int]:
     """Declared variables of chosen roots that no root equation defines."""
+    if not raw.graph.roots:
+        return []
     found: set[int] = set()
     defined = {k for lhs, _ in raw.equations.sides for k in _bare(raw, lhs)}
     for connector in raw.graph.roots:
         for variable, _ in connector.declared_derivatives():
             found.update(raw.index[s.element_hash()] for s in ca.vec(variable.sx).elements())
-    return {k for k in found if k in declared and k not in defined}
+    return sorted(k for k in found if k in declared and k not in defined)
 
 
 def _bare(raw: _Raw, side: ca.SX) -> list[int]:

@@ -203,7 +203,7 @@ class Instantiation:
             setattr(component, name, found[0])
 
 
-_ORDER = {f.Structural: 0, f.Parameter: 1, f.Outer: 2, f.Part: 3, f.Variable: 4}
+_ORDER = {f.Structural: 0, f.Parameter: 1, f.Outer: 2, f.Part: 3, f.Variable: 4, f.Observed: 5}
 
 
 def walk(component: Component) -> Iterator[Component]:

@@ -1,0 +1,90 @@
+"""Integrals of the Euler-Bernoulli beam element, derived exactly.
+
+Linear shape functions along the beam, Hermite cubics across it (Schiavo, Vigano, Ferretti 2006, equation 6). Everything
+is for nodal coordinates in metres, U = (u, v, l theta) at each node, with l the length of an element: then the shape
+functions hold numbers only, and mass l rho A and stiffnesses E A / l and E J / l^3 are factors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import sympy as sp
+
+xi = sp.Symbol("xi")
+ALONG = (1 - xi, 0, 0, xi, 0, 0)
+ACROSS = (0, 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, 0, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2)
+
+
+@dataclass(frozen=True)
+class BeamMatrices:
+    """Assembled integrals over the mass of N elements, per mass of an element; x is measured in element lengths.
+
+    Parameters
+    ----------
+    s1, s2 : arrays, shape (n,)
+        Integrals of S1 and S2, the rows of the shape functions along and across; n = 3 (N + 1).
+    x1, x2 : arrays, shape (n,)
+        Integrals of x S1 and x S2.
+    M11, M12, M22 : arrays, shape (n, n)
+        Integrals of S1' S1, S1' S2, S2' S2.
+    K_axial, K_bending : arrays, shape (n, n)
+        Integrals of S1'' S1' and S2'''' S2'' (first and second derivatives), factors EA/l and EJ/l^3.
+    """
+
+    s1: np.ndarray
+    s2: np.ndarray
+    x1: np.ndarray
+    x2: np.ndarray
+    M11: np.ndarray
+    M12: np.ndarray
+    M22: np.ndarray
+    K_axial: np.ndarray
+    K_bending: np.ndarray
+
+
+def _integral(polynomial: sp.Expr) -> float:
+    return float(sum(c / (k + 1) for (k,), c in sp.Poly(polynomial, xi).terms()))
+
+
+def _vector(row: tuple, weight: sp.Expr) -> np.ndarray:
+    return np.array([_integral(sp.sympify(s) * weight) for s in row])
+
+
+def _matrix(left: tuple, right: tuple, order: int = 0) -> np.ndarray:
+    a, b = ([sp.diff(sp.sympify(s), xi, order) if order else sp.sympify(s) for s in row] for row in (left, right))
+    return np.array([[_integral(p * q) for q in b] for p in a])
+
+
+@cache
+def element_matrices() -> BeamMatrices:
+    """Return the integrals of one element."""
+    return BeamMatrices(
+        s1=_vector(ALONG, sp.Integer(1)),
+        s2=_vector(ACROSS, sp.Integer(1)),
+        x1=_vector(ALONG, xi),
+        x2=_vector(ACROSS, xi),
+        M11=_matrix(ALONG, ALONG),
+        M12=_matrix(ALONG, ACROSS),
+        M22=_matrix(ACROSS, ACROSS),
+        K_axial=_matrix(ALONG, ALONG, 1),
+        K_bending=_matrix(ACROSS, ACROSS, 2),
+    )
+
+
+@cache
+def beam_matrices(elements: int) -> BeamMatrices:
+    """Assemble the integrals of a beam (equation 11): element j lies between nodes j and j + 1, its root at x = j."""
+    one, n = element_matrices(), 3 * (elements + 1)
+    vectors = {name: np.zeros(n) for name in ("s1", "s2", "x1", "x2")}
+    matrices = {name: np.zeros((n, n)) for name in ("M11", "M12", "M22", "K_axial", "K_bending")}
+    for j in range(elements):
+        dofs = slice(3 * j, 3 * j + 6)
+        for name, total in vectors.items():
+            shifted = j * getattr(one, "s" + name[1]) if name[0] == "x" else 0
+            total[dofs] += getattr(one, name) + shifted
+        for name, total in matrices.items():
+            total[dofs, dofs] += getattr(one, name)
+    return BeamMatrices(**vectors, **matrices)

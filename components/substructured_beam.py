@@ -1,0 +1,111 @@
+"""SubstructuredBeam: flexible beams connected in a chain, for large deflections."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import Scalar, as_expr, chain, connect, observed, parameter, parts, structural
+from components.flexible_beam import FlexibleBeam
+from components.frame import TwoFrames
+
+
+class SubstructuredBeam(TwoFrames):
+    """Beam of several volumes, each a FlexibleBeam in a frame of its own: geometrically non-linear.
+
+    Parameters
+    ----------
+    length, E, rho, A, J, J_y, torsional_inertia, reference, alpha, beta, initial
+        As of FlexibleBeam, for the whole beam.
+    volumes, elements_per_volume : int
+        Number of volumes, and of finite elements in each.
+
+    Notes
+    -----
+    Schiavo, Vigano, Ferretti 2006, section 3.4: the compatibility of the volumes is what connecting them means.
+    """
+
+    length: Scalar = parameter("length", unit="m", positive=True)
+    E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
+    rho: Scalar = parameter("density", unit="kg/m3", positive=True)
+    A: Scalar = parameter("area of the section", unit="m2", positive=True)
+    J: Scalar = parameter("second moment of area for bending in xy", unit="m4", positive=True)
+    J_y: Scalar = parameter("second moment of area about y", unit="m4", default=lambda s: s.J, minimum=0)
+    torsional_inertia: Scalar = parameter(
+        "moment of inertia about the beam's own axis",
+        unit="kg.m2",
+        default=lambda s: s.rho * (s.J + s.J_y) * s.length,
+        minimum=0,
+    )
+    volumes: int = structural("number of volumes", default=5, minimum=1)
+    elements_per_volume: int = structural("number of finite elements of a volume", default=1, minimum=1)
+    reference: str = structural("reference frame of a volume", default="tangent", choices=("tangent", "pinned"))
+    alpha: Scalar = parameter("damping in proportion to mass", unit="1/s", default=0, minimum=0)
+    beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
+    initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
+
+    @parts
+    def volume(self):
+        """The volumes, from frame_a to frame_b."""
+        return [
+            FlexibleBeam(
+                length=self.length / self.volumes,
+                E=self.E,
+                rho=self.rho,
+                A=self.A,
+                J=self.J,
+                J_y=self.J_y,
+                torsional_inertia=self.torsional_inertia / self.volumes,
+                elements=self.elements_per_volume,
+                reference=self.reference,
+                alpha=self.alpha,
+                beta=self.beta,
+                initial=self.initial,
+            )
+            for _ in range(self.volumes)
+        ]
+
+    def connections(self):
+        yield connect(self.frame_a, self.volume[0].frame_a)
+        if self.volumes > 1:
+            yield chain(*self.volume)
+        yield connect(self.volume[-1].frame_b, self.frame_b)
+
+    @observed
+    def node_r_0(self):
+        """Position of every node, shape (nodes, 3), resolved in the world, in m."""
+        return self._nodes("node_r_0")
+
+    @observed
+    def node_deflection(self):
+        """Displacement (u, v) and rotation of every node, shape (nodes, 3), resolved in frame_a."""
+        from acausal import atan2
+
+        a, nodes = self.frame_a, self._nodes("node_r_0")
+        n = nodes.shape[0]
+        local = (nodes - as_expr([[a.r_0[i] for i in range(3)]] * n)) @ a.R.T.T
+        along = [[k * self.length / (n - 1), 0.0] for k in range(n)]
+        turned = []
+        for k, volume in enumerate(self.volume):
+            T = volume.ref.R.T @ a.R.T.T
+            own = volume.node_deflection
+            start = 0 if k == 0 else 1
+            turned += [atan2(T[0, 1], T[0, 0]) + own[i, 2] for i in range(start, own.shape[0])]
+        return as_expr([[local[k, 0] - along[k][0], local[k, 1], turned[k]] for k in range(n)])
+
+    @observed
+    def node_force(self):
+        """Force on the part towards frame_a at every node, shape (nodes, 3), in the frame of the node's volume, in N."""
+        return self._nodes("node_force")
+
+    @observed
+    def node_moment(self):
+        """Moment on the part towards frame_a at every node, shape (nodes, 3), in the frame of its volume, in N.m."""
+        return self._nodes("node_moment")
+
+    def _nodes(self, name: str) -> Any:
+        """Rows of all volumes; a shared node counts for the volume that ends in it."""
+        rows = []
+        for k, volume in enumerate(self.volume):
+            own = getattr(volume, name)
+            rows += [[own[i, j] for j in range(3)] for i in range(0 if k == 0 else 1, own.shape[0])]
+        return as_expr(rows)
