@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from acausal import Component, Matrix33, Scalar, Vector3, cross, dot, is_root, outer, parameter, port, potential_root
@@ -34,8 +36,8 @@ class Body(Component):
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=(0, 0, 0))
     I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=np.zeros((3, 3)))
-    angles_start = structural("angles at the start", default=(0, 0, 0), shape=(3,))
-    sequence_start = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
+    angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     world: World = outer(World)
     frame_a: Frame = port(Frame, "coordinate system fixed to the body")

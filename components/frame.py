@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, Connector, Expr, Vector3, cross, der, flow, port, rooted, variable
+from acausal import Component, Connector, Vector3, as_expr, cross, der, flow, port, rooted, variable
 from components.orientation import (
     Orientation,
     from_quaternion,
     inverse_rotation,
-    quaternion_rate,
+    quaternion_equations,
     resolve1,
     resolve2,
     skew,
@@ -26,13 +26,13 @@ class Frame(Connector):
     """
 
     r_0: Vector3 = variable("position of the origin, resolved in the world", unit="m")
-    R = Orientation()
+    R: Any = Orientation()
     v: Vector3 = variable("velocity of the origin, resolved in this frame", unit="m/s")
     a: Vector3 = variable("acceleration of the origin, resolved in this frame", unit="m/s2")
     z: Vector3 = variable("angular acceleration, resolved in this frame", unit="rad/s2")
     f: Vector3 = flow("cut force, resolved in this frame", unit="N")
     t: Vector3 = flow("cut torque, resolved in this frame", unit="N.m")
-    Q = variable("quaternion of a free frame", shape=(4,), start=(0, 0, 0, 1), root=True)
+    Q: Any = variable("quaternion of a free frame", shape=(4,), start=(0, 0, 0, 1), root=True)
 
     def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
         """Motion of a rigid frame, resolved in its own axes."""
@@ -45,21 +45,12 @@ class Frame(Connector):
         """Equal position, and a relative rotation matrix whose off-diagonal entries vanish."""
         yield self.r_0 == other.r_0
         T_rel = other.R.T @ self.R.T.T
-        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == _zero(3)
+        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == as_expr(np.zeros(3))
 
     def root_equations(self) -> Iterator[Any]:
-        """Quaternion of a free frame; the feedback keeps its norm at 1 (Baumgarte, rate 1/s)."""
+        """Quaternion of a free frame."""
         yield self.R.T == from_quaternion(self.Q).T
-        e, s = quaternion_rate(self.Q, self.R.w)
-        defect = 1 - self.Q @ self.Q
-        yield der(self.Q[:3]) == e + defect * self.Q[:3]
-        yield der(self.Q[3]) == s + defect * self.Q[3]
-
-
-def _zero(n: int) -> Expr:
-    from acausal.language.expression import as_expr
-
-    return as_expr(np.zeros(n))
+        yield from quaternion_equations(self.Q, self.R.w)
 
 
 class TwoFrames(Component):

@@ -6,14 +6,13 @@ An orientation R of frame 2 relative to frame 1 holds `T`, which turns coordinat
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from acausal import Expr, cos, cross, der, sin
-from acausal import Record as _Record
-from acausal import Matrix33, Vector3, variable
+from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, sin, variable
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,7 @@ class RelativeOrientation:
     w: Any
 
 
-class Orientation(_Record):
+class Orientation(Record):
     """Orientation of a frame relative to the world."""
 
     T: Matrix33 = variable("rotation matrix from the world to this frame", start=np.eye(3))
@@ -39,8 +38,6 @@ def unit_vector(n: Any) -> np.ndarray:
 
 def skew(v: Any) -> Any:
     """Return the matrix S with S u = v x u."""
-    from acausal.language.expression import as_expr
-
     return as_expr([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
@@ -100,8 +97,6 @@ def from_quaternion(Q: Any) -> RelativeOrientation:
 
 def outer_product(a: Any, b: Any) -> Any:
     """Return the matrix a b'."""
-    from acausal.language.expression import as_expr
-
     return as_expr([[a[i] * b[j] for j in range(3)] for i in range(3)])
 
 
@@ -109,6 +104,14 @@ def quaternion_rate(Q: Any, w: Any) -> tuple[Expr, Expr]:
     """Vector and scalar part of der(Q) for an angular velocity w resolved in the turned frame."""
     e, s = Q[:3], Q[3]
     return 0.5 * (s * w + cross(e, w)), -0.5 * (e @ w)
+
+
+def quaternion_equations(Q: Any, w: Any) -> Iterator[Any]:
+    """Equations of a quaternion as state; the feedback keeps its norm at 1 (Baumgarte, rate 2/s)."""
+    e, s = quaternion_rate(Q, w)
+    defect = 1 - Q @ Q
+    yield der(Q[:3]) == e + defect * Q[:3]
+    yield der(Q[3]) == s + defect * Q[3]
 
 
 def quaternion_of(T: np.ndarray) -> np.ndarray:
@@ -122,7 +125,12 @@ def axes_rotations(sequence: Any, angles: Any) -> np.ndarray:
     """Rotation matrix of numbers, from three turns about the axes 1, 2 or 3 of `sequence` (the turned ones)."""
     T = np.eye(3)
     for axis, angle in zip(sequence, angles, strict=True):
-        n = np.eye(3)[int(axis) - 1]
-        outer = np.outer(n, n)
-        T = (outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)) @ T
+        T = axis_rotation(np.eye(3)[int(axis) - 1], angle) @ T
     return T
+
+
+def axis_rotation(n: Any, angle: float) -> np.ndarray:
+    """Rotation matrix of numbers, from a turn by `angle` in rad about n of length 1; rounding leaves true zeros."""
+    outer = np.outer(n, n)
+    T = outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)
+    return np.where(np.abs(T) < 1e-15, 0.0, T)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from acausal import PREFER, Scalar, branch, der, dot, port, structural, variable
 from components.flange import Flange
 from components.frame import TwoFrames, move
@@ -20,7 +22,7 @@ class Revolute(TwoFrames):
         True gives the joint a drive shaft `axis` and its housing `support`.
     """
 
-    n = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
+    n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
     use_axis_flange: bool = structural("whether the joint has a drive shaft", default=False, choices=(True, False))
     phi: Scalar = variable("angle from frame_a to frame_b", unit="rad", select=PREFER)
     w: Scalar = variable("der(phi)", unit="rad/s", select=PREFER)

@@ -29,7 +29,7 @@ class World(Component):
     ends = ("", "frame_b")
     gravity: Any = structural("kind of gravity", default="uniform", choices=("uniform", "point", None))
     g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665)
-    n = structural("direction of gravity, resolved in the world", default=(0, -1, 0), shape=(3,))
+    n: Any = structural("direction of gravity, resolved in the world", default=(0, -1, 0), shape=(3,))
     mu: Scalar = parameter("gravity constant of the central body", unit="m3/s2", default=3.986004418e14)
     frame_b: Frame = port(Frame, "the inertial frame")
 

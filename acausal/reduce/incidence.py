@@ -51,8 +51,11 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
     modes = ca.vertcat(*[mode for mode, _ in flat.switches])
     linear = jacobian(flat.residuals, flat.unknowns, ca.vertcat(time.sx, initial.sx, modes))
     explicit: list[set[int]] = [set() for _ in linear.rows]
-    for i, j in linear.explicit:
+    monic: list[set[int]] = [set() for _ in linear.rows]
+    for (i, j), coefficient in linear.explicit.items():
         explicit[i].add(j)
+        if coefficient.is_one() or coefficient.is_minus_one():
+            monic[i].add(j)
     declared: dict[int, tuple[int, ...]] = {}
     if flat.declared:
         column = ca.vertcat(*flat.declared.values())
@@ -69,5 +72,6 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
         declared={k: v for k, v in declared.items() if flat.derivative[k] < 0},
         defines=tuple(d if d >= 0 and d in declared and flat.derivative[d] < 0 else -1 for d in flat.defines),
         preference=flat.preference,
+        monic=tuple(frozenset(m) for m in monic),
     )
     return system, linear

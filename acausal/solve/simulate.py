@@ -156,6 +156,7 @@ def _stats(
         "factorisations": trace.factorisations,
         "residual_evaluations": trace.residual_evaluations,
         "calls": trace.calls,
+        "integration_seconds": trace.seconds,
         "max_order": max_order,
         "tolerance": tolerance,
         "method": "idas",

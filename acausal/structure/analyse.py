@@ -5,6 +5,7 @@ from __future__ import annotations
 from acausal.structure.blt import block_triangular
 from acausal.structure.check import check
 from acausal.structure.observed import split_observed
+from acausal.structure.ordering import order_unknowns
 from acausal.structure.pantelides import pantelides
 from acausal.structure.plan import Plan
 from acausal.structure.states import match_algebraic
@@ -26,20 +27,26 @@ def analyse(system: System) -> Plan:
     extended = extension.system()
     equation_of = match_algebraic(extended).equation_of
     states = tuple(v for v, equation in enumerate(equation_of) if equation < 0)
-    pairs = [(v, equation) for v, equation in enumerate(equation_of) if equation >= 0]
-    blocks = block_triangular(extended.rows, pairs)
+    blocks = block_triangular(extended.rows, [(v, e) for v, e in enumerate(equation_of) if e >= 0])
     needed, observed = split_observed(extended, states, blocks)
     torn = tear(extended, needed)
     assigned = block_triangular(extended.rows, torn)
     torn_variables, torn_equations = {v for v, _ in torn}, {e for _, e in torn}
+    pairs = [(block.variables[0], block.equations[0]) for block in assigned]
+    algebraic, residuals = order_unknowns(
+        extended,
+        [v for block in needed for v in block.variables if v not in torn_variables],
+        [e for block in needed for e in block.equations if e not in torn_equations],
+        pairs,
+    )
     return Plan(
         system=extended,
         differentiated=tuple(extension.differentiated),
         created=tuple(extension.created),
         states=states,
         blocks=blocks,
-        algebraic=tuple(v for block in needed for v in block.variables if v not in torn_variables),
-        residuals=tuple(e for block in needed for e in block.equations if e not in torn_equations),
-        assigned=tuple((block.variables[0], block.equations[0]) for block in assigned),
+        algebraic=algebraic,
+        residuals=residuals,
+        assigned=tuple(pairs),
         observed=tuple(observed),
     )

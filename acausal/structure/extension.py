@@ -11,6 +11,7 @@ class Extension:
     def __init__(self, system: System) -> None:
         self.rows = list(system.rows)
         self.explicit = list(system.explicit)
+        self.monic = list(system.monic)
         self.derivative = list(system.derivative)
         self.declared = system.declared
         self.defines = list(system.defines)
@@ -35,7 +36,9 @@ class Extension:
         # A rate that also occurs in a coefficient or in a declared expression need not be linear.
         hidden = set(row).difference(explicit).union(expressions)
         self.rows.append(tuple(dict.fromkeys((*row, *rates.values(), *expressions))))
-        self.explicit.append(frozenset(rates[v] for v in explicit if v in rates and rates[v] not in hidden))
+        solvable = {v: rate for v, rate in rates.items() if v in explicit and rate not in hidden}
+        self.explicit.append(frozenset(solvable.values()))
+        self.monic.append(frozenset(rate for v, rate in solvable.items() if v in self.monic[equation]))
         self.defines.append(-1)
         self.differentiated.append(equation)
         return len(self.rows) - 1
@@ -49,4 +52,5 @@ class Extension:
             self.declared,
             tuple(self.defines),
             tuple(self.preference),
+            tuple(self.monic),
         )

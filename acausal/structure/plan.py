@@ -32,9 +32,9 @@ class Plan:
     blocks : tuple of Block
         Block lower triangular form of all equations and all other variables, in order of solution.
     algebraic : tuple of int
-        Unknowns of the integrated system.
+        Unknowns of the integrated system, in an order that keeps the factors of its Jacobian sparse.
     residuals : tuple of int
-        Equations of the integrated system, as many as `algebraic`.
+        Equations of the integrated system; `residuals[k]` holds `algebraic[k]`.
     assigned : tuple of tuple of int
         (variable, equation) substituted into the integrated system, in order of evaluation.
     observed : tuple of tuple of int

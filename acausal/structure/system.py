@@ -24,6 +24,8 @@ class System:
         Declared variable that each equation defines, or -1.
     preference : tuple of int
         Preference of each variable to be a state: -2 never, -1 avoid, 0 default, 1 prefer, 2 always.
+    monic : tuple of frozenset of int, optional
+        Those of `explicit` whose coefficient is 1 or -1, so that solving for them divides by nothing; default: all.
 
     """
 
@@ -33,8 +35,11 @@ class System:
     declared: Mapping[int, tuple[int, ...]]
     defines: tuple[int, ...]
     preference: tuple[int, ...]
+    monic: tuple[frozenset[int], ...] = ()
 
     def __post_init__(self) -> None:
+        if not self.monic:
+            object.__setattr__(self, "monic", self.explicit)
         if not len(self.rows) == len(self.explicit) == len(self.defines):
             raise ValueError("rows, explicit and defines must have one entry an equation")
         if len(self.derivative) != len(self.preference):

@@ -1,0 +1,151 @@
+"""What the command prints: JSON documents, summaries and the progress of long runs."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import IO, Any
+
+import numpy as np
+
+from acausal.result import Result, check_picture, check_writable
+from acausal.result.files import whole
+
+FINAL_VALUES = 20
+Progress = Callable[[float, int], None] | None
+
+
+@dataclass(frozen=True)
+class Files:
+    """Where the result of a simulation goes.
+
+    Parameters
+    ----------
+    scene : str
+        Name of the scene, for the JSON document.
+    csv, plot, json : str or None
+        Names of files; `json` may be "-".
+    standard_output : text stream
+        For `json` "-".
+    """
+
+    scene: str
+    csv: str | None
+    plot: str | None
+    json: str | None
+    standard_output: IO[str]
+
+    def check(self) -> None:
+        """Refuse what cannot be written before any work is done."""
+        if self.csv:
+            check_writable(self.csv)
+        if self.plot:
+            check_picture(self.plot)
+
+    def write(self, result: Result, chosen: list[str], **more: Any) -> None:
+        """Write outputs and chosen variables; `more` goes into the JSON document."""
+        if self.csv:
+            result.to_csv(self.csv, *result.outputs, *chosen)
+        if self.plot:
+            result.plot(*chosen, path=self.plot)
+        if self.json:
+            write_json({"scene": self.scene, **result.stats, **more}, self.json, self.standard_output)
+
+
+def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:
+    """Write a document to a file, or to standard output if the path is "-"."""
+    text = json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    if path == "-":
+        standard_output.write(text)
+        standard_output.flush()
+        return
+    with whole(path) as file:
+        file.write(text)
+
+
+def plain(value: Any) -> Any:
+    """Turn a value into what JSON knows: complex numbers are pairs [re, im], numbers that are not finite are null."""
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple | set | frozenset):
+        return [plain(v) for v in value]
+    if isinstance(value, complex):
+        return [plain(value.real), plain(value.imag)]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value if value is None or isinstance(value, bool | int | str) else str(value)
+
+
+def summary(result: Result) -> str:
+    """Return what a run did and where it ended, a few lines for people."""
+    stats, time = result.stats, result.time
+    lines = [
+        f"{result.title}: {time[0]:g} s to {time[-1]:g} s, {time.size} points",
+        f"  compiled in {stats['compile_seconds']:.3g} s, solved in {stats['solve_seconds']:.3g} s",
+        f"  {stats['states']} states, {stats['algebraic']} algebraic unknowns; {stats['steps']} steps, "
+        f"{stats['factorisations']} factorisations, order at most {stats['max_order']}",
+    ]
+    series = result.series()
+    if not series:
+        return "\n".join([*lines, "  the model has no outputs; --variables PATTERN adds columns"])
+    width = max(len(s.name) for s in series[:FINAL_VALUES])
+    lines.append(f"  at {time[-1]:g} s:")
+    for s in series[:FINAL_VALUES]:
+        unit = "" if s.unit in ("", "1") else f" {s.unit}"
+        lines.append(f"    {s.name:{width}} = {s.values[-1]:.6g}{unit}")
+    if len(series) > FINAL_VALUES:
+        lines.append(f"    ... ({len(series)} in all)")
+    return "\n".join(lines)
+
+
+def modes_table(eigenvalues: np.ndarray) -> str:
+    """Return a table of modes, a line for each real eigenvalue and for each conjugate pair.
+
+    Parameters
+    ----------
+    eigenvalues : array of complex
+        In 1/s.
+    """
+    size = np.abs(eigenvalues).max(initial=0.0)
+    lines = [f"{'eigenvalue [1/s]':>32}  {'frequency [Hz]':>15}  {'damping ratio':>13}"]
+    for value in eigenvalues:
+        if abs(value.imag) <= 1e-9 * size:
+            lines.append(f"{value.real:>32.6g}")
+        elif value.imag > 0:
+            pair = f"{value.real:.6g} ± {value.imag:.6g}i"
+            lines.append(f"{pair:>32}  {value.imag / (2 * np.pi):>15.6g}  {-value.real / abs(value):>13.4g}")
+    return "\n".join(lines)
+
+
+@contextmanager
+def progress_bar(wanted: bool) -> Iterator[Progress]:
+    """Give a function that shows the progress of a long run on the terminal, or None where there is no terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    if not wanted or not console.is_terminal:
+        yield None
+        return
+    columns = (
+        BarColumn(),
+        TextColumn("{task.percentage:.0f} %"),
+        TimeRemainingColumn(),
+        TextColumn("{task.description}"),
+    )
+    bar = Progress(*columns, console=console, transient=True)
+    task = bar.add_task("", total=1.0)
+
+    def show(fraction: float, steps: int) -> None:
+        bar.start()  # a short run never calls and shows nothing
+        bar.update(task, completed=fraction, description=f"{steps} steps")
+
+    try:
+        yield show
+    finally:
+        bar.stop()

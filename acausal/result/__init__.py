@@ -1,0 +1,8 @@
+"""Results: every variable of a run by the name that the user gave, as arrays, tables and pictures."""
+
+from acausal.result.files import check_writable
+from acausal.result.lookup import match, names
+from acausal.result.plots import check_picture
+from acausal.result.result import Result
+
+__all__ = ["Result", "check_picture", "check_writable", "match", "names"]

@@ -1,0 +1,114 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import os
+import shutil
+import uuid
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from acausal.errors import ExportError
+
+
+def check_writable(path: str | Path) -> None:
+    """Find out before any work is done whether a file can be written.
+
+    Raises
+    ------
+    ExportError
+        With the reason why not.
+    """
+    target = _target(path)
+    if _is_device(target):
+        return
+    with _reasons(path):
+        temporary = _beside(target)
+        temporary.touch(exist_ok=False)
+        temporary.unlink()
+
+
+@contextmanager
+def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
+    """Open a file that appears under its name when the block ends well, and leaves the old one otherwise.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file.
+    mode : "w" or "wb"
+        Text in UTF-8, or bytes.
+
+    Raises
+    ------
+    ExportError
+        If it cannot be written.
+    """
+    target = _target(path)
+    text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
+    with _reasons(path):
+        if _is_device(target):
+            with open(target, mode, **text) as file:
+                yield file
+            return
+        temporary = _beside(target)
+        try:
+            with open(temporary, mode, **text) as file:
+                yield file
+            if target.exists():
+                shutil.copymode(target, temporary)
+            os.replace(temporary, target)
+        finally:
+            with suppress(OSError):
+                temporary.unlink()
+
+
+def write_csv(path: str | Path, columns: dict[str, np.ndarray]) -> None:
+    """Write a table, a column for each name; every number reads back as it was.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file.
+    columns : mapping of str to array, shape (times,)
+        The columns in order.
+    """
+    rows: Sequence[Any] = np.column_stack(list(columns.values())).tolist()
+    with whole(path) as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(rows)
+
+
+def _target(path: str | Path) -> Path:
+    """Return the file that is meant, links followed, or raise ExportError where there can be none."""
+    target = Path(path).expanduser().resolve()
+    if target.is_dir():
+        raise ExportError(f"cannot write {path}: it is a directory; add the name of a file.")
+    if not target.parent.is_dir():
+        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; make it first.")
+    if target.exists() and not os.access(target, os.W_OK):
+        raise ExportError(f"cannot write {path}: the file is write-protected.")
+    return target
+
+
+def _is_device(target: Path) -> bool:
+    # Replacing /dev/stdout or a pipe by a file would destroy it.
+    return target.exists() and not target.is_file()
+
+
+def _beside(target: Path) -> Path:
+    return target.with_name(f".{uuid.uuid4().hex}.part")
+
+
+@contextmanager
+def _reasons(path: str | Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise ExportError(f"cannot write {path}: {error.strerror or error}.") from None

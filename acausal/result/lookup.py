@@ -1,0 +1,215 @@
+"""From a key (path, attribute or expression) to the symbols of the bound model."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import join, walk
+from acausal.language import fields as f
+from acausal.language.component import Component, Path
+from acausal.language.expression import Expr
+from acausal.language.functions import time
+
+Key = str | Path | Expr
+READABLE = (f.Variable, f.Parameter, f.Observed)
+_SEGMENT = re.compile(r"([^\W\d]\w*)((?:\[[^\]]*\])*)")
+_INDEX = re.compile(r"\[\(?\s*(-?\d+(?:\s*,\s*-?\d+)*)\s*,?\s*\)?\]")
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """What a key means.
+
+    Parameters
+    ----------
+    name : str
+        The key in the user's words.
+    column : casadi.SX, shape (n, 1)
+        The entries in column-major order.
+    shape : tuple of int
+        Shape as numpy gives it.
+    units : tuple of str
+        Unit of each entry as declared, "" where it is not known.
+    declared : bool
+        Whether the name alone tells the expression.
+    """
+
+    name: str
+    column: ca.SX
+    shape: tuple[int, ...]
+    units: tuple[str, ...]
+    declared: bool = True
+
+    def __getitem__(self, index: tuple[int, ...]) -> Quantity:
+        places = np.arange(len(self.units)).reshape(self.shape, order="F")
+        at = np.asarray(places[index])
+        picked = at.ravel(order="F").tolist()
+        name = f"{self.name}[{','.join(map(str, index))}]"
+        return Quantity(name, self.column[picked], at.shape, tuple(self.units[k] for k in picked))
+
+    @property
+    def entries(self) -> list[tuple[tuple[int, ...], str, str]]:
+        """Index, name and unit of each entry, the last index running fastest."""
+        units = np.array(self.units, dtype=object).reshape(self.shape, order="F")
+        return [
+            (i, self.name + (f"[{','.join(map(str, i))}]" if i else ""), str(units[i])) for i in np.ndindex(self.shape)
+        ]
+
+
+def names(tree: Component) -> list[str]:
+    """Return the paths of all variables, parameters and observed quantities of a bound model."""
+    return [
+        join(component._path, name)
+        for component in walk(tree)
+        for name, declared in component.fields.items()
+        if isinstance(declared, READABLE) and (name in vars(component) or isinstance(declared, f.Observed))
+    ]
+
+
+def match(tree: Component, patterns: Iterable[str]) -> list[str]:
+    """Return the names that match a pattern, in the order of the model.
+
+    Parameters
+    ----------
+    tree : Component
+        The bound model.
+    patterns : iterable of str
+        Paths in which `*` stands for any text and `?` for any character; brackets mean themselves.
+
+    Raises
+    ------
+    DeclarationError
+        If a pattern matches nothing.
+    """
+    known, found = names(tree), {}
+    for pattern in patterns:
+        # Brackets in names are indices: fnmatch's sets of characters would only be in the way.
+        matched = [name for name in known if fnmatchcase(name, pattern.replace("[", "[[]"))]
+        found.update(dict.fromkeys(matched or [find(tree, pattern).name]))
+    return list(found)
+
+
+def find(tree: Component, key: Key) -> Quantity:
+    """Return the quantity that a key means.
+
+    Raises
+    ------
+    DeclarationError
+        If the model has no such variable; the message tells the nearest names.
+    """
+    if isinstance(key, Expr):
+        return _of_expression(tree, key)
+    if not isinstance(key, str | Path):
+        raise DeclarationError(f"a result is read by a path such as 'beam.frame_b.r_0', not by {key!r}.")
+    try:
+        return _walk(tree, str(key))
+    except LookupError:
+        raise DeclarationError(_unknown(str(key), names(tree))) from None
+
+
+def _of_expression(tree: Component, expr: Expr) -> Quantity:
+    column = ca.vec(ca.densify(expr.sx))
+    try:
+        declared = _walk(tree, expr.name)
+        if [e.element_hash() for e in declared.column.elements()] == [e.element_hash() for e in column.elements()]:
+            return declared
+    except (LookupError, DeclarationError):
+        pass  # a derivative or another expression
+    return Quantity(expr.name or repr(expr), column, expr.shape, _units(expr.unit, expr), declared=False)
+
+
+def _walk(tree: Component, path: str) -> Quantity:
+    """Follow a path; LookupError if it leads nowhere."""
+    if path == "time" and path not in tree.fields:
+        return Quantity("time", time.sx, (), ("s",))
+    owner: Any = tree
+    *parents, (last, indices) = _parse(path)
+    for name, places in parents:
+        owner = _member(owner, name)
+        for place in places:
+            if not isinstance(owner, list):
+                raise LookupError
+            owner = owner[place[0]]
+    value = _member(owner, last)
+    declared = type(owner).fields[last]
+    if not isinstance(declared, READABLE):
+        raise DeclarationError(_not_readable(path, last, value))
+    quantity = _quantity(owner, last, declared, value)
+    for index in indices:
+        try:
+            quantity = quantity[index]
+        except IndexError:
+            raise DeclarationError(f"`{path}` does not exist: `{quantity.name}` has shape {quantity.shape}.") from None
+    return quantity
+
+
+def _parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
+    """Split a path into names with their indices."""
+    steps = []
+    for segment in path.split("."):
+        found = _SEGMENT.fullmatch(segment.strip())
+        texts = re.findall(r"\[[^\]]*\]", found[2]) if found else []
+        indices = [_INDEX.fullmatch(text) for text in texts]
+        if found is None or None in indices:
+            raise LookupError
+        steps.append((found[1], [tuple(int(k) for k in index[1].split(",")) for index in indices if index]))
+    return steps
+
+
+def _member(owner: Any, name: str) -> Any:
+    if not isinstance(owner, Component) or name not in type(owner).fields:
+        raise LookupError
+    observed = isinstance(type(owner).fields[name], f.Observed)
+    value = getattr(owner, name) if observed else vars(owner).get(name)
+    if value is None and not isinstance(type(owner).fields[name], f.Structural):
+        raise LookupError
+    return value
+
+
+def _quantity(owner: Component, name: str, declared: f.Field, expr: Expr) -> Quantity:
+    # SX knows rows and columns only: a declared shape (1,) or (n, 1) is not to be seen from it.
+    shape = declared.shape(owner) if callable(declared.shape) else declared.shape
+    unit = declared.unit(owner) if callable(declared.unit) else declared.unit
+    units = _units(expr.unit if unit is None else unit, expr)
+    return Quantity(join(owner._path, name), ca.vec(ca.densify(expr.sx)), expr.shape if shape is None else shape, units)
+
+
+def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
+    """Return the unit of each entry; a unit for each row holds in all columns."""
+    rows, columns = expr.sx.shape
+    if unit is None:
+        return ("",) * (rows * columns)
+    each = list(unit) if isinstance(unit, list | tuple) else [unit] * rows
+    return tuple(str(u) or "1" for u in each) * columns
+
+
+def _not_readable(path: str, name: str, value: Any) -> str:
+    if isinstance(value, list):
+        return (
+            f"`{path}` is a list of {len(value)} parts; name a variable of one, such as `{path}[0].{_example(value)}`."
+        )
+    if isinstance(value, Component):
+        kind = type(value).__name__
+        return f"`{path}` is a part ({kind}); name one of its variables, such as `{path}.{_example([value])}`."
+    return f"`{path}` is structural and has no course over time; its value is {value!r}."
+
+
+def _example(parts: list[Component]) -> str:
+    inside = [name for part in parts[:1] for name in names(part)]
+    return inside[0].removeprefix(f"{parts[0]._path}.") if inside else "..."
+
+
+def _unknown(path: str, known: list[str]) -> str:
+    near = [name for name in known if name.endswith(f".{path}")]
+    near += [name for name in difflib.get_close_matches(path, known, 3, 0.5) if name not in near]
+    mend = f"; did you mean {', '.join(f'`{name}`' for name in near[:3])}?" if near else "."
+    return f"there is no `{path}` in the model{mend}"

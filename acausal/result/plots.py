@@ -1,0 +1,114 @@
+"""Pictures of results; matplotlib's objects only, so that neither a display nor global state is touched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from acausal.errors import DeclarationError, ExportError
+from acausal.result.files import check_writable, whole
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+DPI = 150
+LABEL = 36
+LEGEND_ROWS = 12
+
+
+@dataclass(frozen=True)
+class Series:
+    """One scalar over time: name, unit as declared and values of shape (times,)."""
+
+    name: str
+    unit: str
+    values: np.ndarray
+
+
+def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
+    """Draw scalars over time, one axes for each unit.
+
+    Parameters
+    ----------
+    time : array, shape (times,)
+        In s.
+    series : sequence of Series
+        What to draw.
+    title : str
+        Title of the figure.
+
+    Returns
+    -------
+    Figure
+        On an Agg canvas.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    if not series:
+        raise DeclarationError("there is nothing to plot: the model has no outputs; name some variables.")
+    units = list(dict.fromkeys(s.unit for s in series))
+    figure = Figure(figsize=(8.0, 1.2 + 2.4 * len(units)), dpi=DPI, layout="tight")
+    FigureCanvasAgg(figure)
+    column = figure.subplots(len(units), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, unit in zip(column, units, strict=True):
+        _fill(axes, time, [s for s in series if s.unit == unit], unit)
+    column[-1].set_xlabel("time [s]")
+    if title:
+        column[0].set_title(title)
+    figure.align_ylabels()
+    return figure
+
+
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure in the format that the name's ending tells."""
+    check_picture(path)
+    with whole(path, "wb") as file:
+        figure.savefig(file, format=_ending(path), dpi=DPI)
+
+
+def check_picture(path: str | Path) -> None:
+    """Find out whether a picture can be written: known ending, writable place.
+
+    Raises
+    ------
+    ExportError
+        With the reason why not.
+    """
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    known = FigureCanvasBase.get_supported_filetypes()
+    if _ending(path) not in known:
+        raise ExportError(f"cannot write {path}: a picture's name ends in .png, .svg or .pdf.")
+    check_writable(path)
+
+
+def _ending(path: str | Path) -> str:
+    return Path(path).suffix.lower().removeprefix(".")
+
+
+def _fill(axes: Axes, time: np.ndarray, series: Sequence[Series], unit: str) -> None:
+    from matplotlib import cycler, rcParamsDefault
+
+    # Lines stay apart beyond the ten colours.
+    axes.set_prop_cycle(cycler(linestyle=["-", "--", ":", "-."]) * rcParamsDefault["axes.prop_cycle"])
+    for s in series:
+        axes.plot(time, s.values, label=s.name, linewidth=1.4, marker="." if len(time) == 1 else None)
+    names = ", ".join(s.name for s in series)
+    shown = f"[{unit}]" if unit else ""
+    axes.set_ylabel(f"{names} {shown}".strip() if len(names) <= LABEL else shown)
+    axes.grid(alpha=0.4)
+    axes.margins(x=0.01)
+    axes.ticklabel_format(axis="y", useOffset=False)
+    axes.legend(
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+        fontsize="small",
+        frameon=False,
+        ncols=-(-len(series) // LEGEND_ROWS),
+    )
