@@ -8,7 +8,6 @@ import numpy as np
 
 from acausal import (
     PREFER,
-    Scalar,
     as_expr,
     branch,
     cross,
@@ -16,21 +15,21 @@ from acausal import (
     dot,
     observed,
     outer,
-    parameter,
     port,
     structural,
     variable,
 )
+from components.beam import Beam
 from components.beam_element import beam_matrices
 from components.beam_inertia import Inertia
-from components.frame import Frame, TwoFrames, move
+from components.frame import Frame, move
 from components.orientation import null_rotation, planar_rotation, resolve1, resolve2
 from components.world import World
 
 Z = np.array([0.0, 0.0, 1.0])
 
 
-class FlexibleBeam(TwoFrames):
+class FlexibleBeam(Beam):
     """Straight beam along x of its reference frame that bends in the xy plane of that frame and stretches.
 
     Parameters
@@ -58,23 +57,7 @@ class FlexibleBeam(TwoFrames):
     small against the length; a beam that turns faster than its first natural frequency needs SubstructuredBeam.
     """
 
-    length: Scalar = parameter("length", unit="m", positive=True)
-    E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
-    rho: Scalar = parameter("density", unit="kg/m3", positive=True)
-    A: Scalar = parameter("area of the section", unit="m2", positive=True)
-    J: Scalar = parameter("second moment of area for bending in xy", unit="m4", positive=True)
-    J_y: Scalar = parameter("second moment of area about y", unit="m4", default=lambda s: s.J, minimum=0)
-    torsional_inertia: Scalar = parameter(
-        "moment of inertia about the beam's own axis",
-        unit="kg.m2",
-        default=lambda s: s.rho * (s.J + s.J_y) * s.length,
-        minimum=0,
-    )
     elements: int = structural("number of finite elements", default=1, minimum=1)
-    reference: str = structural("reference frame", default="tangent", choices=("tangent", "pinned"))
-    alpha: Scalar = parameter("damping in proportion to mass", unit="1/s", default=0, minimum=0)
-    beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
-    initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
     world: World = outer(World)
     q: Any = variable(
         "free nodal coordinates (u, v, theta) of all nodes, resolved in the reference frame",
@@ -207,6 +190,18 @@ class FlexibleBeam(TwoFrames):
         local = as_expr([[k * self._l + U[3 * k], U[3 * k + 1], 0.0] for k in range(self.elements + 1)])
         origin = as_expr([[ref.r_0[i] for i in range(3)]] * (self.elements + 1))
         return origin + local @ ref.R.T
+
+    @observed
+    def middle_r_0(self):
+        """Position of the material middle point, resolved in the world, in m."""
+        U, half = self._nodes(self.q), self.elements // 2
+        left = U[3 * half : 3 * half + 3]
+        if self.elements % 2:
+            right = U[3 * half + 3 : 3 * half + 6]
+            at = ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2 + (left[2] - right[2]) / 8)
+        else:
+            at = (left[0], left[1])
+        return self.ref.r_0 + resolve1(self.ref.R, as_expr((self.length / 2 + at[0], at[1], 0.0)))
 
     @observed
     def node_force(self):

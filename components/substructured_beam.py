@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Scalar, as_expr, chain, connect, observed, parameter, parts, structural
+from acausal import as_expr, atan2, chain, connect, observed, parts, structural
+from components.beam import Beam
 from components.flexible_beam import FlexibleBeam
-from components.frame import TwoFrames
 
 
-class SubstructuredBeam(TwoFrames):
+class SubstructuredBeam(Beam):
     """Beam of several volumes, each a FlexibleBeam in a frame of its own: geometrically non-linear.
 
     Parameters
@@ -24,24 +24,8 @@ class SubstructuredBeam(TwoFrames):
     Schiavo, Vigano, Ferretti 2006, section 3.4: the compatibility of the volumes is what connecting them means.
     """
 
-    length: Scalar = parameter("length", unit="m", positive=True)
-    E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
-    rho: Scalar = parameter("density", unit="kg/m3", positive=True)
-    A: Scalar = parameter("area of the section", unit="m2", positive=True)
-    J: Scalar = parameter("second moment of area for bending in xy", unit="m4", positive=True)
-    J_y: Scalar = parameter("second moment of area about y", unit="m4", default=lambda s: s.J, minimum=0)
-    torsional_inertia: Scalar = parameter(
-        "moment of inertia about the beam's own axis",
-        unit="kg.m2",
-        default=lambda s: s.rho * (s.J + s.J_y) * s.length,
-        minimum=0,
-    )
     volumes: int = structural("number of volumes", default=5, minimum=1)
     elements_per_volume: int = structural("number of finite elements of a volume", default=1, minimum=1)
-    reference: str = structural("reference frame of a volume", default="tangent", choices=("tangent", "pinned"))
-    alpha: Scalar = parameter("damping in proportion to mass", unit="1/s", default=0, minimum=0)
-    beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
-    initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
 
     @parts
     def volume(self):
@@ -78,8 +62,6 @@ class SubstructuredBeam(TwoFrames):
     @observed
     def node_deflection(self):
         """Displacement (u, v) and rotation of every node, shape (nodes, 3), resolved in frame_a."""
-        from acausal import atan2
-
         a, nodes = self.frame_a, self._nodes("node_r_0")
         n = nodes.shape[0]
         local = (nodes - as_expr([[a.r_0[i] for i in range(3)]] * n)) @ a.R.T.T
@@ -91,6 +73,12 @@ class SubstructuredBeam(TwoFrames):
             start = 0 if k == 0 else 1
             turned += [atan2(T[0, 1], T[0, 0]) + own[i, 2] for i in range(start, own.shape[0])]
         return as_expr([[local[k, 0] - along[k][0], local[k, 1], turned[k]] for k in range(n)])
+
+    @observed
+    def middle_r_0(self):
+        """Position of the material middle point, resolved in the world, in m."""
+        half = self.volumes // 2
+        return self.volume[half].middle_r_0 if self.volumes % 2 else self.volume[half].frame_a.r_0
 
     @observed
     def node_force(self):

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
 FAILED, WRONG, INTERRUPTED = 1, 2, 130
+MODES = ("states", "eigenvalues", "frequencies_hz", "damping_ratios", "inputs", "outputs")
 STOP_TIME = 1.0  # of a model that does not tell its own, in s
 
 app = typer.Typer(
@@ -127,8 +128,10 @@ def linearize(scene: Scene, settings: Set = None, initial: Initial = "fixed", js
         linear = ac.linearize(_compile(find_scene(scene), settings), initial=initial)
         typer.echo(modes_table(linear.eigenvalues))
         if json:
-            keys = ("states", "eigenvalues", "frequencies_hz", "damping_ratios", "inputs", "outputs")
-            write_json({"scene": scene} | {key: getattr(linear, key) for key in keys}, json, standard_output)
+            document = {key: getattr(linear, key) for key in MODES} | {
+                "eigenvalues": linear.eigenvalues.astype(complex)
+            }
+            write_json({"scene": scene, **document}, json, standard_output)
 
 
 @contextmanager
@@ -152,7 +155,7 @@ def _run(json: str | None = None) -> Iterator[IO[str]]:
 
 
 def _stop(message: str, status: int) -> NoReturn:
-    typer.echo(f"error: {message}", err=True)
+    typer.echo(f"Error: {message}", err=True)
     raise typer.Exit(status) from None
 
 

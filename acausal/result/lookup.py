@@ -94,6 +94,8 @@ def match(tree: Component, patterns: Iterable[str]) -> list[str]:
     for pattern in patterns:
         # Brackets in names are indices: fnmatch's sets of characters would only be in the way.
         matched = [name for name in known if fnmatchcase(name, pattern.replace("[", "[[]"))]
+        if not matched and ("*" in pattern or "?" in pattern):
+            raise DeclarationError(f"no variable of the model matches `{pattern}`; * stands for any text.")
         found.update(dict.fromkeys(matched or [find(tree, pattern).name]))
     return list(found)
 
@@ -120,11 +122,15 @@ def _of_expression(tree: Component, expr: Expr) -> Quantity:
     column = ca.vec(ca.densify(expr.sx))
     try:
         declared = _walk(tree, expr.name)
-        if [e.element_hash() for e in declared.column.elements()] == [e.element_hash() for e in column.elements()]:
+        if _symbols(declared.column) == _symbols(column):
             return declared
     except (LookupError, DeclarationError):
         pass  # a derivative or another expression
     return Quantity(expr.name or repr(expr), column, expr.shape, _units(expr.unit, expr), declared=False)
+
+
+def _symbols(column: ca.SX) -> list[int]:
+    return [column[k].element_hash() for k in range(column.numel())]
 
 
 def _walk(tree: Component, path: str) -> Quantity:

@@ -93,7 +93,8 @@ def _ending(path: str | Path) -> str:
 
 
 def _fill(axes: Axes, time: np.ndarray, series: Sequence[Series], unit: str) -> None:
-    from matplotlib import cycler, rcParamsDefault
+    from cycler import cycler
+    from matplotlib import rcParamsDefault
 
     # Lines stay apart beyond the ten colours.
     axes.set_prop_cycle(cycler(linestyle=["-", "--", ":", "-."]) * rcParamsDefault["axes.prop_cycle"])

@@ -1,0 +1,53 @@
+"""Beam: what beams of every formulation have in common."""
+
+from __future__ import annotations
+
+from acausal import Scalar, observed, parameter, sqrt, structural
+from components.frame import TwoFrames
+from components.orientation import resolve2
+
+
+class Beam(TwoFrames):
+    """Base of straight beams along x of frame_a that bend in its xy plane.
+
+    Parameters
+    ----------
+    length, E, rho, A, J : float
+        Length in m, modulus of elasticity in Pa, density in kg/m3, area in m2 and second moment of area for bending in
+        the xy plane in m4 of the section.
+    J_y : float
+        Second moment of area about y, only for the inertia about the beam's own axis; default J.
+    torsional_inertia : float
+        Moment of inertia about the beam's own axis in kg.m2; default rho (J + J_y) length.
+    reference : "tangent" or "pinned"
+        The reference frame is tangent to the root, or the chord from the first to the last point.
+    alpha, beta : float
+        Rayleigh damping in 1/s and s: D = alpha M + beta K.
+    initial : "undeformed", "static" or "free"
+        At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing.
+    """
+
+    length: Scalar = parameter("length", unit="m", positive=True)
+    E: Scalar = parameter("modulus of elasticity", unit="Pa", positive=True)
+    rho: Scalar = parameter("density", unit="kg/m3", positive=True)
+    A: Scalar = parameter("area of the section", unit="m2", positive=True)
+    J: Scalar = parameter("second moment of area for bending in xy", unit="m4", positive=True)
+    J_y: Scalar = parameter("second moment of area about y", unit="m4", default=lambda s: s.J, minimum=0)
+    torsional_inertia: Scalar = parameter(
+        "moment of inertia about the beam's own axis",
+        unit="kg.m2",
+        default=lambda s: s.rho * (s.J + s.J_y) * s.length,
+        minimum=0,
+    )
+    reference: str = structural("reference frame", default="tangent", choices=("tangent", "pinned"))
+    alpha: Scalar = parameter("damping in proportion to mass", unit="1/s", default=0, minimum=0)
+    beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
+    initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
+
+    @observed
+    def middle_deflection(self):
+        """Transverse distance of the material middle point from the chord, positive along y of frame_a, in m."""
+        a = self.frame_a
+        chord = resolve2(a.R, self.frame_b.r_0 - a.r_0)
+        middle = resolve2(a.R, self.middle_r_0 - a.r_0)
+        return (chord[0] * middle[1] - chord[1] * middle[0]) / sqrt(chord @ chord)

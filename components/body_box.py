@@ -1,0 +1,64 @@
+"""BodyBox: a rigid body with the shape of a box."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import Matrix33, Scalar, Vector3, as_expr, cross, dot, parameter, sqrt, structural
+from components.orientation import outer_product
+from components.two_frame_body import TwoFrameBody
+from components.world import require_direction
+
+
+class BodyBox(TwoFrameBody):
+    """Box with its axis along r; mass, centre of mass and inertia follow from size and density.
+
+    Parameters
+    ----------
+    r : array of 3 floats
+        From frame_a to frame_b along the axis, resolved in frame_a, in m; its entries that are 0 are structural.
+    width : float
+        Width in m along width_direction.
+    height : float
+        Height in m across both; default: width.
+    density : float
+        Density in kg/m3.
+    width_direction : array of 3 floats
+        Direction of the width, resolved in frame_a: its part across r counts. Default (0, 1, 0), or (1, 0, 0) if r
+        has no other part than y.
+    m, r_CM, I
+        Mass in kg, centre of mass from frame_a in m and inertia tensor about it in kg.m2, both resolved in frame_a;
+        given instead of the values of the box.
+    """
+
+    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
+    width: Scalar = parameter("width", unit="m", positive=True)
+    height: Scalar = parameter("height", unit="m", default=lambda s: s.width, positive=True)
+    density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
+    width_direction: Any = structural("direction of the width, resolved in frame_a", default=None)
+    m: Scalar = parameter(
+        "mass", unit="kg", default=lambda s: s.density * s.length * s.width * s.height, minimum=0
+    )
+    r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
+    I: Matrix33 = parameter(
+        "inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.box_inertia()
+    )
+
+    def check(self) -> None:
+        """Refuse a direction of length 0."""
+        require_direction(self, self.r_given(), "r")
+
+    @property
+    def length(self) -> Any:
+        """Length in m."""
+        return sqrt(dot(self.r, self.r))
+
+    def box_inertia(self) -> Any:
+        """Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2."""
+        along, across, up = self.axes()
+        squares = self.length**2, self.width**2, self.height**2
+        total = squares[0] + squares[1] + squares[2]
+        principal = [self.m * (total - square) / 12 for square in squares]
+        return sum(I * outer_product(e, e) for I, e in zip(principal, (along, across, up), strict=True))

@@ -1,0 +1,34 @@
+"""Fixed: a frame that stands still in the world."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal import Component, Vector3, parameter, port, root
+from components.frame import Frame
+
+
+class Fixed(Component):
+    """Frame_b stands still at r, with the axes of the world.
+
+    Parameters
+    ----------
+    r : array of 3 floats
+        Position of frame_b, resolved in the world, in m.
+    """
+
+    ends = ("", "frame_b")
+    r: Vector3 = parameter("position of frame_b, resolved in the world", unit="m", default=(0, 0, 0))
+    frame_b: Frame = port(Frame, "the fixed frame")
+
+    def connections(self):
+        yield root(self.frame_b)
+
+    def equations(self):
+        frame, zero = self.frame_b, np.zeros(3)
+        yield frame.r_0 == self.r
+        yield frame.R.T == np.eye(3)
+        yield frame.R.w == zero
+        yield frame.v == zero
+        yield frame.a == zero
+        yield frame.z == zero

@@ -1,0 +1,49 @@
+"""Free vibration: a cantilever that is released from the static shape under a tip force (beam paper, section 5.1)."""
+
+from __future__ import annotations
+
+from acausal import Model, Scalar, chain, connect, initial, output, parameter, part, structural
+from components import FlexibleBeam, SubstructuredBeam, World, WorldForce
+
+SECTION = {"length": 2.0, "E": 72e9, "A": 1e-4, "J": 1e-8 / 12, "rho": 2700.0}
+
+
+class FreeVibration(Model):
+    """Cantilever of aluminium, 2 m long, of square section, released with the deflection tip."""
+
+    stop_time = 1.0
+    formulation: str = structural("kind of beam", default="fem", choices=("fem", "substructured"))
+    elements: int = structural("elements of the finite-element beam", default=10, minimum=1)
+    volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
+    elements_per_volume: int = structural("finite elements of a volume", default=2, minimum=1)
+    tip: Scalar = parameter("deflection of the tip at the start", unit="m", default=0.01)
+    world = World(gravity=None)
+    load = WorldForce()
+    tip_deflection: Scalar = output("transverse displacement of the tip", unit="m")
+
+    @part
+    def beam(self):
+        """The beam, in one frame or substructured."""
+        if self.formulation == "fem":
+            return FlexibleBeam(elements=self.elements, initial="static", **SECTION)
+        return SubstructuredBeam(
+            volumes=self.volumes, elements_per_volume=self.elements_per_volume, initial="static", **SECTION
+        )
+
+    def connections(self):
+        yield chain(self.world, self.beam)
+        yield connect(self.load.frame_b, self.beam.frame_b)
+
+    def equations(self):
+        beam = self.beam
+        pull = 3 * beam.E * beam.J / beam.length**3 * self.tip
+        yield self.load.force[0] == 0
+        yield self.load.force[1] == initial * pull
+        yield self.load.force[2] == 0
+        yield self.tip_deflection == beam.frame_b.r_0[1]
+
+
+if __name__ == "__main__":
+    import acausal as ac
+
+    ac.simulate(FreeVibration(), stop_time=FreeVibration.stop_time).plot("tip_deflection", path="free-vibration.png")

@@ -1,0 +1,58 @@
+"""Spin-up manoeuvre: a flexible beam on a hub that turns by a prescribed angle (beam paper, section 5.4)."""
+
+from __future__ import annotations
+
+from math import pi
+
+from acausal import Model, Scalar, chain, connect, cos, output, parameter, part, piecewise, sin, structural, time
+from components import FlexibleBeam, Revolute, SubstructuredBeam, World
+from components.rotational import Position
+
+
+class SpinUp(Model):
+    """Beam on a hub that is brought to the speed omega within the time ramp."""
+
+    stop_time = 20.0
+    formulation: str = structural("kind of beam", default="substructured", choices=("substructured", "fem"))
+    volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
+    elements_per_volume: int = structural("finite elements of a volume", default=1, minimum=1)
+    omega: Scalar = parameter("final speed of the hub", unit="rad/s", default=4)
+    ramp: Scalar = parameter("time to reach it", unit="s", default=15, positive=True)
+    length: Scalar = parameter("length of the beam", unit="m", default=8, positive=True)
+    E: Scalar = parameter("modulus of elasticity", unit="Pa", default=6.895e10, positive=True)
+    A: Scalar = parameter("area of the section", unit="m2", default=7.299e-5, positive=True)
+    J: Scalar = parameter("second moment of area", unit="m4", default=8.214e-9, positive=True)
+    rho: Scalar = parameter("density", unit="kg/m3", default=2767, positive=True)
+    world = World(gravity=None)
+    hub = Revolute(use_axis_flange=True)
+    drive = Position()
+    angle: Scalar = output("prescribed angle", unit="rad")
+    tip_deflection: Scalar = output("transverse position of the tip in the turning frame", unit="m")
+    tip_extension: Scalar = output("longitudinal position of the tip in the turning frame, less the length", unit="m")
+
+    @part
+    def beam(self):
+        """The beam, substructured or of finite elements in one frame."""
+        section = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
+        if self.formulation == "fem":
+            return FlexibleBeam(elements=self.volumes * self.elements_per_volume, **section)
+        return SubstructuredBeam(volumes=self.volumes, elements_per_volume=self.elements_per_volume, **section)
+
+    def connections(self):
+        yield chain(self.world, self.hub, self.beam)
+        yield connect(self.drive.flange, self.hub.axis)
+
+    def equations(self):
+        T, x = self.ramp, 2 * pi * time / self.ramp
+        rise = self.omega / T * (time**2 / 2 + (T / (2 * pi)) ** 2 * (cos(x) - 1))
+        yield self.angle == piecewise((rise, time < T), self.omega * (time - T / 2), smooth=True)
+        yield self.drive.phi_ref == self.angle
+        c, s, r = cos(self.angle), sin(self.angle), self.beam.frame_b.r_0
+        yield self.tip_deflection == c * r[1] - s * r[0]
+        yield self.tip_extension == c * r[0] + s * r[1] - self.length
+
+
+if __name__ == "__main__":
+    import acausal as ac
+
+    ac.simulate(SpinUp(), stop_time=SpinUp.stop_time).plot("tip_deflection", "tip_extension", path="spin-up.png")
