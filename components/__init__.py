@@ -1,0 +1,82 @@
+"""Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
+
+from components import rotational
+from components.body import Body
+from components.body_box import BodyBox
+from components.body_cylinder import BodyCylinder
+from components.body_shape import BodyShape
+from components.damper import Damper
+from components.fixed import Fixed
+from components.fixed_rotation import FixedRotation
+from components.flange import Flange, TwoFlanges
+from components.flexible_beam import FlexibleBeam
+from components.force import Force
+from components.frame import Frame, TwoFrames, move
+from components.line_force import LineForce
+from components.orientation import (
+    Orientation,
+    RelativeOrientation,
+    absolute_rotation,
+    fixed_rotation,
+    from_quaternion,
+    inverse_rotation,
+    null_rotation,
+    planar_rotation,
+    resolve1,
+    resolve2,
+)
+from components.prismatic import Prismatic
+from components.revolute import Revolute
+from components.spherical import Spherical
+from components.spring import Spring
+from components.spring_damper_parallel import SpringDamperParallel
+from components.substructured_beam import SubstructuredBeam
+from components.torque import Torque
+from components.translation import FixedTranslation
+from components.translational_flange import TranslationalFlange
+from components.two_frame_body import TwoFrameBody
+from components.world import World
+from components.world_force import WorldForce
+from components.world_torque import WorldTorque
+
+__all__ = [
+    "Body",
+    "BodyBox",
+    "BodyCylinder",
+    "BodyShape",
+    "Damper",
+    "Fixed",
+    "FixedRotation",
+    "FixedTranslation",
+    "Flange",
+    "FlexibleBeam",
+    "Force",
+    "Frame",
+    "LineForce",
+    "Orientation",
+    "Prismatic",
+    "RelativeOrientation",
+    "Revolute",
+    "Spherical",
+    "Spring",
+    "SpringDamperParallel",
+    "SubstructuredBeam",
+    "Torque",
+    "TranslationalFlange",
+    "TwoFlanges",
+    "TwoFrameBody",
+    "TwoFrames",
+    "World",
+    "WorldForce",
+    "WorldTorque",
+    "absolute_rotation",
+    "fixed_rotation",
+    "from_quaternion",
+    "inverse_rotation",
+    "move",
+    "null_rotation",
+    "planar_rotation",
+    "resolve1",
+    "resolve2",
+    "rotational",
+]

@@ -25,6 +25,9 @@ class Beam(TwoFrames):
         Rayleigh damping in 1/s and s: D = alpha M + beta K.
     initial : "undeformed", "static" or "free"
         At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing.
+    nominal_rate : float
+        Nominal value of der(q) over that of q in 1/s: the error test follows displacements rather than the velocities
+        of ringing at high frequency. Default: slowest vibration of the beam hinged at one end.
     """
 
     length: Scalar = parameter("length", unit="m", positive=True)
@@ -43,6 +46,12 @@ class Beam(TwoFrames):
     alpha: Scalar = parameter("damping in proportion to mass", unit="1/s", default=0, minimum=0)
     beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
     initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
+    nominal_rate: Scalar = parameter(
+        "typical rate of vibration",
+        unit="1/s",
+        default=lambda s: 15.418 * sqrt(s.E * s.J / (s.rho * s.A)) / s.length**2,
+        positive=True,
+    )
 
     @observed
     def middle_deflection(self):

@@ -111,6 +111,8 @@ class Inertia:
         nodes = slice(3 * j, 3 * j + 6)
         shift = np.array([j, 0, 0, j, 0, 0])
         # An element whose root lies at x = j l is one at the origin with both nodes moved by j l.
-        own = Inertia(element_matrices(), 1, self.l, self.mu, self.U[nodes] + self.l * shift, self.Ud[nodes], self.Udd[nodes])
+        own = Inertia(
+            element_matrices(), 1, self.l, self.mu, self.U[nodes] + self.l * shift, self.Ud[nodes], self.Udd[nodes]
+        )
         force, moment, _ = own.forces(a, z, w)
         return force, moment

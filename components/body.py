@@ -6,8 +6,21 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, Matrix33, Scalar, Vector3, cross, dot, is_root, outer, parameter, port, potential_root
-from acausal import structural, variable
+from acausal import (
+    Component,
+    Matrix33,
+    Scalar,
+    Vector3,
+    cross,
+    dot,
+    is_root,
+    outer,
+    parameter,
+    port,
+    potential_root,
+    structural,
+    variable,
+)
 from components.frame import Frame
 from components.orientation import axes_rotations, quaternion_of, resolve1, resolve2
 from components.world import World

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from acausal import Matrix33, Scalar, Vector3, as_expr, cross, dot, parameter, sqrt, structural
+from acausal import DeclarationError, Matrix33, Scalar, Vector3, as_expr, cross, dot, parameter, sqrt, structural
 from components.orientation import outer_product
 from components.two_frame_body import TwoFrameBody
-from components.world import require_direction
 
 
 class BodyBox(TwoFrameBody):
@@ -38,27 +35,32 @@ class BodyBox(TwoFrameBody):
     height: Scalar = parameter("height", unit="m", default=lambda s: s.width, positive=True)
     density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
     width_direction: Any = structural("direction of the width, resolved in frame_a", default=None)
-    m: Scalar = parameter(
-        "mass", unit="kg", default=lambda s: s.density * s.length * s.width * s.height, minimum=0
-    )
+    m: Scalar = parameter("mass", unit="kg", default=lambda s: s.density * s.length * s.width * s.height, minimum=0)
     r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
-    I: Matrix33 = parameter(
-        "inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.box_inertia()
-    )
-
-    def check(self) -> None:
-        """Refuse a direction of length 0."""
-        require_direction(self, self.r_given(), "r")
+    I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.box_inertia())
 
     @property
     def length(self) -> Any:
         """Length in m."""
         return sqrt(dot(self.r, self.r))
 
+    def axes(self) -> tuple[Any, Any, Any]:
+        """Directions of length, width and height, resolved in frame_a."""
+        zero = [entry.sx.is_zero() for entry in self.r]
+        if all(zero):
+            raise DeclarationError(
+                f"`r` of {self._path} (BodyBox) has length 0; give the axis of the box, r=(1, 0, 0)."
+            )
+        given = self.width_direction
+        if given is None:
+            given = (1.0, 0.0, 0.0) if zero[0] and zero[2] else (0.0, 1.0, 0.0)
+        along = self.r / self.length
+        across = as_expr(given) - dot(given, along) * along
+        across = across / sqrt(dot(across, across))
+        return along, across, cross(along, across)
+
     def box_inertia(self) -> Any:
         """Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2."""
-        along, across, up = self.axes()
-        squares = self.length**2, self.width**2, self.height**2
-        total = squares[0] + squares[1] + squares[2]
-        principal = [self.m * (total - square) / 12 for square in squares]
-        return sum(I * outer_product(e, e) for I, e in zip(principal, (along, across, up), strict=True))
+        along, across, up = (outer_product(e, e) for e in self.axes())
+        l2, w2, h2 = self.length**2, self.width**2, self.height**2
+        return self.m / 12 * ((w2 + h2) * along + (l2 + h2) * across + (l2 + w2) * up)

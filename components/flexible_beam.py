@@ -70,6 +70,7 @@ class FlexibleBeam(Beam):
         shape=lambda s: (len(s.free),),
         unit=lambda s: [("m/s", "m/s", "rad/s")[k % 3] for k in s.free],
         select=PREFER,
+        nominal=lambda s: s.nominal_rate,
     )
     qdd: Any = variable(
         "der(qd)",

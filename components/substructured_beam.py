@@ -44,6 +44,7 @@ class SubstructuredBeam(Beam):
                 alpha=self.alpha,
                 beta=self.beta,
                 initial=self.initial,
+                nominal_rate=self.nominal_rate,
             )
             for _ in range(self.volumes)
         ]

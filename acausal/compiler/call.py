@@ -32,10 +32,13 @@ class Call:
         self.evaluate()
         return self.outputs
 
-    @property
-    def failed(self) -> bool:
-        """Tell whether the last evaluation ended with an error."""
-        return bool(self.buffer.ret())
+    def succeeds(self) -> bool:
+        """Evaluate in place and tell whether that worked."""
+        try:
+            self.evaluate()
+        except RuntimeError:
+            return False
+        return not self.buffer.ret()
 
     @property
     def stats(self) -> dict:

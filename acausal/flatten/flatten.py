@@ -253,7 +253,7 @@ class _Assembly:
         arrays = self.raw.arrays
         start = [s for a in arrays for s in ca.vec(ca.densify(a.start.sx)).elements()]
         guessed = [a.guessed or a.fixed for a in arrays for _ in range(a.expr.sx.numel())]
-        nominal = np.concatenate([a.nominal for a in arrays])
+        nominal = self._numbers(ca.vertcat(*[ca.vec(a.nominal.sx) for a in arrays]))
         select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
         extra = self.symbols.numel() - self.size
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
@@ -275,6 +275,11 @@ class _Assembly:
             "nominal": nominal[unknowns],
             "preference": tuple(select[k] for k in unknowns),
         }
+
+    def _numbers(self, column: ca.SX) -> np.ndarray:
+        """Values of expressions of parameters, as they are when compiled."""
+        function = ca.Function("numbers", [self.parameters], [ca.densify(column)])
+        return np.array(function(np.array(self.raw.build.parameters.values))).ravel()
 
     def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
         """Fixed start values, then the initial equations of components."""

@@ -116,7 +116,7 @@ class Instantiation:
             raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
         if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
             raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
-        if isinstance(declared.default, int) and not isinstance(declared.default, bool) and value is not None:
+        if type(declared.default) is int and value is not None:
             if not isinstance(value, int | np.integer) or isinstance(value, bool):
                 raise DeclarationError(f"{where} is {value!r}; it must be a whole number.")
         if isinstance(declared.shape, tuple):

@@ -26,7 +26,7 @@ class VariableArray:
     start: Expr
     fixed: bool
     guessed: bool
-    nominal: np.ndarray
+    nominal: Expr
 
     @property
     def names(self) -> list[str]:
@@ -85,7 +85,7 @@ def _create(owner: Component, name: str, declared: f.Variable, arrays: list[Vari
     expr = Expr(symbol, unit_of(declared, owner), path)
     given = owner._values.get(name)
     start = given if isinstance(given, f.Start) else f.Start(f.evaluate(declared.start, owner), declared.fixed)
-    nominal = np.asarray(declared.nominal(owner) if callable(declared.nominal) else declared.nominal, dtype=float)
+    nominal = declared.nominal(owner) if callable(declared.nominal) else declared.nominal
     arrays.append(
         VariableArray(
             path,
@@ -95,7 +95,7 @@ def _create(owner: Component, name: str, declared: f.Variable, arrays: list[Vari
             _fill(start.value, shape, path, "start"),
             start.fixed,
             isinstance(given, f.Start),
-            np.broadcast_to(nominal, shape).flatten(order="F"),
+            _fill(nominal, shape, path, "nominal"),
         )
     )
     return expr

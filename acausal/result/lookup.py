@@ -140,15 +140,11 @@ def _walk(tree: Component, path: str) -> Quantity:
     owner: Any = tree
     *parents, (last, indices) = _parse(path)
     for name, places in parents:
-        owner = _member(owner, name)
-        for place in places:
-            if not isinstance(owner, list):
-                raise LookupError
-            owner = owner[place[0]]
+        owner = _choose(_member(owner, name), name, places)
     value = _member(owner, last)
     declared = type(owner).fields[last]
     if not isinstance(declared, READABLE):
-        raise DeclarationError(_not_readable(path, last, value))
+        raise DeclarationError(_not_readable(path, _choose(value, last, indices)))
     quantity = _quantity(owner, last, declared, value)
     for index in indices:
         try:
@@ -169,6 +165,17 @@ def _parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
             raise LookupError
         steps.append((found[1], [tuple(int(k) for k in index[1].split(",")) for index in indices if index]))
     return steps
+
+
+def _choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
+    """Return the part that indices choose from a list of parts."""
+    for index in indices:
+        if not isinstance(value, list):
+            raise LookupError
+        if not -len(value) <= index[0] < len(value):
+            raise DeclarationError(f"`{name}[{index[0]}]` does not exist: `{name}` has {len(value)} parts, from 0.")
+        value = value[index[0]]
+    return value
 
 
 def _member(owner: Any, name: str) -> Any:
@@ -198,7 +205,7 @@ def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
     return tuple(str(u) or "1" for u in each) * columns
 
 
-def _not_readable(path: str, name: str, value: Any) -> str:
+def _not_readable(path: str, value: Any) -> str:
     if isinstance(value, list):
         return (
             f"`{path}` is a list of {len(value)} parts; name a variable of one, such as `{path}[0].{_example(value)}`."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 DPI = 150
 LABEL = 36
 LEGEND_ROWS = 12
+LEGEND_LINES = 36
 
 
 @dataclass(frozen=True)
@@ -100,16 +102,18 @@ def _fill(axes: Axes, time: np.ndarray, series: Sequence[Series], unit: str) -> 
     axes.set_prop_cycle(cycler(linestyle=["-", "--", ":", "-."]) * rcParamsDefault["axes.prop_cycle"])
     for s in series:
         axes.plot(time, s.values, label=s.name, linewidth=1.4, marker="." if len(time) == 1 else None)
-    names = ", ".join(s.name for s in series)
+    names = ", ".join(dict.fromkeys(re.sub(r"\[[\d,]*\]$", "", s.name) for s in series))
     shown = f"[{unit}]" if unit else ""
     axes.set_ylabel(f"{names} {shown}".strip() if len(names) <= LABEL else shown)
     axes.grid(alpha=0.4)
     axes.margins(x=0.01)
     axes.ticklabel_format(axis="y", useOffset=False)
+    shown_lines = axes.lines[:LEGEND_LINES]
     axes.legend(
+        handles=shown_lines,
         loc="center left",
         bbox_to_anchor=(1.0, 0.5),
         fontsize="small",
         frameon=False,
-        ncols=-(-len(series) // LEGEND_ROWS),
+        ncols=-(-len(shown_lines) // LEGEND_ROWS),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -69,7 +70,7 @@ class Integrator:
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = Trace()
 
-    def options(self, max_steps: int) -> dict[str, Any]:
+    def options(self, max_steps: int, solver: str = "csparse") -> dict[str, Any]:
         """Options of IDAS: order limit, algebraic variables out of the error test, weights from nominal values."""
         tolerance = self.settings.tolerance
         return {
@@ -78,7 +79,7 @@ class Integrator:
             "max_multistep_order": self.settings.max_order,
             "suppress_algebraic": True,
             "calc_ic": False,
-            "linear_solver": "csparse",
+            "linear_solver": solver,
             "max_num_steps": max_steps,
             "disable_internal_warnings": True,
             "quad_err_con": False,
@@ -93,13 +94,13 @@ class Integrator:
         Failure
             If the integrator gives up; the trace holds what was reached.
         """
-        if self._call(times, x, z, modes, FIRST_TRY):
+        if self._call(times, x, z, modes, self.options(FIRST_TRY)):
             return self._last()
         n = len(times) - 1
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
-            if not self._call(part, x, z, modes, 10**8):
+            if not self._call(part, x, z, modes, self.options(10**8, "qr")):
                 self._creep(part, x, z, modes)
             x, z = self._last()
             self._report(part[-1])
@@ -108,31 +109,29 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, 10**6):
+            if not self._call(times[k : k + 2], x, z, modes, self.options(10**6, "qr")):
                 raise Failure(float(times[k]))
             x, z = self._last()
 
-    def _call(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, max_steps: int) -> bool:
+    def _call(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, options: dict[str, Any]) -> bool:
         c, trace = self.compiled, self.trace
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
-        call = c.integrator(grid, self.options(max_steps), self.settings.energy)
+        call = c.integrator(grid, options, self.settings.energy)
         names = call.function.name_in()
         given = {"x0": x, "z0": z, "p": np.concatenate([[times[0], span], self.hoisted, modes])}
         for k, name in enumerate(names):
             if name in given:
                 call.inputs[k][:] = given[name]
-        import time as clock
-
         started = clock.perf_counter()
-        call.evaluate()
+        done = call.succeeds()
         trace.seconds += clock.perf_counter() - started
         stats = call.stats
         trace.calls += 1
         trace.steps += stats.get("nsteps", 0)
         trace.factorisations += stats.get("nlinsetups", 0)
         trace.residual_evaluations += stats.get("nfevals", 0)
-        if call.failed:
+        if not done:
             return False
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n = len(grid)

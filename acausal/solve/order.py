@@ -14,7 +14,8 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigs, splu
 from acausal.compiler import CompiledModel
 
 FAST = 30.0
-DENSE = 24
+DENSE = 64
+SLOW = 6
 WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
 
 
@@ -34,9 +35,9 @@ def eigenvalues_of(
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
     start = np.cos(np.arange(nx))
-    settings = {"which": "LM", "v0": start, "tol": 0.1, "return_eigenvectors": False, "ncv": 10}
+    settings = {"which": "LM", "v0": start, "tol": 1e-2, "return_eigenvectors": False, "ncv": 20}
     try:
-        fast = eigs(LinearOperator((nx, nx), rate), k=2, **settings)  # type: ignore[arg-type]
+        fast = eigs(LinearOperator((nx, nx), rate), k=SLOW, **settings)  # type: ignore[arg-type]
         shift = 1e-3 * abs(fast[0]) / nx
         diagonal = identity(nx + nz, format="csc").multiply(np.r_[np.ones(nx), np.zeros(nz)][:, None])
         outer = splu((J - shift * diagonal).tocsc()).solve
@@ -44,7 +45,7 @@ def eigenvalues_of(
         def inverse(v: np.ndarray) -> np.ndarray:
             return outer(np.r_[v, np.zeros(nz)])[:nx]
 
-        slow = shift + 1 / eigs(LinearOperator((nx, nx), inverse), k=2, **settings)  # type: ignore[arg-type]
+        slow = shift + 1 / eigs(LinearOperator((nx, nx), inverse), k=SLOW, **settings)  # type: ignore[arg-type]
     except (ArpackError, RuntimeError):
         return np.zeros(0)
     return np.concatenate([slow, fast])
@@ -68,9 +69,10 @@ def order_limit(values: np.ndarray, duration: float) -> int:
         Length of the run in s.
     """
     size = np.abs(values)
-    moving = size[size > 0.1 / duration]
-    if not moving.size:
-        return 5
-    fast = values[(size > FAST * moving.min()) & (values.imag != 0) & (size * duration > FAST)]
+    slow = np.sort(size)[:SLOW]
+    moving = slow[slow > 0.1 / duration]
+    # Where all slow ones rest, the motion is at least one turn of the run.
+    motion = moving.min() if moving.size else 2 * np.pi / duration
+    fast = values[(size > FAST * motion) & (values.imag != 0) & (size * duration > FAST)]
     angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
     return next((order for order, wedge in WEDGE.items() if angle < wedge), 2)

@@ -1,0 +1,52 @@
+"""BodyCylinder: a rigid body with the shape of a cylinder or a pipe."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import DeclarationError, Matrix33, Scalar, Vector3, dot, parameter, sqrt
+from components.orientation import outer_product
+from components.two_frame_body import TwoFrameBody
+
+
+class BodyCylinder(TwoFrameBody):
+    """Cylinder with its axis along r; mass, centre of mass and inertia follow from size and density.
+
+    Parameters
+    ----------
+    r : array of 3 floats
+        From frame_a to frame_b along the axis, resolved in frame_a, in m; its entries that are 0 are structural.
+    diameter, inner_diameter : float
+        Outer diameter in m, and inner diameter of a pipe.
+    density : float
+        Density in kg/m3.
+    m, r_CM, I
+        Mass in kg, centre of mass from frame_a in m and inertia tensor about it in kg.m2, both resolved in frame_a;
+        given instead of the values of the cylinder.
+    """
+
+    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
+    diameter: Scalar = parameter("outer diameter", unit="m", positive=True)
+    inner_diameter: Scalar = parameter("inner diameter", unit="m", default=0, minimum=0)
+    density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
+    m: Scalar = parameter("mass", unit="kg", default=lambda s: s.cylinder_mass(), minimum=0)
+    r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
+    I: Matrix33 = parameter(
+        "inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.cylinder_inertia()
+    )
+
+    def cylinder_mass(self) -> Any:
+        """Mass in kg."""
+        if all(entry.sx.is_zero() for entry in self.r):
+            raise DeclarationError(f"`r` of {self._path} (BodyCylinder) has length 0; give its axis, r=(1, 0, 0).")
+        section = np.pi / 4 * (self.diameter**2 - self.inner_diameter**2)
+        return self.density * section * sqrt(dot(self.r, self.r))
+
+    def cylinder_inertia(self) -> Any:
+        """Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2."""
+        squares, l2 = (self.diameter**2 + self.inner_diameter**2) / 4, dot(self.r, self.r)
+        along = outer_product(self.r, self.r) / l2
+        lengthwise, crosswise = self.m * squares / 2, self.m * (3 * squares + l2) / 12
+        return lengthwise * along + crosswise * (np.eye(3) - along)

@@ -1,0 +1,26 @@
+"""Damper: a linear damper between two frames."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.line_force import LineForce
+
+
+class Damper(LineForce):
+    """Linear damper along the line from frame_a to frame_b.
+
+    Parameters
+    ----------
+    d : float
+        Damping constant in N.s/m.
+    """
+
+    d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
+
+    def law(self):
+        """Force in proportion to the speed."""
+        yield self.f == self.d * self.v
+
+    def dissipated_power(self):
+        """Power of the force."""
+        return self.d * self.v**2

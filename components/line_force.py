@@ -1,0 +1,45 @@
+"""LineForce: base of springs and dampers between the origins of two frames."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import Scalar, dot, parameter, piecewise, sqrt, variable
+from components.frame import TwoFrames
+from components.orientation import resolve1, resolve2
+
+
+class LineForce(TwoFrames):
+    """Base of forces along the line from frame_a to frame_b; a subclass states what f is.
+
+    Parameters
+    ----------
+    s_small : float
+        Least length in m that the direction of the line is divided by.
+
+    Notes
+    -----
+    No branch: the component relates no orientations, each end must be held by something else.
+    """
+
+    s_small: Scalar = parameter("least length that is divided by", unit="m", default=1e-10, positive=True)
+    s: Scalar = variable("length of the line", unit="m")
+    v: Scalar = variable("der(s)", unit="m/s")
+    f: Scalar = variable("force along the line, positive if it pulls the ends together", unit="N")
+
+    def equations(self):
+        a, b = self.frame_a, self.frame_b
+        r_rel_0 = b.r_0 - a.r_0
+        square, least = dot(r_rel_0, r_rel_0), self.s_small**2
+        yield self.s == sqrt(piecewise((square, square > least), least, smooth=True))
+        e_0 = r_rel_0 / self.s
+        yield self.v == dot(e_0, resolve1(b.R, b.v) - resolve1(a.R, a.v))
+        yield from self.law()
+        yield a.f == -resolve2(a.R, e_0 * self.f)
+        yield b.f == resolve2(b.R, e_0 * self.f)
+        yield a.t == (0, 0, 0)
+        yield b.t == (0, 0, 0)
+
+    def law(self) -> Any:
+        """Yield the equation of f."""
+        raise NotImplementedError

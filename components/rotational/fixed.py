@@ -1,0 +1,23 @@
+"""Fixed: a shaft end that is held."""
+
+from __future__ import annotations
+
+from acausal import Component, Scalar, parameter, port
+from components.flange import Flange
+
+
+class Fixed(Component):
+    """Shaft end that is held at a constant angle.
+
+    Parameters
+    ----------
+    phi0 : float
+        Angle in rad.
+    """
+
+    ends = ("flange", "flange")
+    phi0: Scalar = parameter("angle of the flange", unit="rad", default=0)
+    flange: Flange = port(Flange, "the held shaft end")
+
+    def equations(self):
+        yield self.flange.phi == self.phi0

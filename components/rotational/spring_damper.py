@@ -1,0 +1,34 @@
+"""SpringDamper: a torsional spring and a damper side by side."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.rotational.compliant import Compliant
+
+
+class SpringDamper(Compliant):
+    """Linear torsional spring and linear torsional damper.
+
+    Parameters
+    ----------
+    c, d : float
+        Spring constant in N.m/rad, damping constant in N.m.s/rad.
+    phi_rel0 : float
+        Relative angle in rad at which the spring bears no torque.
+    """
+
+    c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
+    d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
+    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0)
+
+    def law(self):
+        """Hooke's law, and a torque in proportion to the speed."""
+        yield self.tau == self.c * (self.phi_rel - self.phi_rel0) + self.d * self.w_rel
+
+    def stored_energy(self):
+        """Elastic energy."""
+        return self.c * (self.phi_rel - self.phi_rel0) ** 2 / 2
+
+    def dissipated_power(self):
+        """Power of the damper."""
+        return self.d * self.w_rel**2

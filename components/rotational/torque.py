@@ -1,0 +1,22 @@
+"""Torque: a drive that prescribes the torque."""
+
+from __future__ import annotations
+
+from acausal import Scalar, input
+from components.rotational.one_flange import OneFlange
+
+
+class Torque(OneFlange):
+    """Drive whose torque acts on the shaft.
+
+    Parameters
+    ----------
+    tau : float or expression of time
+        Torque in N.m, accelerating the shaft where it is positive.
+    """
+
+    tau: Scalar = input("accelerating torque on the shaft", unit="N.m")
+
+    def equations(self):
+        yield from super().equations()
+        yield self.flange.tau == -self.tau

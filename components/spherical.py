@@ -1,0 +1,55 @@
+"""Spherical joint."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import PREFER, Vector3, branch, der, structural, variable
+from components.frame import TwoFrames, move
+from components.orientation import (
+    RelativeOrientation,
+    axes_rotations,
+    from_quaternion,
+    quaternion_equations,
+    quaternion_of,
+    resolve1,
+)
+
+
+class Spherical(TwoFrames):
+    """Spherical joint: the origins coincide, frame_b turns freely relative to frame_a.
+
+    Parameters
+    ----------
+    angles_start, sequence_start, angles_fixed
+        Orientation of frame_b relative to frame_a at the start: angles in rad about the axes of the sequence.
+
+    Notes
+    -----
+    The states are a quaternion, which has no singular position, and w_rel.
+    """
+
+    angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
+    angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    Q: Any = variable("quaternion from frame_a to frame_b", shape=(4,), start=(0, 0, 0, 1), select=PREFER)
+    w_rel: Vector3 = variable("angular velocity from frame_a, resolved in frame_b", unit="rad/s", select=PREFER)
+    z_rel: Vector3 = variable("der(w_rel)", unit="rad/s2")
+    w_rel_a: Vector3 = variable("angular velocity of frame_b from frame_a, resolved in frame_a", unit="rad/s")
+
+    def connections(self):
+        yield branch(self.frame_a, self.frame_b)
+
+    def equations(self):
+        R = RelativeOrientation(from_quaternion(self.Q).T, self.w_rel)
+        yield from quaternion_equations(self.Q, self.w_rel)
+        yield self.z_rel == der(self.w_rel)
+        yield self.w_rel_a == resolve1(R, self.w_rel)
+        yield from move(self.frame_a, self.frame_b, (0, 0, 0), R)
+        yield self.frame_a.f == -resolve1(R, self.frame_b.f)
+        yield self.frame_a.t == (0, 0, 0)
+        yield self.frame_b.t == (0, 0, 0)
+
+    def initial_equations(self):
+        if self.angles_fixed:
+            yield self.Q == quaternion_of(axes_rotations(self.sequence_start, self.angles_start))

@@ -1,0 +1,29 @@
+"""Spring: a linear spring between two frames."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.line_force import LineForce
+
+
+class Spring(LineForce):
+    """Linear spring along the line from frame_a to frame_b.
+
+    Parameters
+    ----------
+    c : float
+        Spring constant in N/m.
+    s_unstretched : float
+        Length in m at which it bears no force.
+    """
+
+    c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
+    s_unstretched: Scalar = parameter("unstretched length", unit="m", default=0, minimum=0)
+
+    def law(self):
+        """Hooke's law."""
+        yield self.f == self.c * (self.s - self.s_unstretched)
+
+    def stored_energy(self):
+        """Elastic energy."""
+        return self.c * (self.s - self.s_unstretched) ** 2 / 2

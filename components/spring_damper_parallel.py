@@ -1,0 +1,34 @@
+"""SpringDamperParallel: a spring and a damper side by side between two frames."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.line_force import LineForce
+
+
+class SpringDamperParallel(LineForce):
+    """Linear spring and linear damper along the line from frame_a to frame_b.
+
+    Parameters
+    ----------
+    c, d : float
+        Spring constant in N/m, damping constant in N.s/m.
+    s_unstretched : float
+        Length in m at which the spring bears no force.
+    """
+
+    c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
+    d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
+    s_unstretched: Scalar = parameter("unstretched length", unit="m", default=0, minimum=0)
+
+    def law(self):
+        """Hooke's law, and a force in proportion to the speed."""
+        yield self.f == self.c * (self.s - self.s_unstretched) + self.d * self.v
+
+    def stored_energy(self):
+        """Elastic energy."""
+        return self.c * (self.s - self.s_unstretched) ** 2 / 2
+
+    def dissipated_power(self):
+        """Power of the damper."""
+        return self.d * self.v**2
