@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 from acausal import Scalar, observed, parameter, sqrt, structural
 from components.frame import TwoFrames
 from components.orientation import resolve2
@@ -27,7 +29,7 @@ class Beam(TwoFrames):
         At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing.
     nominal_rate : float
         Nominal value of der(q) over that of q in 1/s: the error test follows displacements rather than the velocities
-        of ringing at high frequency. Default: slowest vibration of the beam hinged at one end.
+        of ringing at high frequency. Default: slowest vibration of the beam hinged at both ends.
     """
 
     length: Scalar = parameter("length", unit="m", positive=True)
@@ -49,7 +51,7 @@ class Beam(TwoFrames):
     nominal_rate: Scalar = parameter(
         "typical rate of vibration",
         unit="1/s",
-        default=lambda s: 15.418 * sqrt(s.E * s.J / (s.rho * s.A)) / s.length**2,
+        default=lambda s: pi**2 * sqrt(s.E * s.J / (s.rho * s.A)) / s.length**2,
         positive=True,
     )
 

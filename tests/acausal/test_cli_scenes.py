@@ -1,0 +1,98 @@
+"""The command line on the scenes of models/."""
+
+import json
+
+import pandas as pd
+import pytest
+from typer.testing import CliRunner
+
+from acausal.cli import app
+
+OUTPUTS = {
+    "spin-up": ["angle", "tip_deflection", "tip_extension"],
+    "simple-pendulum": ["x", "y"],
+    "pendulum": ["swing_angle", "tip_deflection", "tip_x", "tip_y", "mid_deflection"],
+    "free-vibration": ["tip_deflection"],
+}
+STOP_TIMES = {"spin-up": 20, "simple-pendulum": 10, "pendulum": 1, "free-vibration": 1}
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(a) for a in arguments])
+
+
+def test_list_has_a_line_for_each_scene():
+    done = run("list")
+    assert done.exit_code == 0
+    named = {line.split()[0]: line.split(maxsplit=1)[1] for line in done.stdout.splitlines()}
+    assert set(OUTPUTS) <= set(named)
+    assert all(named.values())
+
+
+@pytest.mark.parametrize("scene", OUTPUTS)
+def test_columns_and_rows(scene, tmp_path):
+    path = tmp_path / "a.csv"
+    short = ("--tolerance", 1e-4, "--stop-time", 0.02) if scene in ("pendulum", "free-vibration") else ()
+    done = run("simulate", scene, "--csv", path, "--intervals", 20, "--quiet", *short)
+    assert (done.exit_code, done.output) == (0, "")
+    table = pd.read_csv(path)
+    assert list(table) == ["time", *OUTPUTS[scene]]
+    assert len(table) == 21
+    assert table["time"].iloc[-1] == (0.02 if short else STOP_TIMES[scene])
+    assert not table.isna().any(axis=None)
+
+
+def test_spin_up_reaches_its_angle(tmp_path):
+    path = tmp_path / "a.csv"
+    assert run("simulate", "spin-up", "--set", "omega=3", "--csv", path, "--quiet").exit_code == 0
+    assert pd.read_csv(path)["angle"].iloc[-1] == pytest.approx(3 * (20 - 7.5))
+
+
+def test_spin_up_inside_variables(tmp_path):
+    path = tmp_path / "a.csv"
+    assert run("simulate", "spin-up", "--csv", path, "--quiet", "--variables", "beam.frame_b.r_0").exit_code == 0
+    table = pd.read_csv(path)
+    assert list(table)[4:] == [f"beam.frame_b.r_0[{k}]" for k in range(3)]
+    assert table["beam.frame_b.r_0[0]"].iloc[0] == pytest.approx(8)
+
+
+@pytest.mark.parametrize("scene", ["spin-up", "simple-pendulum", "free-vibration"])
+def test_check_and_linearize(scene):
+    checked = run("check", scene, "--json", "-")
+    states = json.loads(checked.stdout)["states"]
+    linear = json.loads(run("linearize", scene, "--json", "-").stdout)
+    assert linear["states"] == states
+    assert len(linear["eigenvalues"]) == len(states)
+    assert all(len(pair) == 2 for pair in linear["eigenvalues"])
+    assert linear["frequencies_hz"] == sorted(linear["frequencies_hz"])
+
+
+def test_json_of_spin_up_holds_the_energies():
+    done = run("simulate", "spin-up", "--json", "-", "--quiet")
+    assert done.stderr == ""
+    document = json.loads(done.stdout)
+    assert document["scene"] == "spin-up"
+    assert document["steps"] > 0
+    assert document["energy_supplied"] > 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["spinup"], "there is no scene `spinup`; did you mean `spin-up`? Scenes: free-vibration, "),
+        (["spin-up", "--set", "omgea=4"], "there is no `omgea` in the model; did you mean `omega`"),
+        (["spin-up", "--set", "formulation=fme"], "`formulation` of SpinUp is 'fme'; it must be one of "),
+        (["spin-up", "--set", "volumes=0"], "`volumes` of SpinUp is 0; it must be a number of at least 1."),
+        (["spin-up", "--set", "volumes=2.5"], "`volumes` of SpinUp is 2.5; it must be a whole number."),
+        (["spin-up", "--set", "omega=fast"], "`omega` of SpinUp is 'fast'; it must be a number."),
+        (
+            ["spin-up", "--variables", "beam.frame_b.r0"],
+            "there is no `beam.frame_b.r0` in the model; did you mean `beam.frame_b.r_0`",
+        ),
+    ],
+)
+def test_wrong_input(arguments, message):
+    done = run("simulate", *arguments)
+    assert done.exit_code == 2
+    assert done.stderr.startswith(f"Error: {message}")
+    assert done.stderr.count("\n") == 1
