@@ -14,6 +14,8 @@ import numpy as np
 
 from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, sin, variable
 
+FEEDBACK = 1.0  # in 1/s
+
 
 @dataclass(frozen=True)
 class RelativeOrientation:
@@ -107,11 +109,11 @@ def quaternion_rate(Q: Any, w: Any) -> tuple[Expr, Expr]:
 
 
 def quaternion_equations(Q: Any, w: Any) -> Iterator[Any]:
-    """Equations of a quaternion as state; the feedback keeps its norm at 1 (Baumgarte, rate 2/s)."""
+    """Equations of a quaternion as state; the feedback keeps its norm at 1 (Baumgarte)."""
     e, s = quaternion_rate(Q, w)
-    defect = 1 - Q @ Q
-    yield der(Q[:3]) == e + defect * Q[:3]
-    yield der(Q[3]) == s + defect * Q[3]
+    feedback = FEEDBACK * (1 - Q @ Q)
+    yield der(Q[:3]) == e + feedback * Q[:3]
+    yield der(Q[3]) == s + feedback * Q[3]
 
 
 def quaternion_of(T: np.ndarray) -> np.ndarray:

@@ -113,18 +113,31 @@ class CompiledModel:
         return [r.x, r.z, r.flat.parameters, time.sx, r.modes, initial.sx]
 
     @cached_property
+    def values(self) -> Call:
+        """Function of ode, alg and conditions."""
+        return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
+
+    @cached_property
+    def _equations(self) -> ca.SX:
+        return ca.vertcat(self.reduced.ode, self.reduced.alg, self.conditions)
+
+    @cached_property
     def local(self) -> Call:
         """Function of ode, alg and conditions with their sparse Jacobian by (x, z)."""
-        column = ca.vertcat(self.reduced.ode, self.reduced.alg, self.conditions)
-        J = ca.jacobian(column, ca.vertcat(self.reduced.x, self.reduced.z))
-        return Call(ca.Function("local", self.arguments, [ca.densify(column), J]))
+        J = ca.jacobian(self._equations, ca.vertcat(self.reduced.x, self.reduced.z))
+        return Call(ca.Function("local", self.arguments, [ca.densify(self._equations), J]))
 
     def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray, flag: float) -> Local:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, modes, flag)
+        rows, starts, shape = self._pattern
+        return Local(value.copy(), sparse.csc_matrix((entries.copy(), rows, starts), shape=shape))
+
+    @cached_property
+    def _pattern(self) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
+        """Row indices, column starts and shape of the Jacobian."""
         pattern = self.local.function.sparsity_out(1)
-        matrix = sparse.csc_matrix((entries.copy(), pattern.row(), pattern.colind()), shape=pattern.shape)
-        return Local(value.copy(), matrix)
+        return np.array(pattern.row(), dtype=np.int32), np.array(pattern.colind(), dtype=np.int32), pattern.shape
 
     @cached_property
     def start(self) -> Call:
@@ -267,14 +280,14 @@ class CompiledModel:
             return
         if "limits" not in self.cache:
             column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in flat.limits])
-            self.cache["limits"] = Call(ca.Function("limits", [flat.parameters], [column]))
-        found, k = self.cache["limits"](values)[0], 0
-        for path, sx, declared in flat.limits:
-            for value in found[k : k + sx.numel()]:
-                if declared.positive and not value > 0:
-                    raise DeclarationError(f"`{path}` ({declared.description}) is {value:g}; it must be greater than 0.")
-                if declared.minimum is not None and not value >= declared.minimum:
-                    raise DeclarationError(
-                        f"`{path}` ({declared.description}) is {value:g}; it must be at least {declared.minimum:g}."
-                    )
-            k += sx.numel()
+            owners = np.repeat(np.arange(len(flat.limits)), [sx.numel() for _, sx, _ in flat.limits])
+            least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in flat.limits])[owners]
+            positive = np.array([d.positive for _, _, d in flat.limits])[owners]
+            self.cache["limits"] = Call(ca.Function("limits", [flat.parameters], [column])), owners, least, positive
+        call, owners, least, positive = self.cache["limits"]
+        found = call(values)[0]
+        wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
+        if wrong.size:
+            path, _, declared = flat.limits[owners[wrong[0]]]
+            bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
+            raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")

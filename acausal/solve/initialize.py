@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -146,36 +147,42 @@ def _newton(
     if not free.size:
         return y
     scale = compiled.nominal[free]
+    plain = _is_range(rows) and _is_range(free)
 
-    def residual(at: np.ndarray) -> tuple[np.ndarray, sparse.csc_matrix]:
-        local = compiled.at(at[:nx], at[nx:], p, time, modes, flag)
-        return local.value[rows], local.jacobian[rows][:, free]
+    def residual(at: np.ndarray) -> np.ndarray:
+        return compiled.values(at[:nx], at[nx:], p, time, modes, flag)[0][rows]
 
-    value, J = residual(y)
+    value = residual(y)
     for _ in range(ITERATIONS):
-        solve = _factor(compiled, J, system, value)
+        J = compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian
+        block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
+        solve = _factor(block, "NATURAL" if plain else "COLAMD")
         step = -solve(value)
         damping = 1.0
         while True:
             trial = y.copy()
             trial[free] += damping * step
-            value, J_trial = residual(trial)
+            value = residual(trial)
             if np.all(np.isfinite(value)):
                 simplified = solve(value)
                 if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
                     break
             damping /= 2
             if damping < 1e-6:
-                raise InitializationError(_lost(compiled, residual(y)[0], system, time))
-        y, J = trial, J_trial
+                raise InitializationError(_lost(compiled, residual(y), system, time))
+        y = trial
         if np.all(np.abs(simplified) <= 1e-11 * (scale + np.abs(y[free]))):
             return y
     raise InitializationError(_lost(compiled, value, system, time))
 
 
-def _factor(compiled: CompiledModel, J: sparse.csc_matrix, system: InitialSystem, value: np.ndarray):
+def _is_range(indices: np.ndarray) -> bool:
+    return bool(np.all(np.diff(indices) == 1))
+
+
+def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
     try:
-        return splu(J.tocsc()).solve
+        return splu(J.tocsc(), permc_spec=order).solve
     except RuntimeError:
         pass
     # Singular here: the step of least norm, if there is one, leads on.
