@@ -10,7 +10,7 @@ import acausal as ac
 from acausal.cli import app
 
 MODELS = '''"""Models of a user."""
-from acausal import Model, Scalar, as_expr, der, effect, fixed, output, parameter, part, structural, variable
+from acausal import Model, Scalar, as_expr, der, effect, fixed, output, parameter, part, sqrt, structural, time, variable
 
 
 class Oscillator(Model):
@@ -32,14 +32,14 @@ class Oscillator(Model):
         yield self.pair == (self.s, 2 * self.s)
 
 
-class Explosion(Model):
-    """Infinite at 1 s."""
+class Root(Model):
+    """Not defined after 1 s."""
 
     x: Scalar = output("position")
     y: Scalar = variable("the same", start=1.0, fixed=True)
 
     def equations(self):
-        yield der(self.y) == as_expr(self.y.sx**2)
+        yield der(self.y) == sqrt(1 - as_expr(time.sx))
         yield self.x == self.y
 
 
@@ -160,7 +160,7 @@ def test_set_changes_the_model(run, tmp_path):
 
 def test_failed_simulation_keeps_what_it_found(run, tmp_path):
     files = ("--csv", "a.csv", "--plot", "a.png", "--json", "a.json")
-    done = run("simulate", "mine.py:Explosion", "--stop-time", 2, "--intervals", 20, *files)
+    done = run("simulate", "mine.py:Root", "--stop-time", 2, "--intervals", 20, *files)
     assert done.exit_code == 1
     assert done.stderr.startswith("Error: the simulation failed: ")
     assert "Traceback" not in done.stderr
@@ -224,7 +224,7 @@ def test_interrupt(run, monkeypatch, tmp_path):
 )
 def test_wrong_input_is_one_message(run, tmp_path, arguments, message):
     done = run("simulate", *arguments)
-    everything = ", ".join(f"mine.py:{name}" for name in ("Oscillator", "Explosion", "Open", "Typo"))
+    everything = ", ".join(f"mine.py:{name}" for name in ("Oscillator", "Root", "Open", "Typo"))
     assert done.stderr == f"Error: {message.format(all=everything, dir=tmp_path)}\n"
     assert (done.exit_code, done.stdout) == (2, "")
 
