@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any, ClassVar
+
 from acausal import Scalar, observed, parameter, sqrt, structural
 from components.frame import TwoFrames
 from components.orientation import resolve2
@@ -47,6 +49,8 @@ class Beam(TwoFrames):
     beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
     initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
     nominal_rate: Scalar = parameter("nominal value of der(q) over that of q", unit="1/s", default=1, positive=True)
+
+    middle_r_0: ClassVar[Any]
 
     @observed
     def middle_deflection(self):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from acausal import Model, Scalar, chain, connect, initial, output, parameter, part, structural
 from components import FlexibleBeam, SubstructuredBeam, World, WorldForce
 
-SECTION = {"length": 2.0, "E": 72e9, "A": 1e-4, "J": 1e-8 / 12, "rho": 2700.0}
+SECTION: dict[str, Any] = {"length": 2.0, "E": 72e9, "A": 1e-4, "J": 1e-8 / 12, "rho": 2700.0}
 
 
 class FreeVibration(Model):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Any
 
 from acausal import Model, Scalar, chain, connect, cos, output, parameter, part, piecewise, sin, structural, time
 from components import FlexibleBeam, Revolute, SubstructuredBeam, World
@@ -33,7 +34,7 @@ class SpinUp(Model):
     @part
     def beam(self):
         """The beam, substructured or of finite elements in one frame."""
-        section = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
+        section: dict[str, Any] = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
         if self.formulation == "fem":
             return FlexibleBeam(elements=self.volumes * self.elements_per_volume, **section)
         return SubstructuredBeam(volumes=self.volumes, elements_per_volume=self.elements_per_volume, **section)

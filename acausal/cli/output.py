@@ -15,6 +15,7 @@ from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
 
 FINAL_VALUES = 20
+ROUNDING = 1e-12
 Progress = Callable[[float, int], None] | None
 
 
@@ -117,8 +118,9 @@ def modes_table(eigenvalues: np.ndarray) -> str:
         if abs(value.imag) <= 1e-9 * size:
             lines.append(f"{value.real:>32.6g}")
         elif value.imag > 0:
-            pair = f"{value.real:.6g} ± {value.imag:.6g}i"
-            lines.append(f"{pair:>32}  {value.imag / (2 * np.pi):>15.6g}  {-value.real / abs(value):>13.4g}")
+            real = value.real if abs(value.real) > ROUNDING * abs(value) else 0.0
+            pair = f"{real:.6g} ± {value.imag:.6g}i"
+            lines.append(f"{pair:>32}  {value.imag / (2 * np.pi):>15.6g}  {0 - real / abs(value):>13.4g}")
     return "\n".join(lines)
 
 

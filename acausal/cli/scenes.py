@@ -61,7 +61,8 @@ def brief(error: BaseException) -> str:
     """Return kind and first line of an error."""
     if isinstance(error, AcausalError):
         return str(error)
-    return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+    text = error.msg if isinstance(error, SyntaxError) else str(error)
+    return f"{type(error).__name__}: {(text.splitlines() or [''])[0]}"
 
 
 def read_settings(texts: Iterable[str]) -> dict[str, Any]:

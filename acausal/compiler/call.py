@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import casadi as ca
 import numpy as np
 
@@ -19,7 +21,8 @@ class Call:
         self.function = function
         self.inputs = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]
         self.outputs = [np.zeros(function.nnz_out(i)) for i in range(function.n_out())]
-        self.buffer, self.evaluate = function.buffer()
+        pair: Any = function.buffer()
+        self.buffer, self.evaluate = pair
         for i, array in enumerate(self.inputs):
             self.buffer.set_arg(i, memoryview(array))
         for i, array in enumerate(self.outputs):

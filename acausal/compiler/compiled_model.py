@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 import scipy.sparse as sparse
 
+from acausal.symbols import scalars
 from acausal.compiler.call import Call
 from acausal.flatten.instantiate import unknown_name
 from acausal.errors import DeclarationError
@@ -46,7 +47,7 @@ class CompiledModel:
     reduced: ReducedModel
     seconds: dict[str, float] = field(default_factory=dict)
     integrators: dict[tuple, Call] = field(default_factory=dict)
-    cache: dict[str, Any] = field(default_factory=dict)
+    cache: dict[Any, Any] = field(default_factory=dict)
 
     @property
     def tree(self) -> Any:
@@ -154,7 +155,7 @@ class CompiledModel:
         excess = ca.vertcat(*[e for _, e in flat.switches])
         if not flat.switches:
             return Call(ca.Function("breaks", [flat.parameters], [ca.SX(0, 1)]))
-        known = {s.element_hash() for s in ca.vertcat(flat.parameters, time.sx).elements()}
+        known = {s.element_hash() for s in scalars(ca.vertcat(flat.parameters, time.sx))}
         if any(s.element_hash() not in known for s in ca.symvar(excess)):
             raise DeclarationError(
                 "the condition of a piecewise compares something other than time with parameters; "
@@ -190,7 +191,7 @@ class CompiledModel:
         r = self.reduced
         column = ca.cse(ca.substitute(ca.vertcat(r.ode, r.alg, self.powers), initial.sx, 0))
         column, symbols, values = ca.extract_parametric(column, r.flat.parameters)
-        own = {s.element_hash() for s in r.flat.parameters.elements()}
+        own = {s.element_hash() for s in scalars(r.flat.parameters)}
         bare = [s for s in ca.symvar(column) if s.element_hash() in own]
         return ca.densify(column), ca.vertcat(*symbols, *bare), ca.vertcat(*values, *bare)
 

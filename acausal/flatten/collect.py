@@ -2,34 +2,20 @@
 
 from __future__ import annotations
 
-import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from acausal.errors import AcausalError, ConnectError, DeclarationError
+from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
 from acausal.flatten.instantiate import join
+from acausal.flatten.origin import Origin, line_of, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr, equation
-
-
-@dataclass(frozen=True)
-class Origin:
-    """Where an equation comes from: path and class of the component, file and line, and what it says."""
-
-    path: str
-    kind: str
-    where: str
-    text: str = ""
-
-    def __str__(self) -> str:
-        name = f"{self.path} ({self.kind})" if self.path else self.kind
-        return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
 
 
 @dataclass
@@ -95,17 +81,18 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
 
 def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations) -> None:
     name = type(component).__name__
-    generator = generate()
+    here = Origin(component._path, name, f"{type(component).__module__}.{name}")
+    said = with_place(generate, here)
+    if not isinstance(said, Iterable) or isinstance(said, Expr):
+        raise DeclarationError(f"{here}: {generate.__name__}() returns {_shown(said)}; write `yield`, not `return`.")
+    generator = iter(said)
     while True:
-        here = Origin(component._path, name, f"{type(component).__module__}.{name}")
-        statement = with_place(lambda g=generator: next(g, None), here)
-        if statement is None:
+        statement = with_place(lambda: next(generator, _END), here)
+        if statement is _END:
             return
-        frame = getattr(generator, "gi_frame", None)
-        line = f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else here.where
-        origin = Origin(component._path, name, line)
+        origin = Origin(component._path, name, line_of(generator) or here.where)
         if not isinstance(statement, Equation):
-            raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {statement!r}.")
+            raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {_shown(statement)}.")
         residual = ca.vec(statement.lhs.sx - statement.rhs.sx)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()
@@ -116,22 +103,8 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
         found.add(statement, origin)
 
 
-def with_place(call: Callable[[], Any], origin: Origin) -> Any:
-    """Call a function of the user's model; name component and line in every error."""
-    try:
-        return call()
-    except AcausalError as error:
-        raise type(error)(f"{_place(error, origin)}: {error}") from None
-    except RecursionError:
-        raise
-    except Exception as error:
-        message = f"{_place(error, origin)}: {type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}"
-        raise DeclarationError(message) from error
+_END: Any = object()
 
 
-def _place(error: BaseException, origin: Origin) -> Origin:
-    """Locate the innermost line outside of this package."""
-    for frame in reversed(traceback.extract_tb(error.__traceback__)):
-        if "/acausal/language/" not in frame.filename.replace("\\", "/") and "/acausal/flatten/" not in frame.filename:
-            return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")
-    return origin
+def _shown(value: Any) -> str:
+    return "an equation" if isinstance(value, Equation) else f"{value!r}"

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.collect import Origin
+from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 
 
@@ -80,5 +80,6 @@ class FlatModel:
     bound: Mapping[str, str]
     structural_zeros: tuple[str, ...]
     redundant: tuple[Origin, ...]
+    unconnected: tuple[str, ...]
     tree: Component
     counts: Mapping[str, int]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,11 +10,12 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.collect import Equations, Origin, collect, collect_initial, with_place
+from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel, Initial
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.origin import Origin, with_place
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
 from acausal.flatten.tape import Tape
 from acausal.flatten.variables import VariableArray, create_variables
@@ -59,7 +60,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         Where the model is wrong, with component and line.
     """
     raw = _collect(model, overrides)
-    variables = ca.vertcat(*[ca.vec(a.expr.sx) for a in raw.arrays])
+    variables = column([ca.vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(variables.elements())}
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
@@ -101,6 +102,11 @@ def _collect(model: Component, overrides: Mapping[str, Any] | None) -> _Raw:
     return _Raw(build, graph, arrays, equations, starts, declared, energies, pending)
 
 
+def column(entries: Iterable[Any]) -> ca.SX:
+    """Stack columns; of nothing an empty column of symbols, where CasADi gives numbers."""
+    return ca.vertcat(ca.SX(0, 1), *entries)
+
+
 def _power(component: Component, name: str) -> Expr:
     origin = Origin(component._path, type(component).__name__, f"{name}()")
     value = as_expr(with_place(getattr(component, name), origin))
@@ -140,14 +146,14 @@ class _Assembly:
     def __init__(self, raw: _Raw, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
         self.size = chain.levels[0].numel()
-        residuals = ca.vertcat(*raw.equations.residuals)
+        residuals = column(raw.equations.residuals)
         self.residuals, starts, energies = resolved(
-            [residuals, ca.vertcat(*raw.initial.residuals), ca.vertcat(*raw.energies.values())]
+            [residuals, column(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
         self.symbols = ca.vertcat(*chain.levels)
-        self.parameters = ca.vertcat(*raw.build.parameters.symbols)
-        self.modes = ca.vertcat(*[mode for mode, _ in raw.pending.switches])
+        self.parameters = column(raw.build.parameters.symbols)
+        self.modes = column([mode for mode, _ in raw.pending.switches])
         self.origins = raw.equations.scalar_origins()
 
     def flat_model(self) -> FlatModel:
@@ -165,8 +171,8 @@ class _Assembly:
             for c0, terms in values
         ]
         removed = [k for k in done.solved]
-        was = ca.vertcat(*[elements[k] for k in removed])
-        becomes = ca.vertcat(*[final[k] for k in removed])
+        was = column([elements[k] for k in removed])
+        becomes = column([final[k] for k in removed])
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in set(done.redundant)]
         residuals = ca.substitute([self.residuals], [was], [becomes])[0]
         return self._build(done, rows, residuals, (was, becomes), present)
@@ -184,14 +190,14 @@ class _Assembly:
         place = {k: n for n, k in enumerate(unknowns)}
         defines = self._defines(place)
         declared_at = [k for k in self.declared if k in place]
-        declared = ca.substitute([ca.vertcat(*[self.declared[k] for k in declared_at])], [was], [becomes])[0]
+        declared = ca.substitute([column([self.declared[k] for k in declared_at])], [was], [becomes])[0]
         attributes = self._attributes(done, unknowns, place)
         names = [name for array in raw.arrays for name in array.names]
         for _ in self.chain.levels[1:]:
             names.extend(f"der({n})" for n in names[-self.size :])
         return FlatModel(
-            unknowns=ca.vertcat(*[self.symbols[k] for k in unknowns]),
-            residuals=ca.vertcat(*[entries[r] for r in rows]),
+            unknowns=column([self.symbols[k] for k in unknowns]),
+            residuals=column([entries[r] for r in rows]),
             names=tuple(names[k] for k in unknowns),
             derivative=tuple(place.get(done.derivative[k], -1) for k in unknowns),
             declared={place[k]: e for k, e in zip(declared_at, declared.elements(), strict=True)} if declared_at else {},
@@ -208,6 +214,7 @@ class _Assembly:
             bound=build.parameters.bound,
             structural_zeros=tuple(build.parameters.structural_zeros),
             redundant=tuple(self.origins[r] for r in done.redundant),
+            unconnected=raw.graph.unconnected,
             tree=build.root,
             counts={
                 "equations_flat": len(self.origins),
@@ -253,7 +260,7 @@ class _Assembly:
         arrays = self.raw.arrays
         start = [s for a in arrays for s in ca.vec(ca.densify(a.start.sx)).elements()]
         guessed = [a.guessed or a.fixed for a in arrays for _ in range(a.expr.sx.numel())]
-        nominal = self._numbers(ca.vertcat(*[ca.vec(a.nominal.sx) for a in arrays]))
+        nominal = self._numbers(column([ca.vec(a.nominal.sx) for a in arrays]))
         select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
         extra = self.symbols.numel() - self.size
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
@@ -270,7 +277,7 @@ class _Assembly:
             if nominal[other] == 1 and nominal[k] != 1:
                 nominal[other] = nominal[k] / abs(c)
         return {
-            "start": ca.vertcat(*[start[k] for k in unknowns]),
+            "start": column([start[k] for k in unknowns]),
             "guessed": np.array([guessed[k] for k in unknowns], dtype=bool),
             "nominal": nominal[unknowns],
             "preference": tuple(select[k] for k in unknowns),
@@ -291,10 +298,10 @@ class _Assembly:
             for name, entry in zip(a.names, ca.vec(ca.densify(a.start.sx)).elements(), strict=True)
         ]
         texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
-        column = ca.substitute([ca.vertcat(*[ca.densify(r) for r in residuals])], [was], [becomes])[0]
+        entries = ca.substitute([column([ca.densify(r) for r in residuals])], [was], [becomes])[0]
         if not texts:
             return ()
-        return tuple(Initial(r, text, o) for r, (text, o) in zip(column.elements(), texts, strict=True))
+        return tuple(Initial(r, text, o) for r, (text, o) in zip(entries.elements(), texts, strict=True))
 
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:

@@ -10,6 +10,7 @@ from typing import Any
 from networkx.utils import UnionFind
 
 from acausal.errors import ConnectError
+from acausal.flatten.origin import Origin, line_of, with_place
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 
@@ -30,78 +31,91 @@ class Graph:
         Connections that keep the residual of an over-determined record.
     roots : list of Connector
         Potential roots that were chosen.
+    unconnected : tuple of str
+        Ports of parts that nothing is connected to.
     """
 
     same: list[tuple[Connector, ...]]
     balances: list[tuple[tuple[Connector, int], ...]]
     cuts: list[Connect]
     roots: list[Connector]
+    unconnected: tuple[str, ...]
 
 
 def build_graph(components: list[Component]) -> Graph:
     """Collect the statements of all connections() and derive sets, spanning tree, cuts and roots."""
-    connects: list[tuple[Component, Connect]] = []
+    connects: list[tuple[Component, Connect, str]] = []
     branches: list[Branch] = []
     roots: list[Root] = []
     for component in components:
-        for statement in _statements(component):
+        for statement, where in _statements(component):
             if isinstance(statement, Connect):
-                connects.append((component, statement))
+                connects.append((component, statement, where))
             elif isinstance(statement, Branch):
                 branches.append(statement)
             elif isinstance(statement, Root):
                 roots.append(statement)
             else:
                 raise ConnectError(
-                    f"connections() of {component!r} yields {statement!r}; yield connect(...), chain(...), branch(...), "
-                    "root(...) or potential_root(...)."
+                    f"{Origin(component._path, type(component).__name__, where)}: connections() yields {statement!r}; "
+                    "yield connect(...), chain(...), branch(...), root(...) or potential_root(...)."
                 )
     _refuse_doubles(connects)
     connectors = [c for c in components if isinstance(c, Connector)]
-    cuts, chosen = _spanning_tree(connectors, [c for _, c in connects], branches, roots)
+    cuts, chosen = _spanning_tree(connectors, [c for _, c, _ in connects], branches, roots)
     cut_ids = {id(c) for c in cuts}
     same = UnionFind(connectors)
-    for _, statement in connects:
+    for _, statement, _ in connects:
         if id(statement) not in cut_ids:
             same.union(statement.a, statement.b)
     order = {id(c): k for k, c in enumerate(connectors)}
     groups = [tuple(sorted(group, key=lambda c: order[id(c)])) for group in same.to_sets()]
     groups.sort(key=lambda group: order[id(group[0])])
-    return Graph(groups, _balances(connectors, connects, order), cuts, chosen)
+    joined = {id(port) for _, statement, _ in connects for port in (statement.a, statement.b)}
+    alone = tuple(c._path for c in connectors if id(c) not in joined and c._owner is not None)
+    return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone)
 
 
-def _statements(component: Component) -> Iterator[Any]:
-    stack = [iter(component.connections())]
+def _statements(component: Component) -> Iterator[tuple[Any, str]]:
+    """Yield each statement with the line that it comes from."""
+    here = Origin.of(component)
+    said = with_place(component.connections, here)
+    stack = [iter(said if isinstance(said, Iterable) else (said,))]
     while stack:
-        for item in stack[-1]:
-            if isinstance(item, Iterable):
-                stack.append(iter(item))
-                break
-            yield item
-        else:
+        item = with_place(lambda: next(stack[-1], _END), here)
+        if item is _END:
             stack.pop()
+        elif isinstance(item, Iterable):
+            stack.append(iter(item))
+        else:
+            yield item, line_of(stack[0]) or here.where
 
 
-def _refuse_doubles(connects: list[tuple[Component, Connect]]) -> None:
-    seen = set()
-    for component, statement in connects:
+_END: Any = object()
+
+
+def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
+    seen: dict[frozenset[int], str] = {}
+    for component, statement, where in connects:
         pair = frozenset((id(statement.a), id(statement.b)))
         if pair in seen:
+            origin = Origin(component._path, type(component).__name__, where)
             raise ConnectError(
-                f"{statement.a._path} and {statement.b._path} are connected twice in {component!r}. Remove one connect()."
+                f"{origin}: {statement.a._path} and {statement.b._path} are connected twice, first in {seen[pair]}. "
+                "Remove one of the two."
             )
-        seen.add(pair)
+        seen[pair] = where
 
 
 def _balances(
-    connectors: list[Connector], connects: list[tuple[Component, Connect]], order: dict[int, int]
+    connectors: list[Connector], connects: list[tuple[Component, Connect, str]], order: dict[int, int]
 ) -> list[tuple[tuple[Connector, int], ...]]:
     """Flow balance of every connection set; an outside connector counts negatively, an unconnected one is a set alone.
 
     Modelica specification, 9.2.
     """
     faces: UnionFind = UnionFind((c, False) for c in connectors)
-    for component, statement in connects:
+    for component, statement, _ in connects:
         a, b = ((port, port._owner is component) for port in (statement.a, statement.b))
         faces.union(a, b)
     sets = [sorted(s, key=lambda face: order[id(face[0])]) for s in faces.to_sets()]
@@ -169,7 +183,16 @@ def _spanning_tree(
     lost = [n for n in nodes if id(n) not in reached]
     if lost:
         raise ConnectError(
-            f"{lost[0]!r} has no connection to a root such as the World, nor to a body that could move freely. "
-            f"Connect it (with {len(lost) - 1} others: {', '.join(n._path for n in lost[1:6])}), or remove the part."
+            f"{_owner_of(lost[0])}: {lost[0]._path} has no connection to a root such as the World, nor to a body that "
+            f"could move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
     return [c for c in connects if id(c.a) in links and id(c) not in tree], chosen
+
+
+def _owner_of(connector: Connector) -> Origin:
+    return Origin.of(connector if connector._owner is None else connector._owner)
+
+
+def _also(others: list[Connector]) -> str:
+    more = ", ..." if len(others) > 5 else ""
+    return f" (nor have {', '.join(c._path for c in others[:5])}{more})" if others else ""

@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError, UnitsError
+from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Record
 from acausal.language.expression import Expr, as_expr
@@ -53,7 +54,8 @@ class Instantiation:
         for component in self.components:
             self._resolve_outers(component)
         if self.overrides:
-            raise DeclarationError(unknown_name(next(iter(self.overrides)), self.settable()))
+            name = next(iter(self.overrides))
+            raise DeclarationError(not_settable(name, self.root, self.settable()))
 
     def settable(self) -> list[str]:
         """Paths of all structural parameters and parameters."""
@@ -70,7 +72,10 @@ class Instantiation:
         bound._is_bound = True
         bound._path = path
         bound._origin = template._origin
-        bound._values = {name: f.evaluate(value, owner) for name, value in template._values.items()}
+        here = Origin(path, cls.__name__, template._origin)
+        bound._values = {
+            name: with_place(lambda v=value: f.evaluate(v, owner), here) for name, value in template._values.items()
+        }
         self.components.append(bound)
         by_kind = sorted(cls.fields.items(), key=lambda item: _ORDER[type(item[1])])
         parts: list[tuple[str, f.Part]] = []
@@ -83,7 +88,7 @@ class Instantiation:
                 parts.append((name, declared))
             elif owner is None and isinstance(declared, f.Variable) and declared.causality == "input":
                 self._top_input(bound, name, declared)
-        bound.check()
+        with_place(bound.check, here)
         for name, declared in parts:
             self._part(bound, name, declared)
         bound._ports = tuple(
@@ -96,7 +101,7 @@ class Instantiation:
         if value is f.MISSING:
             value = bound._values.get(name, f.MISSING)
         if value is f.MISSING:
-            value = declared.default(bound) if callable(declared.default) else declared.default
+            value = self._default(bound, declared)
         if value is f.MISSING:
             raise DeclarationError(
                 f"{_owner_text(bound)} needs a value for `{name}` ({declared.description}): "
@@ -104,10 +109,15 @@ class Instantiation:
             )
         return value
 
+    def _default(self, bound: Component, declared: f.Field) -> Any:
+        if not callable(declared.default):
+            return declared.default
+        return with_place(lambda: declared.default(bound), Origin.of(bound, f"default of {declared.name}"))
+
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         value = self._given(bound, name, declared)
         where = f"`{name}` of {_owner_text(bound)}"
-        if isinstance(value, Expr):
+        if _symbolic(value):
             raise DeclarationError(
                 f"{where} is structural: it cannot follow the parameter {value!r}, which may change after compiling. "
                 "Declare that one structural(...) as well."
@@ -137,7 +147,7 @@ class Instantiation:
                 raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
             if isinstance(given.unit, Dimension) and isinstance(unit, Dimension) and given.unit != unit:
                 raise UnitsError(f"{where} is in [{unit}], but {given!r} is in [{given.unit}].")
-            self.parameters.bound[path] = repr(given)
+            self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
             self.parameters.limits.append((path, expression.sx, declared))
@@ -147,7 +157,7 @@ class Instantiation:
         """An input at the top of the model is a parameter, whatever its value."""
         shape = declared.shape if isinstance(declared.shape, tuple) else ()
         given = self.overrides.pop(name, bound._values.pop(name, declared.start))
-        value = np.broadcast_to(np.asarray(given, dtype=float), shape)
+        value = np.broadcast_to(numeric(given, np.shape(given), f"`{name}` of {_owner_text(bound)}"), shape)
         setattr(bound, name, self._free(name, value, unit_of(declared, bound), fold=False))
 
     def _free(self, path: str, value: np.ndarray, unit: Any, fold: bool = True) -> Expr:
@@ -172,7 +182,9 @@ class Instantiation:
         made = bound._values.get(name, f.MISSING)
         if made is f.MISSING:
             make = declared.make
-            made = make if isinstance(make, Component) else make() if isinstance(make, type) else make(bound)
+            made = make if isinstance(make, Component) else make() if isinstance(make, type) else None
+            if made is None:
+                made = with_place(lambda: make(bound), Origin.of(bound, name))
         if declared.many:
             built: Any = [self._member(bound, item, f"{path}[{k}]") for k, item in enumerate(made)]
         else:
@@ -228,17 +240,17 @@ def join(path: str, name: str) -> str:
 
 
 def unit_of(declared: f.Field, owner: Component) -> Any:
-    """Return the Dimension, or tuple of them, that a field declares."""
+    """Return the Dimension, or tuple of them, that a field declares; None where it declares none."""
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit
     if unit is None or isinstance(unit, str):
-        return parse(unit or "1")
+        return None if unit is None else parse(unit)
     return tuple(parse(u) for u in unit)
 
 
 def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
     """Return the value as an array of finite numbers of the given shape, or raise DeclarationError."""
     try:
-        if isinstance(value, bool | str) or value is None:
+        if _has_no_number(value):
             raise TypeError
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
@@ -257,6 +269,22 @@ def unknown_name(name: str, known: list[str]) -> str:
     return f"there is no `{name}` in the model" + (f"; did you mean {', '.join(f'`{n}`' for n in near)}?" if near else ".")
 
 
+def not_settable(name: str, root: Component, known: list[str]) -> str:
+    """Return the message for a name that is no parameter."""
+    for component in walk(root):
+        for own, declared in component.fields.items():
+            if isinstance(declared, f.Variable) and name == join(component._path, own):
+                make = f"{type(component).__name__}({own}=fixed(...))"
+                return f"`{name}` is a variable, not a parameter; its start value is given in the model: {make}."
+    return unknown_name(name, known)
+
+
+def _has_no_number(value: Any) -> bool:
+    if isinstance(value, list | tuple):
+        return any(_has_no_number(item) for item in value)
+    return value is None or isinstance(value, bool | str)
+
+
 def _symbolic(value: Any) -> bool:
     if isinstance(value, list | tuple):
         return any(_symbolic(item) for item in value)
@@ -264,4 +292,5 @@ def _symbolic(value: Any) -> bool:
 
 
 def _owner_text(component: Component) -> str:
-    return f"{component._path} ({type(component).__name__})" if component._path else type(component).__name__
+    kind = f"{type(component).__name__}, {component._origin}"
+    return f"{component._path} ({kind})" if component._path else kind

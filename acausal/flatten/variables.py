@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import join, unit_of
+from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
@@ -79,6 +80,10 @@ def _members(connector: Component) -> list[Component]:
 
 
 def _create(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
+    return with_place(lambda: _declare(owner, name, declared, arrays), Origin.of(owner, name))
+
+
+def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
     path = join(owner._path, name)
     shape = declared.shape(owner) if callable(declared.shape) else (declared.shape or ())
     symbol = ca.SX.sym(path, *shape)
@@ -106,6 +111,8 @@ def _fill(value: Any, shape: tuple[int, ...], path: str, what: str) -> Expr:
     if callable(value):
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
     given = as_expr(value)
+    if given.sx.is_constant() and not given.sx.is_regular():
+        raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
         return Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
     if given.shape != shape:

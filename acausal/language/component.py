@@ -32,7 +32,7 @@ class Path:
 
 @dataclass_transform(
     kw_only_default=True,
-    field_specifiers=(f.structural, f.effect, f.parameter, f.variable, f.input, f.output, f.port, f.part, f.outer),
+    field_specifiers=(f.structural, f.effect, f.parameter),
 )
 class Component:
     """A part of a machine: class fields for what it has, connections() for the graph, equations() for the physics.
@@ -79,7 +79,7 @@ class Component:
         cls = type(self)
         field = cls.fields.get(name)
         if field is None:
-            near = difflib.get_close_matches(name, cls.fields, 1)
+            near = difflib.get_close_matches(name, cls.fields, 1) or _described(cls, name)
             mend = f"did you mean `{near[0]}`?" if near else f"its fields are {', '.join(cls.fields)}."
             raise DeclarationError(f"{cls.__name__} has no field `{name}`; {mend}")
         if isinstance(field, f.Part) and value is not None and not isinstance(value, Component | list | tuple):
@@ -133,6 +133,11 @@ class Component:
     def supplied_power(self) -> Any:
         """Power in W that the component brings into the model from outside."""
         return 0
+
+
+def _described(cls: type[Component], word: str) -> list[str]:
+    """Fields whose description has the word: `mass` for `m`."""
+    return [name for name, field in cls.fields.items() if word in field.description.lower().split()]
 
 
 class Connector(Component):

@@ -113,5 +113,7 @@ def _describe(item: Any) -> str:
 
 
 def _ports_of(item: Any) -> str:
+    if item is None:
+        return "A port that an option adds is there only with it, such as use_axis_flange=True."
     ports = getattr(item, "_ports", ())
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -134,6 +134,15 @@ class Expr:
         )
 
 
+    def _no_number(self) -> Any:
+        raise DeclarationError(
+            f"{self!r} is symbolic and has no value while the model is built, so it cannot be a Python number. "
+            "Use sin, sqrt, ... of acausal on it, or declare the field structural(...) if it is a size or a count."
+        )
+
+    __float__ = __int__ = __index__ = _no_number
+
+
 class Condition:
     """The relation `excess < 0` or `excess <= 0`, as used in piecewise."""
 
@@ -178,7 +187,8 @@ def as_expr(value: Any) -> Expr:
         units = [row.unit for row in rows]
         known = all(isinstance(u, Dimension) for u in units) and not matrix
         return Expr(sx, (units[0] if len(set(units)) == 1 else tuple(units)) if known else None)  # type: ignore[arg-type]
-    raise DeclarationError(f"cannot use a {type(value).__name__} ({value!r}) in an expression; give a number or a symbol")
+    shown = getattr(value, "__name__", None) or repr(value)
+    raise DeclarationError(f"cannot use a {type(value).__name__} ({shown}) in an expression; give a number or a symbol")
 
 
 def equation(lhs: Any, rhs: Any) -> Any:
@@ -197,7 +207,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
     if a.shape != b.shape:
         raise DeclarationError(
             f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
-            "Write one entry for each entry of the other side, for instance (0, 0, 0) for a vector of zeros."
+            "Both need one shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
     _same_unit(a, b, "==")
     return Equation(a, b)

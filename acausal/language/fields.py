@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from acausal.errors import DeclarationError
 from acausal.language.expression import Condition, Expr, as_expr
 
 NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
@@ -29,6 +30,24 @@ class Deferrable:
 
     def __neg__(self) -> Deferred:
         return Deferred(operator.neg, (self,))
+
+    def __bool__(self) -> bool:
+        raise DeclarationError(
+            "a field has no value in the class body, so Python cannot decide on it with `if`, `and` or `or`. "
+            "Declare it structural(...) and decide in equations() or in a method marked @part, with self.<name>."
+        )
+
+    def __lt__(self, other: Any) -> Condition:
+        return Condition(self - other, "<")  # type: ignore[operator]
+
+    def __le__(self, other: Any) -> Condition:
+        return Condition(self - other, "<=")  # type: ignore[operator]
+
+    def __gt__(self, other: Any) -> Condition:
+        return Condition(other - self, "<")
+
+    def __ge__(self, other: Any) -> Condition:
+        return Condition(other - self, "<=")
 
 
 def _binary(operate: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
@@ -218,7 +237,7 @@ def effect(description: str, *, default: Any = True, choices: Sequence[Any] = (T
 def parameter(
     description: str,
     *,
-    unit: str | Sequence[str] = "1",
+    unit: str | Sequence[str] | None = None,
     default: Any = MISSING,
     shape: Shape = None,
     minimum: float | None = None,
@@ -231,7 +250,7 @@ def parameter(
     description : str
         What it is, and in which frame it is resolved.
     unit : str or sequence of str
-        SI unit, or one for each entry.
+        SI unit, or one for each entry; none is unknown and fits every unit, "1" is a number.
     default : float, array or callable
         Value where none is given; a function of the component for one that follows other parameters.
     shape : tuple of int, optional
@@ -247,7 +266,7 @@ def parameter(
 def variable(
     description: str,
     *,
-    unit: str | Sequence[str] | Callable[[Any], Sequence[str]] = "1",
+    unit: str | Sequence[str] | Callable[[Any], Sequence[str]] | None = None,
     shape: Shape = None,
     start: Any = 0.0,
     fixed: bool = False,
@@ -262,7 +281,7 @@ def variable(
     description : str
         What it is, and in which frame it is resolved.
     unit : str or sequence of str
-        SI unit, or one for each entry.
+        SI unit, or one for each entry; none is unknown and fits every unit, "1" is a number.
     shape : tuple of int or callable, optional
         Shape where the annotation does not tell; a function of the component if it depends on structural parameters.
     start : float or array
@@ -279,17 +298,17 @@ def variable(
     return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
 
 
-def input(description: str, *, unit: str = "1", shape: Shape = None, start: Any = 0.0) -> Any:  # noqa: A001
+def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:  # noqa: A001
     """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
     return Variable(description, unit, shape, start=start, causality="input")
 
 
-def output(description: str, *, unit: str = "1", shape: Shape = None, nominal: Any = 1.0) -> Any:
+def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = 1.0) -> Any:
     """Declare an output; those of the model are the columns of its table of results."""
     return Variable(description, unit, shape, nominal=nominal, causality="output")
 
 
-def flow(description: str, *, unit: str = "1", shape: Shape = None) -> Any:
+def flow(description: str, *, unit: str | None = None, shape: Shape = None) -> Any:
     """Declare a flow variable of a connector: the flows into the components of a connection set sum to zero."""
     return Variable(description, unit, shape, flow=True)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -34,7 +35,7 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
         What else a coefficient must not depend on: time, modes.
     """
     J = ca.sparsify(ca.jacobian(residuals, unknowns))
-    entries = J.nonzeros()
+    entries: list[Any] = J.nonzeros()
     row, column = (np.array(i) for i in J.sparsity().get_triplet())
     varying = np.array(ca.which_depends(ca.vertcat(*entries), ca.vertcat(unknowns, others), 1, True), dtype=bool)
     rows: list[list[int]] = [[] for _ in range(residuals.numel())]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from acausal.symbols import scalars
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel
 from acausal.language.functions import initial, time
@@ -51,7 +52,7 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
     for k in plan.created:
         names.append(f"der({names[k]})")
     residuals, explicit = _differentiate(flat, plan, unknowns, linear)
-    elements = unknowns.elements()
+    elements = scalars(unknowns)
 
     def solved(pairs: tuple[tuple[int, int], ...]) -> tuple[ca.SX, ca.SX]:
         symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
@@ -78,13 +79,13 @@ def _differentiate(
     flat: FlatModel, plan: Plan, unknowns: ca.SX, linear: Linear
 ) -> tuple[list[ca.SX], dict[tuple[int, int], ca.SX]]:
     """Append the differentiated equations, all of one level in one call."""
-    elements = unknowns.elements()
+    elements = scalars(unknowns)
     seeds = [elements[d] if d >= 0 else ca.SX(0) for d in plan.system.derivative]
     for k, expression in flat.declared.items():
         if plan.system.derivative[k] < 0:
             seeds[k] = expression
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
-    residuals, explicit = flat.residuals.elements(), dict(linear.explicit)
+    residuals, explicit = scalars(flat.residuals), dict(linear.explicit)
     first, total = len(residuals), len(residuals) + len(plan.differentiated)
     modes = ca.vertcat(*[mode for mode, _ in flat.switches])
     while len(residuals) < total:
@@ -93,7 +94,7 @@ def _differentiate(
         ready = next((k for k, e in enumerate(sources) if e >= start), len(sources))
         level = ca.vertcat(*[residuals[e] for e in sources[:ready]])
         derivative = ca.densify(ca.jtimes(level, at, direction))
-        residuals.extend(derivative.elements())
+        residuals.extend(scalars(derivative))
         coefficients = jacobian(derivative, unknowns, ca.vertcat(time.sx, initial.sx, modes)).explicit
         explicit.update({(start + i, j): c for (i, j), c in coefficients.items()})
     return residuals, explicit
@@ -125,7 +126,7 @@ def _solve(
         symbols = ca.vertcat(*[elements[pairs[k][0]] for k in chosen])
         column = ca.vertcat(*[residuals[pairs[k][1]] for k in chosen])
         rest = ca.substitute([column], [symbols], [ca.SX.zeros(len(chosen))])[0]
-        for k, r in zip(chosen, rest.elements(), strict=True):
+        for k, r in zip(chosen, scalars(rest), strict=True):
             v, e = pairs[k]
             coefficient = explicit[e, v]
             values[k] = -r if coefficient.is_one() else r if coefficient.is_minus_one() else -r / coefficient

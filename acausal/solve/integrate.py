@@ -66,11 +66,11 @@ class Integrator:
     """
 
     def __init__(self, compiled: CompiledModel, p: np.ndarray, settings: Settings, span: tuple[float, float]) -> None:
-        self.compiled, self.settings, self.span = compiled, settings, span
+        self.compiled, self.p, self.settings, self.span = compiled, p, settings, span
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = Trace()
 
-    def options(self, max_steps: int, solver: str = "csparse") -> dict[str, Any]:
+    def options(self, max_steps: int, solver: str, moving: bool) -> dict[str, Any]:
         """Options of IDAS: order limit, algebraic variables out of the error test, weights from nominal values."""
         tolerance = self.settings.tolerance
         return {
@@ -78,7 +78,7 @@ class Integrator:
             "abstolv": (tolerance * self.compiled.nominal).tolist(),
             "max_multistep_order": self.settings.max_order,
             "suppress_algebraic": True,
-            "calc_ic": False,
+            "calc_ic": moving,
             "linear_solver": solver,
             "max_num_steps": max_steps,
             "disable_internal_warnings": True,
@@ -94,13 +94,13 @@ class Integrator:
         Failure
             If the integrator gives up; the trace holds what was reached.
         """
-        if self._call(times, x, z, modes, self.options(FIRST_TRY)):
+        if self._call(times, x, z, modes, FIRST_TRY):
             return self._last()
         n = len(times) - 1
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
-            if not self._call(part, x, z, modes, self.options(10**8, "qr")):
+            if not self._call(part, x, z, modes, 10**8, "qr"):
                 self._creep(part, x, z, modes)
             x, z = self._last()
             self._report(part[-1])
@@ -109,14 +109,29 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, self.options(10**6, "qr")):
+            if not self._call(times[k : k + 2], x, z, modes, 10**6, "qr"):
                 raise Failure(float(times[k]))
             x, z = self._last()
 
-    def _call(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, options: dict[str, Any]) -> bool:
+    def _moving(self, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray, span: float) -> bool:
+        """Tell whether IDAS must find the first derivatives of the states; it starts from 0."""
+        nx = self.compiled.nx
+        rates = self.compiled.values(x, z, self.p, time, modes, 0.0)[0][:nx]
+        return bool(np.any(np.abs(rates) * span > self.settings.tolerance * self.compiled.nominal[:nx]))
+
+    def _call(
+        self,
+        times: np.ndarray,
+        x: np.ndarray,
+        z: np.ndarray,
+        modes: np.ndarray,
+        max_steps: int,
+        solver: str = "csparse",
+    ) -> bool:
         c, trace = self.compiled, self.trace
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
+        options = self.options(max_steps, solver, self._moving(times[0], x, z, modes, span))
         call = c.integrator(grid, options, self.settings.energy)
         names = call.function.name_in()
         given = {"x0": x, "z0": z, "p": np.concatenate([[times[0], span], self.hoisted, modes])}

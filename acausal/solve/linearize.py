@@ -9,6 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from acausal.symbols import scalars
 from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
 from acausal.language import fields as f
@@ -40,25 +41,25 @@ class Linearization:
     @property
     def eigenvalues(self) -> np.ndarray:
         """Eigenvalues of A in 1/s, by size, then by imaginary part."""
-        values = np.linalg.eigvals(self.A)
-        return values[np.lexsort((values.imag, np.round(np.abs(values), 9)))]
+        values = np.asarray(np.linalg.eigvals(self.A), dtype=complex)
+        return values[np.lexsort((np.imag(values), np.round(np.abs(values), 9)))]
 
     @property
     def _oscillations(self) -> np.ndarray:
         values = self.eigenvalues
         size = np.abs(values).max(initial=0.0)
-        pairs = values[(values.imag > 0) & (values.imag > 1e-9 * size)]
-        return pairs[np.argsort(pairs.imag)]
+        pairs = values[(np.imag(values) > 0) & (np.imag(values) > 1e-9 * size)]
+        return pairs[np.argsort(np.imag(pairs))]
 
     @property
     def frequencies_hz(self) -> np.ndarray:
         """|Im lambda| / 2 pi, one for each conjugate pair, ascending, zeros left out."""
-        return self._oscillations.imag / (2 * np.pi)
+        return np.imag(self._oscillations) / (2 * np.pi)
 
     @property
     def damping_ratios(self) -> np.ndarray:
         """-Re lambda / |lambda| of the same pairs."""
-        return -self._oscillations.real / np.abs(self._oscillations)
+        return -np.real(self._oscillations) / np.abs(self._oscillations)
 
     @property
     def mode_shapes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -127,7 +128,7 @@ def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
     """Free parameters that stand for the inputs at the top of the model."""
     flat = compiled.reduced.flat
     tops = {n for n, d in compiled.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
-    symbols = flat.parameters.elements() if flat.parameters.numel() else []
+    symbols = scalars(flat.parameters) if flat.parameters.numel() else []
     return [(n, s) for n, s in zip(flat.parameter_names, symbols, strict=True) if n.split("[")[0] in tops]
 
 

@@ -8,6 +8,7 @@ the motion must lie inside of the wedge.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy.sparse import diags
@@ -59,7 +60,7 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     return np.roots([1.0, -c1, -c0]).astype(complex)
 
 
-def state_matrix(J: np.ndarray, nx: int) -> np.ndarray:
+def state_matrix(J: Any, nx: int) -> np.ndarray:
     """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
     J = J.toarray() if hasattr(J, "toarray") else np.asarray(J)
     f, g = J[:nx], J[nx:]
@@ -81,6 +82,6 @@ def order_limit(values: np.ndarray, duration: float) -> int:
     moving = slow[slow > 0.1 / duration]
     # Where all slow ones rest, the motion is at least one turn of the run.
     motion = moving.min() if moving.size else 2 * np.pi / duration
-    fast = values[(size > FAST * motion) & (values.imag != 0) & (size * duration > FAST)]
+    fast = values[(size > FAST * motion) & (np.imag(values) != 0) & (size * duration > FAST)]
     angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
     return next((order for order, wedge in WEDGE.items() if angle < wedge), 2)

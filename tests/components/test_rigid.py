@@ -139,23 +139,19 @@ def test_heavy_top(model):
     top = free_body.heavy_top(transverse, AXIAL, MASS * G * ARM, [THETA, 0, 0], SPIN, result.time)
     axis = result["body.frame_a.R.T"][:, 1, :]
     np.testing.assert_allclose(axis, free_body.top_axis(top[:, 0], top[:, 1]), atol=2e-5)
-    np.testing.assert_allclose(result["body.w_a"][:, 1], SPIN, rtol=5e-6)
+    np.testing.assert_allclose(result["body.w_a"][:, 1], SPIN, rtol=2e-5)
 
 
 class SteadyTop(HeavyTop):
     """Slow steady precession: the inclination stays."""
 
-    rate = free_body.steady_precession(
-        TRANSVERSE_CM + MASS * ARM**2, AXIAL, MASS * G * ARM, THETA, SPIN
-    )[0]
+    rate = free_body.steady_precession(TRANSVERSE_CM + MASS * ARM**2, AXIAL, MASS * G * ARM, THETA, SPIN)[0]
     joint = Spherical(
         sequence_start=(3, 1, 2),
         angles_start=(-THETA, 0, 0),
         angles_fixed=True,
         w_rel_a=fixed(
-            tuple(
-                np.array([0, rate, 0]) + (SPIN - rate * np.cos(THETA)) * np.array([np.sin(THETA), np.cos(THETA), 0])
-            )
+            tuple(np.array([0, rate, 0]) + (SPIN - rate * np.cos(THETA)) * np.array([np.sin(THETA), np.cos(THETA), 0]))
         ),
     )
     body = Body(m=MASS, r_CM=(0, ARM, 0), I=np.diag([TRANSVERSE_CM, AXIAL, TRANSVERSE_CM]))
@@ -205,7 +201,8 @@ class SeparateSpringAndDamper(SpringMass):
 
     def connections(self):
         yield super().connections()
-        yield chain(self.body, self.damper, self.world.frame_b)
+        yield connect(self.body.frame_a, self.damper.frame_a)
+        yield connect(self.damper.frame_b, self.world.frame_b)
 
 
 @pytest.mark.parametrize("model", [SpringMass, SeparateSpringAndDamper])
@@ -318,6 +315,6 @@ def test_frame_invariance():
         tolerance=TOLERANCE,
         intervals=20,
     )
-    moved = turn.apply(plain["lower.frame_b.r_0"]) + [1, 2, 3]
+    moved = turn.apply(np.array(plain["lower.frame_b.r_0"])) + np.array([1, 2, 3])
     np.testing.assert_allclose(turned["lower.frame_b.r_0"], moved, atol=1e-6)
     np.testing.assert_allclose(turned["lower.frame_a.f"], plain["lower.frame_a.f"], atol=1e-4)

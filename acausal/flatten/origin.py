@@ -1,0 +1,68 @@
+"""Where something in a model comes from, and errors that say so."""
+
+from __future__ import annotations
+
+import difflib
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from acausal.errors import AcausalError, DeclarationError
+from acausal.language.component import Component
+
+PACKAGE = str(Path(__file__).parents[1])
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where an equation comes from: path and class of the component, file and line, and what it says."""
+
+    path: str
+    kind: str
+    where: str
+    text: str = ""
+
+    @classmethod
+    def of(cls, component: Component, text: str = "") -> Origin:
+        """Where a component is constructed."""
+        return cls(component._path, type(component).__name__, component._origin, text)
+
+    def __str__(self) -> str:
+        name = f"{self.path} ({self.kind})" if self.path else self.kind
+        return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
+
+
+def line_of(generator: Any) -> str:
+    """Return file and line where a generator stands, "" if it does not tell."""
+    frame = getattr(generator, "gi_frame", None)
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else ""
+
+
+def with_place(call: Callable[[], Any], origin: Origin) -> Any:
+    """Call a function of the user's model; name component and line in every error."""
+    try:
+        return call()
+    except AcausalError as error:
+        raise type(error)(f"{_place(error, origin)}: {error}") from None
+    except RecursionError:
+        raise
+    except Exception as error:
+        raise DeclarationError(f"{_place(error, origin)}: {_brief(error)}") from error
+
+
+def _brief(error: Exception) -> str:
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+        names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
+        near = difflib.get_close_matches(error.name or "", names, 1)
+        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
+    return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+
+
+def _place(error: BaseException, origin: Origin) -> Origin:
+    """Locate the innermost line outside of this package."""
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
+            return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")
+    return origin
