@@ -32,7 +32,12 @@ class Spherical(TwoFrames):
     angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
-    Q: Any = variable("quaternion from frame_a to frame_b", shape=(4,), start=(0, 0, 0, 1), select=PREFER)
+    Q_start: Any = structural(
+        "quaternion of these angles",
+        default=lambda s: quaternion_of(axes_rotations(s.sequence_start, s.angles_start)),
+        shape=(4,),
+    )
+    Q: Any = variable("quaternion from frame_a to frame_b", shape=(4,), start=Q_start, select=PREFER)
     w_rel: Vector3 = variable("angular velocity from frame_a, resolved in frame_b", unit="rad/s", select=PREFER)
     z_rel: Vector3 = variable("der(w_rel)", unit="rad/s2")
     w_rel_a: Vector3 = variable("angular velocity of frame_b from frame_a, resolved in frame_a", unit="rad/s")
@@ -52,4 +57,6 @@ class Spherical(TwoFrames):
 
     def initial_equations(self):
         if self.angles_fixed:
-            yield self.Q == quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
+            yield self.Q == self.Q_start
+        else:
+            yield self.Q @ self.Q == 1

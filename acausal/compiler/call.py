@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 from typing import Any
 
 import casadi as ca
@@ -35,13 +37,15 @@ class Call:
         self.evaluate()
         return self.outputs
 
-    def succeeds(self) -> bool:
-        """Evaluate in place and tell whether that worked."""
+    def attempt(self) -> tuple[bool, str]:
+        """Evaluate in place; return whether that worked, and what the solver complained about."""
+        noise = io.StringIO()
         try:
-            self.evaluate()
+            with contextlib.redirect_stderr(noise):
+                self.evaluate()
         except RuntimeError:
-            return False
-        return not self.buffer.ret()
+            return False, noise.getvalue()
+        return not self.buffer.ret(), noise.getvalue()
 
     @property
     def stats(self) -> dict:

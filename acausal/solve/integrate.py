@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,8 +12,9 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 
-FIRST_TRY = 5000
 CHUNKS = 25
+# Steps for all outputs together: before a run counts as long, and before a chunk or an output counts as hopeless.
+LONG, HOPELESS = 100_000, 2_000_000
 Progress = Callable[[float, int], None]
 
 
@@ -43,11 +45,11 @@ class Settings:
 
 
 class Failure(Exception):
-    """The integrator gave up; `time` is the last output time that was reached."""
+    """The integrator gave up; `time` is where, `reason` what it said."""
 
-    def __init__(self, time: float) -> None:
-        super().__init__()
-        self.time = time
+    def __init__(self, time: float, reason: str) -> None:
+        super().__init__(reason)
+        self.time, self.reason = time, reason
 
 
 class Integrator:
@@ -69,8 +71,9 @@ class Integrator:
         self.compiled, self.p, self.settings, self.span = compiled, p, settings, span
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = Trace()
+        self.complaint = ""
 
-    def options(self, max_steps: int, solver: str, moving: bool) -> dict[str, Any]:
+    def options(self, max_steps: int) -> dict[str, Any]:
         """Options of IDAS: order limit, algebraic variables out of the error test, weights from nominal values."""
         tolerance = self.settings.tolerance
         return {
@@ -78,13 +81,26 @@ class Integrator:
             "abstolv": (tolerance * self.compiled.nominal).tolist(),
             "max_multistep_order": self.settings.max_order,
             "suppress_algebraic": True,
-            "calc_ic": moving,
-            "linear_solver": solver,
             "max_num_steps": max_steps,
             "disable_internal_warnings": True,
             "quad_err_con": False,
             "show_eval_warnings": False,
         }
+
+    def begin(self, time: float, span: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray, careful: bool) -> dict:
+        """Options for the start, where IDAS takes all first derivatives as 0 unless it computes them itself.
+
+        The quick way lets it compute them, if any matter; the careful one starts with a step so short that they do not,
+        and with the linear solver that does not rely on its pivots.
+        """
+        nx = self.compiled.nx
+        rates = self.compiled.values(x, z, self.p, time, modes, 0.0)[0][:nx]
+        weights = self.settings.tolerance * (np.abs(x) + self.compiled.nominal[:nx])
+        steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
+        if not careful:
+            return {"linear_solver": "csparse", "calc_ic": steepest > 1}
+        start = {"linear_solver": "qr", "calc_ic": False}
+        return start | {"step0": 10.0 ** -np.ceil(np.log10(10 * steepest))} if steepest > 1 else start
 
     def segment(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Integrate from times[0] through all other times, without a break between them; return the last point.
@@ -94,13 +110,13 @@ class Integrator:
         Failure
             If the integrator gives up; the trace holds what was reached.
         """
-        if self._call(times, x, z, modes, FIRST_TRY):
-            return self._last()
         n = len(times) - 1
+        if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
+            return self._last()
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
-            if not self._call(part, x, z, modes, 10**8, "qr"):
+            if not self._call(part, x, z, modes, HOPELESS // (len(part) - 1)):
                 self._creep(part, x, z, modes)
             x, z = self._last()
             self._report(part[-1])
@@ -109,15 +125,9 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, 10**6, "qr"):
-                raise Failure(float(times[k]))
+            if not self._call(times[k : k + 2], x, z, modes, HOPELESS):
+                raise _failure(times[k], times[k + 1], self.complaint)
             x, z = self._last()
-
-    def _moving(self, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray, span: float) -> bool:
-        """Tell whether IDAS must find the first derivatives of the states; it starts from 0."""
-        nx = self.compiled.nx
-        rates = self.compiled.values(x, z, self.p, time, modes, 0.0)[0][:nx]
-        return bool(np.any(np.abs(rates) * span > self.settings.tolerance * self.compiled.nominal[:nx]))
 
     def _call(
         self,
@@ -126,12 +136,12 @@ class Integrator:
         z: np.ndarray,
         modes: np.ndarray,
         max_steps: int,
-        solver: str = "csparse",
+        careful: bool = True,
     ) -> bool:
         c, trace = self.compiled, self.trace
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
-        options = self.options(max_steps, solver, self._moving(times[0], x, z, modes, span))
+        options = self.options(max_steps) | self.begin(times[0], span, x, z, modes, careful)
         call = c.integrator(grid, options, self.settings.energy)
         names = call.function.name_in()
         given = {"x0": x, "z0": z, "p": np.concatenate([[times[0], span], self.hoisted, modes])}
@@ -139,7 +149,7 @@ class Integrator:
             if name in given:
                 call.inputs[k][:] = given[name]
         started = clock.perf_counter()
-        done = call.succeeds()
+        done, self.complaint = call.attempt()
         trace.seconds += clock.perf_counter() - started
         stats = call.stats
         trace.calls += 1
@@ -166,3 +176,11 @@ class Integrator:
         if self.settings.progress:
             start, stop = self.span
             self.settings.progress((time - start) / (stop - start), self.trace.steps)
+
+
+def _failure(start: float, end: float, complaint: str) -> Failure:
+    """Read time and reason from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed`."""
+    found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", complaint)
+    if not found:
+        return Failure(float(start), "it gave no reason")
+    return Failure(float(start + float(found[1]) * (end - start)), found[2].strip().rstrip("."))

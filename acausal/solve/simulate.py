@@ -91,17 +91,20 @@ def simulate(
     if max_order is None:
         max_order = order_limit(eigenvalues_of(compiled, x, z, p, start_time, modes), stop_time - start_time)
     run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress), (start_time, stop_time))
-    failure = None
+    failure: BaseException | None = None
     try:
         _integrate(run, p, times, breaks, x, z, modes)
-    except Failure as caught:
+    except (Failure, KeyboardInterrupt) as caught:
         failure = caught
     waited = compiled.seconds.get("integrators", 0.0) - built
     stats = _stats(compiled, run.trace, tolerance, max_order, breaks)
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     result = _result(compiled, run.trace, p, (start_time, x, z, modes), times, stats, energy)
-    if failure is not None:
+    if isinstance(failure, Failure):
         raise SimulationError(_failure_text(compiled, run, p, failure), result)
+    if failure is not None:
+        failure.result = result  # type: ignore[attr-defined]
+        raise failure
     return result
 
 
@@ -217,16 +220,17 @@ class Evaluator:
 
 
 def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failure: Failure) -> str:
-    trace, flat = run.trace, compiled.reduced.flat
-    lines = [f"the integration stopped after t = {failure.time:.6g} s ({trace.steps} steps)."]
+    trace = run.trace
+    lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
     if trace.x:
         x, z, modes = trace.x[-1][-1], trace.z[-1][-1], trace.modes[-1][-1]
-        rates = compiled.at(x, z, p, failure.time, modes, 0.0).value[: compiled.nx] / compiled.nominal[: compiled.nx]
+        at = float(trace.times[-1][-1])
+        rates = compiled.values(x, z, p, at, modes, 0.0)[0][: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
-        lines.append("The fastest changes there: " + ", ".join(f"der({compiled.states[k]})" for k in fastest) + ".")
-    del flat
+        names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
+        lines.append(f"Until t = {at:.6g} s all is well; what changes fastest there: {names}.")
     lines.append(
-        "A motion that grows without bound, a force that becomes infinite or a jump that no break time declares "
-        "stops an integrator; look at the results until then, which are kept."
+        "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
+        "stops an integrator. What was computed is kept."
     )
     return "\n".join(lines)

@@ -1,0 +1,72 @@
+"""Who may import whom: data flows one way, the engine knows no mechanics."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+BASE = {"errors", "units", "symbols"}
+MAY = {
+    "language": BASE,
+    "flatten": BASE | {"language"},
+    "structure": {"errors"},
+    "reduce": BASE | {"language", "flatten", "structure"},
+    "compiler": BASE | {"language", "flatten", "reduce"},
+    "result": BASE | {"language", "flatten"},
+    "solve": BASE | {"language", "flatten", "structure", "reduce", "compiler", "result"},
+    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "solve", "result"},
+}
+OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
+
+
+def imports(path: Path) -> set[str]:
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add(node.module or "")
+    return names
+
+
+@pytest.mark.parametrize("package", MAY)
+def test_stage_imports_only_earlier_ones(package: str) -> None:
+    for path in (ROOT / "acausal" / package).rglob("*.py"):
+        for name in imports(path):
+            top, _, rest = name.partition(".")
+            if top == "acausal":
+                assert rest.split(".")[0] in MAY[package] | {package}, f"{path} imports {name}"
+            assert top != "components", f"{path} imports {name}"
+            assert top != "models" or package == "cli", f"{path} imports {name}"
+
+
+def test_structure_sees_integers_only() -> None:
+    for path in (ROOT / "acausal/structure").rglob("*.py"):
+        ours = {n for n in imports(path) if n.split(".")[0] in ("casadi", "sympy", "components", "models")}
+        assert not ours, f"{path} imports {ours}"
+
+
+@pytest.mark.parametrize(
+    ("folder", "allowed"), [("components", {"acausal", "components", "numpy", "scipy", "sympy"}), ("models", {"acausal", "components", "models"})]
+)
+def test_libraries_use_public_names_only(folder: str, allowed: set[str]) -> None:
+    import sys
+
+    for path in (ROOT / folder).rglob("*.py"):
+        for name in imports(path):
+            top = name.split(".")[0]
+            assert top in allowed or top in sys.stdlib_module_names, f"{path} imports {name}"
+            assert top != "acausal" or name == "acausal", f"{path} imports {name}"
+
+
+def test_files_are_short() -> None:
+    long = [
+        str(path.relative_to(ROOT))
+        for folder, most in (("acausal", 300), ("components", 300), ("models", 60))
+        for path in (ROOT / folder).rglob("*.py")
+        if path.read_text().count("\n") > most
+    ]
+    assert not long
