@@ -77,7 +77,7 @@ class Body(Component):
 
     def initial_equations(self):
         if self.angles_fixed and is_root(self.frame_a):
-            yield self.frame_a.Q == quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
+            yield quaternion_of(axes_rotations(self.sequence_start, self.angles_start)) == self.frame_a.Q
 
     def stored_energy(self):
         """Kinetic and potential energy."""

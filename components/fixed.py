@@ -27,7 +27,7 @@ class Fixed(Component):
     def equations(self):
         frame, zero = self.frame_b, np.zeros(3)
         yield frame.r_0 == self.r
-        yield frame.R.T == np.eye(3)
+        yield np.eye(3) == frame.R.T
         yield frame.R.w == zero
         yield frame.v == zero
         yield frame.a == zero

@@ -16,6 +16,7 @@ from acausal import (
     observed,
     outer,
     port,
+    potential_root,
     structural,
     variable,
 )
@@ -99,6 +100,7 @@ class FlexibleBeam(Beam):
         if self.reference == "pinned":
             yield branch(self.frame_a, self.chord)
         yield branch(self.ref, self.frame_b)
+        yield potential_root(self.ref, priority=1)
 
     def equations(self):
         ref, b = self.ref, self.frame_b

@@ -57,6 +57,4 @@ class Spherical(TwoFrames):
 
     def initial_equations(self):
         if self.angles_fixed:
-            yield self.Q == self.Q_start
-        else:
-            yield self.Q @ self.Q == 1
+            yield self.Q_start == self.Q

@@ -43,7 +43,7 @@ class World(Component):
     def equations(self):
         frame, zero = self.frame_b, np.zeros(3)
         yield frame.r_0 == zero
-        yield frame.R.T == np.eye(3)
+        yield np.eye(3) == frame.R.T
         yield frame.R.w == zero
         yield frame.v == zero
         yield frame.a == zero

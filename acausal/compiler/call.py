@@ -44,6 +44,8 @@ class Call:
             with contextlib.redirect_stderr(noise):
                 self.evaluate()
         except RuntimeError:
+            if "KeyboardInterrupt" in noise.getvalue():
+                raise KeyboardInterrupt from None
             return False, noise.getvalue()
         return not self.buffer.ret(), noise.getvalue()
 

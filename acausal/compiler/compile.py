@@ -12,7 +12,7 @@ from acausal.language.component import Component
 from acausal.reduce import plan_of, reduce
 
 
-def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> CompiledModel:  # noqa: A001
+def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> CompiledModel:
     """Compile a model: flatten, analyse, reduce and generate code.
 
     Parameters

@@ -12,13 +12,13 @@ import casadi as ca
 import numpy as np
 import scipy.sparse as sparse
 
-from acausal.symbols import scalars
 from acausal.compiler.call import Call
-from acausal.flatten.instantiate import unknown_name
 from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import not_settable, numeric
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
+from acausal.symbols import scalars
 
 
 @dataclass(frozen=True)
@@ -90,9 +90,7 @@ class CompiledModel:
     @property
     def outputs(self) -> tuple[str, ...]:
         """Names of the outputs of the model."""
-        return tuple(
-            n for n, d in self.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "output"
-        )
+        return tuple(n for n, d in self.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "output")
 
     @cached_property
     def nominal(self) -> np.ndarray:
@@ -244,22 +242,30 @@ class CompiledModel:
         flat = self.reduced.flat
         index = {name: k for k, name in enumerate(flat.parameter_names)}
         try:
-            array = np.asarray(value, dtype=float)
-        except (TypeError, ValueError):
-            raise DeclarationError(f"`{path}` is {value!r}; a compiled model takes numbers.") from None
+            array = numeric(value, np.shape(value), f"`{path}`")
+        except ValueError:
+            raise DeclarationError(f"`{path}` is {value!r}; it must be an array of numbers.") from None
         prefix = path + "["
         entries = [n for n in (*index, *flat.structural_zeros) if n == path or n.startswith(prefix)]
         if not entries:
             if path in flat.bound:
-                raise DeclarationError(f"`{path}` follows {flat.bound[path]}; change that, or compile with its own value.")
+                raise DeclarationError(
+                    f"`{path}` follows {flat.bound[path]}; change that, or compile with its own value."
+                )
             if path in self._structural_names:
                 raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. Compile again with it.")
             known = [*flat.parameter_names, *flat.structural_zeros, *flat.bound, *self._structural_names]
-            raise DeclarationError(unknown_name(path, known))
+            raise DeclarationError(not_settable(path, self.tree, known))
         for name in entries:
             at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
-            if len(at) != array.ndim or any(k >= n for k, n in zip(at, array.shape, strict=True)):
-                raise DeclarationError(f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit.")
+            if (
+                len(at) != array.ndim
+                or len(entries) != array.size
+                or any(k >= n for k, n in zip(at, array.shape, strict=True))
+            ):
+                raise DeclarationError(
+                    f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
+                )
             entry = float(array[at])
             if name in index:
                 values[index[name]] = entry

@@ -46,7 +46,9 @@ def collect(components: list[Component], graph: Graph) -> Equations:
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.Start):
                 origin = Origin(component._path, type(component).__name__, component._origin, f"{name}=...")
-                with_place(lambda n=name, v=value, c=component: found.add(equation(getattr(c, n), v), origin), origin)
+                with_place(
+                    lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin
+                )
     for connector in graph.roots:
         _run(connector, connector.root_equations, found)
     for cut in graph.cuts:

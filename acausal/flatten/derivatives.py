@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 
 from acausal.language.functions import time
+from acausal.symbols import scalars
 
 
 class Derivatives:
@@ -24,15 +25,15 @@ class Derivatives:
         self._grow()
 
     def _grow(self) -> None:
-        symbols = self.levels[-1].elements()
+        symbols = scalars(self.levels[-1])
         self.levels.append(ca.vertcat(*[ca.SX.sym(f"der({s.name()})") for s in symbols]))
-        self._top = {s.element_hash() for s in self.levels[-1].elements()}
+        self._top = {s.element_hash() for s in scalars(self.levels[-1])}
 
     def of(self, expressions: ca.SX) -> ca.SX:
         """Differentiate a column of expressions with respect to time."""
         if any(s.element_hash() in self._top for s in ca.symvar(expressions)):
             self._grow()
-        first = self.levels[1].elements()
+        first = scalars(self.levels[1])
         for index, expression in self.declared.items():
             first[index] = expression
         at = ca.vertcat(*self.levels[:-1], time.sx)
@@ -41,7 +42,7 @@ class Derivatives:
 
     def resolve(self, pending: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
         """Return placeholders and the derivatives that they stand for; an expression may hold other placeholders."""
-        names = {s.element_hash(): k for k, (p, _) in enumerate(pending) for s in ca.vec(p).elements()}
+        names = {s.element_hash(): k for k, (p, _) in enumerate(pending) for s in scalars(ca.vec(p))}
         depth: list[int] = []
         for _, expression in pending:
             inside = (names.get(s.element_hash()) for s in ca.symvar(expression))

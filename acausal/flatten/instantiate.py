@@ -91,9 +91,7 @@ class Instantiation:
         with_place(bound.check, here)
         for name, declared in parts:
             self._part(bound, name, declared)
-        bound._ports = tuple(
-            getattr(bound, name) for name, _ in parts if isinstance(getattr(bound, name), Connector)
-        )
+        bound._ports = tuple(getattr(bound, name) for name, _ in parts if isinstance(getattr(bound, name), Connector))
         return bound
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
@@ -126,9 +124,9 @@ class Instantiation:
             raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
         if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
             raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
-        if type(declared.default) is int and value is not None:
-            if not isinstance(value, int | np.integer) or isinstance(value, bool):
-                raise DeclarationError(f"{where} is {value!r}; it must be a whole number.")
+        whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+        if type(declared.default) is int and value is not None and not whole:
+            raise DeclarationError(f"{where} is {value!r}; it must be a whole number.")
         if isinstance(declared.shape, tuple):
             value = numeric(value, declared.shape, where)
         return value
@@ -179,9 +177,9 @@ class Instantiation:
 
     def _part(self, bound: Component, name: str, declared: f.Part) -> None:
         path = join(bound._path, name)
-        made = bound._values.get(name, f.MISSING)
+        made: Any = bound._values.get(name, f.MISSING)
         if made is f.MISSING:
-            make = declared.make
+            make: Any = declared.make
             made = make if isinstance(make, Component) else make() if isinstance(make, type) else None
             if made is None:
                 made = with_place(lambda: make(bound), Origin.of(bound, name))
@@ -266,7 +264,9 @@ def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
 def unknown_name(name: str, known: list[str]) -> str:
     """Return the message for a name that does not exist, with the nearest that do."""
     near = difflib.get_close_matches(name, known, 3, 0.5)
-    return f"there is no `{name}` in the model" + (f"; did you mean {', '.join(f'`{n}`' for n in near)}?" if near else ".")
+    return f"there is no `{name}` in the model" + (
+        f"; did you mean {', '.join(f'`{n}`' for n in near)}?" if near else "."
+    )
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:

@@ -2,13 +2,7 @@
 
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.connection import branch, chain, connect, is_root, potential_root, root, rooted
-from acausal.language.expression import Condition, Equation, Expr, as_expr
-from acausal.language.fields import (
-    ALWAYS,
-    AVOID,
-    DEFAULT,
-    NEVER,
-    PREFER,
+from acausal.language.declare import (
     effect,
     fixed,
     flow,
@@ -24,6 +18,8 @@ from acausal.language.fields import (
     structural,
     variable,
 )
+from acausal.language.expression import Condition, Equation, Expr, as_expr
+from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
     asin,

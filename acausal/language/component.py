@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar, dataclass_transform
 
 from acausal.errors import DeclarationError
+from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.types import shape_of_annotation
 
@@ -32,7 +33,7 @@ class Path:
 
 @dataclass_transform(
     kw_only_default=True,
-    field_specifiers=(f.structural, f.effect, f.parameter),
+    field_specifiers=(declare.structural, declare.effect, declare.parameter),
 )
 class Component:
     """A part of a machine: class fields for what it has, connections() for the graph, equations() for the physics.
@@ -90,7 +91,9 @@ class Component:
                 f"or {name}=guess({value!r}) for a guess."
             )
         if isinstance(value, f.Start) and not isinstance(field, f.Variable):
-            raise DeclarationError(f"{cls.__name__}.{name} is no variable: it takes a value, not fixed(...) or guess(...).")
+            raise DeclarationError(
+                f"{cls.__name__}.{name} is no variable: it takes a value, not fixed(...) or guess(...)."
+            )
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
         """A part read through a template that is not built gives its path."""
@@ -137,7 +140,8 @@ class Component:
 
 def _described(cls: type[Component], word: str) -> list[str]:
     """Fields whose description has the word: `mass` for `m`."""
-    return [name for name, field in cls.fields.items() if word in field.description.lower().split()]
+    values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
+    return [name for name, field in values.items() if word in field.description.lower().split()]
 
 
 class Connector(Component):
@@ -173,5 +177,3 @@ class Record(Component):
 
 class Model(Component):
     """A component that can be compiled and simulated; its outputs are the columns of its table of results."""
-
-

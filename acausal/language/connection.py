@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from acausal.errors import ConnectError
@@ -64,7 +65,7 @@ def chain(*items: Any) -> Iterator[Connect]:
     """
     if len(items) < 2:
         raise ConnectError("chain() joins at least two parts.")
-    for left, right in zip(items, items[1:], strict=False):
+    for left, right in pairwise(items):
         yield connect(_end(left, 1), _end(right, 0))
 
 

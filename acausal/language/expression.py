@@ -133,7 +133,6 @@ class Expr:
             "or declare the field structural(...) if the equations themselves depend on it."
         )
 
-
     def _no_number(self) -> Any:
         raise DeclarationError(
             f"{self!r} is symbolic and has no value while the model is built, so it cannot be a Python number. "
@@ -177,7 +176,8 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.number | np.ndarray):
-        return Expr(ca.SX(ca.sparsify(ca.DM(value))))
+        number: Any = value
+        return Expr(ca.SX(ca.sparsify(ca.DM(number))))
     if isinstance(value, ca.DM | ca.SX):
         return Expr(ca.SX(value))
     if isinstance(value, Sequence) and not isinstance(value, str):
@@ -251,7 +251,9 @@ def _product(left: Any, right: Any) -> Any:
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if a.shape and b.shape and a.shape != b.shape:
-        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices")
+        raise DeclarationError(
+            f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices"
+        )
     return Expr(a.sx * b.sx, _times(a.unit, b.unit))
 
 

@@ -16,7 +16,8 @@ from acausal.language.fields import Deferred
 from acausal.units import Dimension, parse
 
 _SECOND = parse("s")
-time = Expr(ca.SX.sym("time"), _SECOND, "time")
+# Without a unit, so that sin(time) is right for users who mean rad/s times time.
+time = Expr(ca.SX.sym("time"), None, "time")
 initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
 
 
@@ -158,7 +159,9 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     value = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):
         if not isinstance(condition, Condition):
-            raise DeclarationError("a case of piecewise is a pair (value, condition), with a condition such as time < 1")
+            raise DeclarationError(
+                "a case of piecewise is a pair (value, condition), with a condition such as time < 1"
+            )
         choice = as_expr(choice)
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -25,6 +26,6 @@ _BY_NAME = {"Scalar": (), "Vector3": (3,), "Matrix33": (3, 3)}
 
 def shape_of_annotation(cls: type, name: str) -> tuple[int, ...] | None:
     """Return the shape that the annotation of a field tells, or None."""
-    annotation = cls.__dict__.get("__annotations__", {}).get(name)
+    annotation = inspect.get_annotations(cls).get(name)
     text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
     return _BY_NAME.get(text.rsplit(".", 1)[-1])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from acausal.flatten import FlatModel
+from acausal.flatten.instantiate import join, walk
+from acausal.language.fields import Variable
 from acausal.structure import Part, StructuralSingularity
 
 MOST = 10
@@ -34,13 +36,17 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
             f"({_names(flat, part)}):"
         )
         lines += _equations(flat, part)
-        lines.append("One of them is too many: remove it, or add a part that gives way (a joint, a spring).")
+        lines.append(
+            "One of them is too many: remove it. Where rigid parts close a loop, their lengths cannot all be given: "
+            "add a joint or a spring."
+        )
     if singularity.under:
         part = singularity.under[0]
         lines.append(f"Nothing determines {_names(flat, part)}.")
         if part.equations:
             lines.append(f"Only {len(part.equations)} equation{_s(len(part.equations))} hold them:")
             lines += _equations(flat, part)
+        lines += _hints(flat, part)
         lines.append(
             "Add the missing equation, or connect the part; "
             "a mass or inertia of 0 at a free end also leaves its motion undetermined."
@@ -48,15 +54,34 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     return "\n".join(lines)
 
 
+def _hints(flat: FlatModel, part: Part) -> list[str]:
+    """Ports without a connection and inputs without a value, of the components that the unknowns belong to."""
+    names = [flat.names[v].removeprefix("der(") for v in part.variables]
+    ports = [p for p in flat.unconnected if any(n.startswith(f"{p}.") for n in names)]
+    inputs = [
+        join(c._path, own)
+        for c in walk(flat.tree)
+        if c._path and any(n.startswith(f"{c._path}.") for n in names)
+        for own, declared in c.fields.items()
+        if isinstance(declared, Variable) and declared.causality == "input" and own not in c._values
+    ]
+    lines = [f"Not connected: {', '.join(f'`{p}`' for p in ports[:MOST])}."] if ports else []
+    if inputs:
+        lines.append(f"Inputs that need a value or an equation: {', '.join(f'`{i}`' for i in inputs[:MOST])}.")
+    return lines
+
+
 def _names(flat: FlatModel, part: Part) -> str:
-    names = [f"`{flat.names[v]}`" for v in part.variables[:MOST]]
-    more = len(part.variables) - MOST
+    written = [v for v in part.variables if v < len(flat.names)]
+    names = [f"`{flat.names[v]}`" for v in written[:MOST]]
+    more = len(written) - MOST
     return ", ".join(names) + (f" and {more} more" if more > 0 else "")
 
 
 def _equations(flat: FlatModel, part: Part) -> list[str]:
-    rows = [f"  {flat.origins[e]}" for e in part.equations[:MOST]]
-    more = len(part.equations) - MOST
+    written = [e for e in part.equations if e < len(flat.origins)]
+    rows = [f"  {flat.origins[e]}" for e in written[:MOST]]
+    more = len(written) - MOST
     return rows + ([f"  and {more} more"] if more > 0 else [])
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import casadi as ca
 
-from acausal.symbols import scalars
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel
 from acausal.language.functions import initial, time
@@ -12,6 +11,7 @@ from acausal.reduce.explain import explain
 from acausal.reduce.incidence import Linear, jacobian, system_of
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, analyse
+from acausal.symbols import scalars
 
 
 def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
@@ -90,7 +90,7 @@ def _differentiate(
     modes = ca.vertcat(*[mode for mode, _ in flat.switches])
     while len(residuals) < total:
         start = len(residuals)
-        sources = [e for e in plan.differentiated[start - first :]]
+        sources = list(plan.differentiated[start - first :])
         ready = next((k for k, e in enumerate(sources) if e >= start), len(sources))
         level = ca.vertcat(*[residuals[e] for e in sources[:ready]])
         derivative = ca.densify(ca.jtimes(level, at, direction))

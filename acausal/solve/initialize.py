@@ -10,7 +10,7 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
-from acausal.errors import InitializationError
+from acausal.errors import DeclarationError, InitializationError
 from acausal.structure import complete
 
 ITERATIONS = 60
@@ -61,7 +61,7 @@ def initialize(
         If conditions are missing or contradict each other, or no solution is found.
     """
     if initial not in ("fixed", "guesses"):
-        raise InitializationError(f'initial is {initial!r}; it must be "fixed" or "guesses".')
+        raise DeclarationError(f'initial is {initial!r}; it must be "fixed" or "guesses".')
     system = _system(compiled, p, time, modes, initial)
     y = compiled.start(p, time)[0].copy()
     nx = compiled.nx
@@ -90,9 +90,7 @@ def _flag_matters(compiled: CompiledModel) -> bool:
     return compiled.cache["flag"]
 
 
-def _system(
-    compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str
-) -> InitialSystem:
+def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str) -> InitialSystem:
     """Choose conditions, from the pattern of the equations alone."""
     key = ("initial system", initial)
     if key in compiled.cache:
@@ -111,7 +109,8 @@ def _system(
     done = complete(equations, conditions, nx + nz)
     given = len(rows) - nx - nz
     if done.free:
-        raise InitializationError(_missing(compiled, done.free))
+        with_guesses = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
+        raise InitializationError(_missing(compiled, [states[k - given] for k in with_guesses.used if k >= given]))
     used = [nz + k for k in done.used if k < given]
     guessed = [states[k - given] for k in done.used if k >= given]
     surplus = [nz + k for k in done.surplus if k < given]
@@ -190,9 +189,8 @@ def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarr
     return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]
 
 
-def _missing(compiled: CompiledModel, free: tuple[int, ...]) -> str:
-    nx = compiled.nx
-    names = [compiled.states[k] for k in free if k < nx] or list(compiled.states)
+def _missing(compiled: CompiledModel, free: list[int]) -> str:
+    names = [compiled.states[k] for k in free]
     lines = [
         f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
         "too few start values are fixed (the model itself is complete).",
@@ -208,7 +206,7 @@ def _line(name: str) -> str:
     owner, _, variable = inner.rpartition(".")
     variable = variable.split("[")[0]
     if variable == "Q":
-        return f"{name}: the orientation of {owner.rpartition('.')[0]}: angles_fixed=True"
+        return f"{name}: the orientation of {owner.removesuffix('.frame_a')}: angles_fixed=True"
     return f"{name}: {owner or 'the model'}({variable}=fixed(...))"
 
 
@@ -225,7 +223,9 @@ def _contradiction(compiled: CompiledModel, value: np.ndarray, wrong: list[int])
 def _lost(compiled: CompiledModel, value: np.ndarray, system: InitialSystem, time: float) -> str:
     flat, plan, nz = compiled.reduced.flat, compiled.reduced.plan, compiled.nz
     order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
-    lines = [f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"]
+    lines = [
+        f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"
+    ]
     for k in order[:5]:
         row = system.rows[k]
         if row < nz:
@@ -236,5 +236,8 @@ def _lost(compiled: CompiledModel, value: np.ndarray, system: InitialSystem, tim
         else:
             condition = flat.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    if system.surplus.size:
+        lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
+        lines += [f"  {flat.initial[row - nz].text} ({flat.initial[row - nz].origin})" for row in system.surplus[:5]]
     lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
     return "\n".join(lines)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.solve.initialize import algebraic
 
 CHUNKS = 25
 # Steps for all outputs together: before a run counts as long, and before a chunk or an output counts as hopeless.
@@ -102,7 +103,9 @@ class Integrator:
         start = {"linear_solver": "qr", "calc_ic": False}
         return start | {"step0": 10.0 ** -np.ceil(np.log10(10 * steepest))} if steepest > 1 else start
 
-    def segment(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def segment(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Integrate from times[0] through all other times, without a break between them; return the last point.
 
         Raises
@@ -110,6 +113,8 @@ class Integrator:
         Failure
             If the integrator gives up; the trace holds what was reached.
         """
+        if not self.compiled.nx:
+            return self._solve_everywhere(times, x, z, modes)
         n = len(times) - 1
         if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
             return self._last()
@@ -120,6 +125,15 @@ class Integrator:
                 self._creep(part, x, z, modes)
             x, z = self._last()
             self._report(part[-1])
+        return x, z
+
+    def _solve_everywhere(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Go from output to output where there is nothing to integrate."""
+        for time in times[1:]:
+            z = algebraic(self.compiled, z, self.p, float(time), modes)
+            self._keep(np.array([time]), x[None], z[None], modes, np.zeros((1, 2)))
         return x, z
 
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
@@ -160,14 +174,19 @@ class Integrator:
             return False
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n = len(grid)
-        trace.times.append(np.array(times[1:]))
-        trace.x.append(out["xf"].reshape(n, c.nx).copy())
-        trace.z.append(out["zf"].reshape(n, c.nz).copy())
-        trace.modes.append(np.broadcast_to(modes, (n, len(modes))))
-        if self.settings.energy:
-            before = trace.energy[-1][-1] if trace.energy else np.zeros(2)
-            trace.energy.append(before + out["qf"].reshape(n, 2))
+        energy = out["qf"].reshape(n, 2) if self.settings.energy else np.zeros((n, 2))
+        self._keep(times[1:], out["xf"].reshape(n, c.nx), out["zf"].reshape(n, c.nz), modes, energy)
         return True
+
+    def _keep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, energy: np.ndarray) -> None:
+        """Append rows to the trace; integrals of power go on from the last one."""
+        trace = self.trace
+        before = trace.energy[-1][-1] if trace.energy else np.zeros(2)
+        trace.times.append(np.array(times))
+        trace.x.append(x.copy())
+        trace.z.append(z.copy())
+        trace.energy.append(before + energy)
+        trace.modes.append(np.broadcast_to(modes, (len(times), len(modes))))
 
     def _last(self) -> tuple[np.ndarray, np.ndarray]:
         return self.trace.x[-1][-1], self.trace.z[-1][-1]

@@ -9,13 +9,13 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.symbols import scalars
 from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.solve.initialize import initialize
 from acausal.solve.order import state_matrix
+from acausal.symbols import scalars
 
 
 @dataclass(frozen=True)

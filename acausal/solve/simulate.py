@@ -109,11 +109,14 @@ def simulate(
 
 
 def _check(start: float, stop: float, tolerance: float, intervals: int, method: str, order: int | None) -> None:
+    for name, value in (("start_time", start), ("stop_time", stop), ("tolerance", tolerance)):
+        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+            raise DeclarationError(f"{name} is {value!r}; it must be a number.")
     if not np.isfinite(start) or not np.isfinite(stop) or stop <= start:
         raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
     if not 0 < tolerance < 1:
         raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
-    if not isinstance(intervals, int) or intervals < 1:
+    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
         raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
     if method not in METHODS:
         raise DeclarationError(f"method is {method!r}; it must be one of {', '.join(METHODS)}.")
@@ -131,7 +134,13 @@ def _middle(start: float, breaks: list[float], stop: float) -> float:
 
 
 def _integrate(
-    run: Integrator, p: np.ndarray, times: np.ndarray, breaks: list[float], x: np.ndarray, z: np.ndarray, modes: np.ndarray
+    run: Integrator,
+    p: np.ndarray,
+    times: np.ndarray,
+    breaks: list[float],
+    x: np.ndarray,
+    z: np.ndarray,
+    modes: np.ndarray,
 ) -> None:
     """Go from break to break; the law of each segment holds up to its end."""
     ends = [*breaks, times[-1]]
@@ -209,7 +218,7 @@ class Evaluator:
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
         c = self.compiled
-        resolved = c.reduced.resolve(ca.substitute(ca.densify(expression), initial_flag.sx, 0))
+        resolved = ca.substitute(c.reduced.resolve(ca.densify(expression)), initial_flag.sx, 0)
         arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
         n = self.columns[3].shape[1]
         function = ca.Function("observe", arguments, [resolved]).map(n)

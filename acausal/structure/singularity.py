@@ -19,7 +19,7 @@ class Part:
         return cls(tuple(sorted(set(equations))), tuple(sorted(set(variables))))
 
 
-class StructuralSingularity(Exception):  # noqa: N818
+class StructuralSingularity(Exception):
     """No values of its coefficients make the system solvable; the smallest offending parts come first.
 
     Parameters

@@ -50,7 +50,11 @@ def test_structure_sees_integers_only() -> None:
 
 
 @pytest.mark.parametrize(
-    ("folder", "allowed"), [("components", {"acausal", "components", "numpy", "scipy", "sympy"}), ("models", {"acausal", "components", "models"})]
+    ("folder", "allowed"),
+    [
+        ("components", {"acausal", "components", "numpy", "scipy", "sympy"}),
+        ("models", {"acausal", "components", "models"}),
+    ],
 )
 def test_libraries_use_public_names_only(folder: str, allowed: set[str]) -> None:
     import sys

@@ -1,6 +1,6 @@
 """Curves of docs/beams.md: one linear finite-element beam against a substructured one on the spin-up.
 
-    python -m tests.benchmarks.beam_curves docs/spin-up-stiffening.png
+python -m tests.benchmarks.beam_curves docs/spin-up-stiffening.png
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ def main(path: str) -> None:
             stop = 10.3 if formulation == "fem" and omega > 3 else 20.0
             result = ac.simulate(model, stop_time=stop, tolerance=1e-8)
             deflection = result["tip_deflection"]
-            print(f"omega {omega:g}, {label}: smallest tip deflection {deflection.min():.4f} m, last {deflection[-1]:.3f} m")
+            print(
+                f"omega {omega:g}, {label}: smallest tip deflection {deflection.min():.4f} m, last {deflection[-1]:.3f} m"
+            )
             axes.plot(result.time, deflection, label=label)
         axes.set(title=f"{omega:g} rad/s", xlabel="time [s]", ylabel="tip deflection [m]", ylim=(-1.5, 1.0))
         axes.grid(alpha=0.5)

@@ -51,7 +51,9 @@ def main() -> None:
     console = Console()
     console.print(table, "compiled / by hand; time: initialisation, choice of the order and integration")
     for tolerance in TOLERANCES:
-        console.print(f"growth of solve time at {tolerance:g}: {_exponent(solve[tolerance, 10], solve[tolerance, 80]):.2f}")
+        console.print(
+            f"growth of solve time at {tolerance:g}: {_exponent(solve[tolerance, 10], solve[tolerance, 80]):.2f}"
+        )
     console.print(f"growth of compile time: {_exponent(compile_seconds[10], compile_seconds[80]):.2f}")
     console.print("compile seconds: " + ", ".join(f"{n} volumes {s:.2f}" for n, s in compile_seconds.items()))
 

@@ -27,7 +27,7 @@ TIME = np.linspace(0.0, 1.0, 5)
 class Piece(Component):
     k: Scalar = parameter("stiffness", unit="N/m", default=3.0)
     q = variable("coordinates", shape=(3,), unit=("m", "m", "rad"))
-    T: Matrix33 = variable("matrix")
+    T: Matrix33 = variable("matrix", unit="1")
     single = variable("an array of one entry", shape=(1,), unit="m")
 
     def equations(self):

@@ -1,0 +1,232 @@
+"""Simplify the equations of a model and put its FlatModel together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.flatten.derivatives import Derivatives
+from acausal.flatten.flat_model import FlatModel, Initial
+from acausal.flatten.origin import Origin
+from acausal.flatten.said import Said, column
+from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
+from acausal.flatten.tape import Linear, Tape
+from acausal.language.functions import initial, time
+from acausal.symbols import scalars
+
+
+class Assembly:
+    """Simplify what was said and put the FlatModel together.
+
+    Parameters
+    ----------
+    raw : Said
+        What the components said.
+    chain : Derivatives
+        Symbols of the variables and of their derivatives.
+    resolved : callable
+        Replaces placeholders of derivatives in a list of expressions.
+    declared : dict of int to casadi.SX
+        Variables with a declared derivative that is not integrated.
+    """
+
+    def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
+        self.raw, self.chain, self.declared = raw, chain, declared
+        self.size = chain.levels[0].numel()
+        residuals = column(raw.equations.residuals)
+        self.residuals, starts, energies = resolved(
+            [residuals, column(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
+        )
+        self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
+        self.symbols = ca.vertcat(*chain.levels)
+        self.parameters = column(raw.build.parameters.symbols)
+        self.modes = column([mode for mode, _ in raw.pending.switches])
+        self.origins = raw.equations.scalar_origins()
+
+    def flat_model(self) -> FlatModel:
+        """Simplify and assemble."""
+        others = ca.vertcat(self.parameters, time.sx, initial.sx, self.modes)
+        tape = Tape(self.symbols, others, self.residuals)
+        present = set(tape.input)
+        derivative = self._chains(present)
+        done = Simplifier(tape, derivative, self._rank()).run()
+        self._refuse_contradictions(done)
+        values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
+        elements = scalars(self.symbols)
+        final = [_expression(value, elements) for value in values]
+        removed, redundant = list(done.solved), set(done.redundant)
+        was = column([elements[k] for k in removed])
+        becomes = column([final[k] for k in removed])
+        rows = [r for r in range(len(self.origins)) if r not in done.used and r not in redundant]
+        residuals = ca.substitute([self.residuals], [was], [becomes])[0]
+        return self._build(done, rows, residuals, (was, becomes), values, present)
+
+    def _build(
+        self,
+        done: Simplification,
+        rows: list[int],
+        residuals: ca.SX,
+        eliminated: tuple[ca.SX, ca.SX],
+        values: list[Linear],
+        present: set[int],
+    ) -> FlatModel:
+        was, becomes = eliminated
+        raw, build = self.raw, self.raw.build
+        entries = scalars(residuals)
+        for row, (c0, terms) in done.kept.items():
+            entries[row] = self.symbols[terms[0][0]] * terms[0][1] + c0
+        chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
+        unknowns = [
+            k
+            for k in range(self.symbols.numel())
+            if k not in done.solved and (k < self.size or k in present or k in chained)
+        ]
+        place = {k: n for n, k in enumerate(unknowns)}
+        defines = self._defines(place, values)
+        declared_at = [k for k in self.declared if k in place]
+        declared = ca.substitute([column([self.declared[k] for k in declared_at])], [was], [becomes])[0]
+        attributes = self._attributes(done, unknowns, place)
+        names = [name for array in raw.arrays for name in array.names]
+        for _ in self.chain.levels[1:]:
+            names.extend(f"der({n})" for n in names[-self.size :])
+        return FlatModel(
+            unknowns=column([self.symbols[k] for k in unknowns]),
+            residuals=column([entries[r] for r in rows]),
+            names=tuple(names[k] for k in unknowns),
+            derivative=tuple(place.get(done.derivative[k], -1) for k in unknowns),
+            declared={place[k]: e for k, e in zip(declared_at, scalars(declared), strict=True)} if declared_at else {},
+            defines=tuple(defines.get(r, -1) for r in rows),
+            origins=tuple(self.origins[r] for r in rows),
+            parameters=self.parameters,
+            parameter_names=tuple(build.parameters.names),
+            parameter_values=np.array(build.parameters.values),
+            switches=tuple((mode, condition.excess.sx) for mode, condition in raw.pending.switches),
+            initial=self._initial(was, becomes),
+            eliminated=eliminated,
+            energies=self.energies,
+            limits=tuple(build.parameters.limits),
+            bound=build.parameters.bound,
+            structural_zeros=tuple(build.parameters.structural_zeros),
+            redundant=tuple(self.origins[r] for r in done.redundant),
+            unconnected=raw.graph.unconnected,
+            tree=build.root,
+            counts={
+                "equations_flat": len(self.origins),
+                "unknowns_flat": self.size + len([k for k in present if k >= self.size]),
+                "constants": sum(not terms for _, terms in done.solved.values()),
+                "aliases": sum(bool(terms) for _, terms in done.solved.values()),
+                "redundant": len(done.redundant),
+                "equations_simplified": len(rows),
+                "unknowns_simplified": len(unknowns),
+            },
+            **attributes,
+        )
+
+    def _chains(self, present: set[int]) -> list[int]:
+        """Unknown -> its derivative among the symbols, as far as a derivative occurs."""
+        n, total = self.size, self.symbols.numel()
+        derivative = [-1] * total
+        for k in range(total - 1, n - 1, -1):
+            if k in present or derivative[k] >= 0:
+                derivative[k - n] = k
+        return derivative
+
+    def _rank(self) -> list[int]:
+        rank = [a.declared.select for a in self.raw.arrays for _ in range(a.expr.sx.numel())]
+        rank += [0] * (self.symbols.numel() - self.size)
+        for k in self.declared:
+            rank[k] += 5 * DECLARED
+        return rank
+
+    def _defines(self, place: dict[int, int], values: list[Linear]) -> dict[int, int]:
+        """Residual -> the declared unknown that is its left-hand side, by its own name or by that of an alias."""
+        own: dict[int, int] = {}
+        alias: dict[int, int] = {}
+        row = 0
+        for lhs, _ in self.raw.equations.sides:
+            for k, entry in enumerate(scalars(ca.vec(ca.densify(lhs)))):
+                index = self.raw.index.get(entry.element_hash(), -1)
+                if index not in self.declared:
+                    continue
+                if index in place:
+                    own[row + k] = place[index]
+                    continue
+                _, terms = values[index]
+                if terms and terms[0][0] in self.declared and terms[0][0] in place:
+                    alias[row + k] = place[terms[0][0]]
+            row += lhs.numel()
+        taken = set(own.values())
+        for r, variable in alias.items():
+            if variable not in taken:
+                taken.add(variable)
+                own[r] = variable
+        return own
+
+    def _attributes(self, done: Simplification, unknowns: list[int], place: dict[int, int]) -> dict[str, Any]:
+        """Start, nominal value and preference of the remaining unknowns; an alias passes its own on."""
+        arrays = self.raw.arrays
+        start = [s for a in arrays for s in scalars(ca.vec(ca.densify(a.start.sx)))]
+        guessed = [a.guessed or a.fixed for a in arrays for _ in range(a.expr.sx.numel())]
+        nominal = self._numbers(column([ca.vec(a.nominal.sx) for a in arrays]))
+        select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
+        extra = self.symbols.numel() - self.size
+        start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
+        nominal, select = np.concatenate([nominal, np.ones(extra)]), select + [0] * extra
+        for k in reversed(done.solved):
+            c0, terms = done.solved[k]
+            if not terms:
+                continue
+            (other, c) = terms[0]
+            if guessed[k] and not guessed[other]:
+                start[other], guessed[other] = (start[k] - c0) / c, True
+            if select[k] > select[other] and select[other] == 0:
+                select[other] = select[k]
+            if nominal[other] == 1 and nominal[k] != 1:
+                nominal[other] = nominal[k] / abs(c)
+        return {
+            "start": column([start[k] for k in unknowns]),
+            "guessed": np.array([guessed[k] for k in unknowns], dtype=bool),
+            "nominal": nominal[unknowns],
+            "preference": tuple(select[k] for k in unknowns),
+        }
+
+    def _numbers(self, column: ca.SX) -> np.ndarray:
+        """Values of expressions of parameters, as they are when compiled."""
+        function = ca.Function("numbers", [self.parameters], [ca.densify(column)])
+        return np.array(function(np.array(self.raw.build.parameters.values))).ravel()
+
+    def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
+        """Fixed start values, then the initial equations of components."""
+        fixed = [a for a in self.raw.arrays if a.fixed]
+        residuals = [ca.vec(a.expr.sx - a.start.sx) for a in fixed] + [self.initial_residuals]
+        texts = [
+            (f"{name} = {entry}", Origin(a.owner._path, type(a.owner).__name__, a.owner._origin))
+            for a in fixed
+            for name, entry in zip(a.names, scalars(ca.vec(ca.densify(a.start.sx))), strict=True)
+        ]
+        texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
+        entries = ca.substitute([column([ca.densify(r) for r in residuals])], [was], [becomes])[0]
+        if not texts:
+            return ()
+        return tuple(Initial(r, text, o) for r, (text, o) in zip(scalars(entries), texts, strict=True))
+
+    def _refuse_contradictions(self, done: Simplification) -> None:
+        if done.contradictions:
+            lines = [
+                f"  {self.origins[row]}: its sides differ by {value:.6g}" for row, value in done.contradictions[:10]
+            ]
+            raise DeclarationError(
+                "these equations contradict the others, whatever the motion:\n" + "\n".join(lines) + "\n"
+                "A length, position or value is given twice with different values; remove one or make them agree."
+            )
+
+
+def _expression(value: Linear, elements: list[Any]) -> Any:
+    c0, terms = value
+    if not terms:
+        return c0
+    unknown, c = terms[0]
+    return elements[unknown] if (c0, c) == (0, 1) else elements[unknown] * c + c0

@@ -1,0 +1,71 @@
+"""What the components of a model say, before anything is simplified."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import casadi as ca
+
+from acausal.errors import DeclarationError
+from acausal.flatten.collect import Equations, collect, collect_initial
+from acausal.flatten.graph import Graph, build_graph
+from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.variables import VariableArray, create_variables
+from acausal.language.component import Component
+from acausal.language.expression import Expr, as_expr
+from acausal.language.functions import PENDING, Pending
+
+
+@dataclass
+class Said:
+    """Instances, graph, variables, equations, declared derivatives and energies of a model."""
+
+    build: Instantiation
+    graph: Graph
+    arrays: list[VariableArray]
+    equations: Equations
+    initial: Equations
+    declared: list[tuple[Expr, Expr]]
+    energies: dict[str, Any]
+    pending: Pending
+    index: dict[int, int] = field(default_factory=dict)
+
+
+def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
+    """Instantiate a model, connect it and collect everything that its components state."""
+    if not isinstance(model, Component):
+        raise DeclarationError(f"expected a model, that is an instance such as SpinUp(); got {model!r}")
+    build = Instantiation(model, overrides)
+    components = build.components
+    graph = build_graph(components)
+    arrays = create_variables(components, graph.same)
+    pending = Pending()
+    token = PENDING.set(pending)
+    try:
+        equations = collect(components, graph)
+        starts = collect_initial(components)
+        declared = [pair for group in graph.same for pair in group[0].declared_derivatives()]
+        energies = {
+            name: sum(
+                (_power(c, name) for c in components if getattr(type(c), name) is not getattr(Component, name)),
+                as_expr(0.0),
+            ).sx
+            for name in ("stored_energy", "dissipated_power", "supplied_power")
+        }
+    finally:
+        PENDING.reset(token)
+    return Said(build, graph, arrays, equations, starts, declared, energies, pending)
+
+
+def column(entries: Iterable[Any]) -> ca.SX:
+    """Stack columns; of nothing an empty column of symbols, where CasADi gives numbers."""
+    return ca.vertcat(ca.SX(0, 1), *entries)
+
+
+def _power(component: Component, name: str) -> Expr:
+    origin = Origin(component._path, type(component).__name__, f"{name}()")
+    value = as_expr(with_place(getattr(component, name), origin))
+    return Expr(value.sx)

@@ -1,0 +1,184 @@
+"""The words that declare the fields of a component in its class body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from acausal.language.fields import (
+    DEFAULT,
+    MISSING,
+    Observed,
+    Outer,
+    Parameter,
+    Part,
+    Shape,
+    Start,
+    Structural,
+    Variable,
+)
+
+
+def fixed(value: Any) -> Any:
+    """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
+
+    Parameters
+    ----------
+    value : float, sequence or parameter
+        Value of the variable at the start time, in its unit and shape.
+    """
+    return Start(value, True)
+
+
+def guess(value: Any) -> Any:
+    """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
+
+    Parameters
+    ----------
+    value : float, sequence or parameter
+        Guess in the unit and shape of the variable.
+    """
+    return Start(value, False)
+
+
+def structural(
+    description: str,
+    *,
+    default: Any = MISSING,
+    choices: Sequence[Any] | None = None,
+    minimum: float | None = None,
+    shape: Shape = None,
+) -> Any:
+    """Declare a structural parameter: fixed when the model is compiled, a plain Python value in equations().
+
+    Parameters
+    ----------
+    description : str
+        What it is.
+    default : object
+        Value where none is given; a function of the component for one that depends on other structural parameters.
+    choices : sequence, optional
+        The allowed values.
+    minimum : float, optional
+        The least allowed value.
+    shape : tuple of int, optional
+        Shape of an array of numbers.
+    """
+    return Structural(description, None, shape, default, choices=tuple(choices) if choices else None, minimum=minimum)
+
+
+def effect(description: str, *, default: Any = True, choices: Sequence[Any] = (True, False)) -> Any:
+    """Declare a physical effect that can be switched: a structural parameter that the tool can list and price."""
+    return Structural(description, None, None, default, choices=tuple(choices), effect=True)
+
+
+def parameter(
+    description: str,
+    *,
+    unit: str | Sequence[str] | None = None,
+    default: Any = MISSING,
+    shape: Shape = None,
+    minimum: float | None = None,
+    positive: bool = False,
+) -> Any:
+    """Declare a parameter: changeable after compiling, except for entries that are exactly 0 when compiled.
+
+    Parameters
+    ----------
+    description : str
+        What it is, and in which frame it is resolved.
+    unit : str or sequence of str
+        SI unit, or one for each entry; none is unknown and fits every unit, "1" is a number.
+    default : float, array or callable
+        Value where none is given; a function of the component for one that follows other parameters.
+    shape : tuple of int, optional
+        Shape where the annotation does not tell.
+    minimum : float, optional
+        Least allowed value of every entry.
+    positive : bool
+        True if every entry must be greater than 0.
+    """
+    return Parameter(description, unit, shape, default, minimum=minimum, positive=positive)
+
+
+def variable(
+    description: str,
+    *,
+    unit: str | Sequence[str] | Callable[[Any], Sequence[str]] | None = None,
+    shape: Shape = None,
+    start: Any = 0.0,
+    fixed: bool = False,
+    select: int = DEFAULT,
+    nominal: Any = 1.0,
+    root: bool = False,
+) -> Any:
+    """Declare a variable.
+
+    Parameters
+    ----------
+    description : str
+        What it is, and in which frame it is resolved.
+    unit : str or sequence of str
+        SI unit, or one for each entry; none is unknown and fits every unit, "1" is a number.
+    shape : tuple of int or callable, optional
+        Shape where the annotation does not tell; a function of the component if it depends on structural parameters.
+    start : float or array
+        Guess at the start, or value at the start if `fixed`.
+    fixed : bool
+        True makes `start` an equation of the initial system.
+    select : int
+        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how gladly it becomes a state.
+    nominal : float or array or callable
+        Typical size, in its unit; absolute tolerance = tolerance * nominal.
+    root : bool
+        True for a variable that a connector has only when it is chosen as a root.
+    """
+    return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
+
+
+def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
+    """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
+    return Variable(description, unit, shape, start=start, causality="input")
+
+
+def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = 1.0) -> Any:
+    """Declare an output; those of the model are the columns of its table of results."""
+    return Variable(description, unit, shape, nominal=nominal, causality="output")
+
+
+def flow(description: str, *, unit: str | None = None, shape: Shape = None) -> Any:
+    """Declare a flow variable of a connector: the flows into the components of a connection set sum to zero."""
+    return Variable(description, unit, shape, flow=True)
+
+
+def port(connector: Any, description: str = "") -> Any:
+    """Declare a port: `port(Frame)`, or as decorator of a method that returns a connector or None.
+
+    Parameters
+    ----------
+    connector : Connector class or method
+        The class of the port, or a method that makes it from structural values (None: no such port).
+    description : str
+        What is fixed to it.
+    """
+    return Part(description or getattr(connector, "__doc__", None) or "", make=connector, is_port=True)
+
+
+def part(make: Callable[[Any], Any]) -> Any:
+    """Decorate a method that makes a part from structural values; None leaves the part out."""
+    return Part(make.__doc__ or "", make=make)
+
+
+def parts(make: Callable[[Any], Any]) -> Any:
+    """Decorate a method that makes a list of parts from structural values."""
+    return Part(make.__doc__ or "", make=make, many=True)
+
+
+def observed(compute: Callable[[Any], Any]) -> Any:
+    """Decorate a method that returns an expression: readable in results like a variable, at no cost before."""
+    return Observed(compute.__doc__ or "", compute=compute)
+
+
+def outer(cls: type) -> Any:
+    """Declare a reference to the one component of class `cls` in the model, such as the World."""
+    return Outer(f"the {cls.__name__} of the model", cls=cls)
