@@ -23,6 +23,8 @@ class Spherical(TwoFrames):
     ----------
     angles_start, sequence_start, angles_fixed
         Orientation of frame_b relative to frame_a at the start: angles in rad about the axes of the sequence.
+    Q_start : array of 4 floats
+        The same as a quaternion (vector part, scalar part); default: from the angles.
 
     Notes
     -----

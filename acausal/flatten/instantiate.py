@@ -292,5 +292,5 @@ def _symbolic(value: Any) -> bool:
 
 
 def _owner_text(component: Component) -> str:
-    kind = f"{type(component).__name__}, {component._origin}"
-    return f"{component._path} ({kind})" if component._path else kind
+    kind = type(component).__name__
+    return f"{component._path} ({kind}, {component._origin})" if component._path else kind

@@ -162,7 +162,7 @@ def test_failed_simulation_keeps_what_it_found(run, tmp_path):
     files = ("--csv", "a.csv", "--plot", "a.png", "--json", "a.json")
     done = run("simulate", "mine.py:Root", "--stop-time", 2, "--intervals", 20, *files)
     assert done.exit_code == 1
-    assert "Error: the simulation failed: the integration stopped after t = 1 s" in done.stderr
+    assert "Error: the simulation failed: the integration stopped at t = 1 s after" in done.stderr
     assert "Traceback" not in done.stderr
     table = pd.read_csv(tmp_path / "a.csv")
     assert len(table) == 11
@@ -191,7 +191,7 @@ def test_interrupt(run, monkeypatch, tmp_path):
         (["mine.py"], "mine.py needs the name of a class; its models: {all}."),
         (["mine.py:NoModel"], "NoModel in mine.py is not a Model: class NoModel(Model), with Model from acausal."),
         (["none.py:A"], "there is no file none.py; a model of your own is given as path/to/file.py:ClassName."),
-        (["mine.py:Typo"], "{dir}/mine.py:52: NameError: name 'undefined_name' is not defined"),
+        (["mine.py:Typo"], "Typo, {dir}/mine.py:52: NameError: name 'undefined_name' is not defined"),
         (
             ["mine.py:Oscillator", "--set", "c"],
             "--set takes NAME=VALUE, such as --set omega=4 or --set beam.E=7e10, not `c`.",

@@ -641,7 +641,6 @@ class AllPrescribed(Shaft):
     it = rotational.Position(phi_ref=0.5 * sin(3 * time))
 
 
-@pytest.mark.xfail(strict=True, raises=RuntimeError, reason="IDAS refuses a system without states: solve/integrate.py")
 def test_a_motion_may_be_prescribed_altogether():
     result = ac.simulate(AllPrescribed(), stop_time=0.5, intervals=5)
     np.testing.assert_allclose(result["joint.phi"], 0.5 * np.sin(3 * result.time), atol=1e-12)

@@ -150,11 +150,6 @@ def pendulum_error(tolerance: float) -> float:
     return float(np.hypot(result["x"] - x, result["y"] - y).max())
 
 
-@pytest.mark.xfail(strict=True, reason="BDF 5 ends with 5e-6: the error grows with the time, 1e-6 needs 1e-11")
-def test_simple_pendulum_for_a_long_time():
-    assert pendulum_error(1e-10) < 1e-6
-
-
 def test_simple_pendulum_follows_the_tolerance():
     errors = [pendulum_error(tolerance) for tolerance in (1e-9, 1e-11)]
     assert errors[1] < 1e-6
@@ -175,7 +170,6 @@ def test_free_vibration_starts_at_rest_in_the_static_shape(formulation, tip):
     np.testing.assert_allclose(result["beam.node_deflection"][0][:, 1], v, atol=1e-4 * abs(tip))
 
 
-@pytest.mark.xfail(strict=True, raises=RuntimeError, reason="simulate.Evaluator substitutes `initial` before resolve()")
 def test_load_of_free_vibration_is_released():
     result = ac.simulate(FreeVibration(), stop_time=0.01, intervals=2)
     np.testing.assert_allclose(result["load.frame_b.f"][1:], 0, atol=1e-15)
