@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -25,6 +25,12 @@ class Frame(Connector):
     Velocities and accelerations are those of the origin relative to the world, resolved in this frame.
     """
 
+    start_words: ClassVar[dict[str, str]] = {
+        "r_0": "r_0=fixed(...)",
+        "v": "v_0=fixed(...)",
+        "R.w": "w_a=fixed(...)",
+        "Q": "angles_fixed=True",
+    }
     r_0: Vector3 = variable("position of the origin, resolved in the world", unit="m")
     R: Any = Orientation()
     v: Vector3 = variable("velocity of the origin, resolved in this frame", unit="m/s")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from acausal import PREFER, Vector3, branch, der, structural, variable
 from components.frame import TwoFrames, move
@@ -31,6 +31,7 @@ class Spherical(TwoFrames):
     The states are a quaternion, which has no singular position, and w_rel.
     """
 
+    start_words: ClassVar[dict[str, str]] = {"Q": "angles_fixed=True"}
     angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))

@@ -52,6 +52,7 @@ class Component:
 
     fields: ClassVar[dict[str, f.Field]] = {}
     ends: ClassVar[tuple[str, str]] = ("", "")
+    start_words: ClassVar[dict[str, str]] = {}
     _path: str = ""
     _ports: tuple[Any, ...] = ()
     _is_bound = False

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
@@ -11,6 +13,7 @@ from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
+from acausal.language.component import Component, Connector
 from acausal.structure import complete
 
 ITERATIONS = 60
@@ -196,18 +199,27 @@ def _missing(compiled: CompiledModel, free: list[int]) -> str:
         "too few start values are fixed (the model itself is complete).",
         "Fix for instance:",
     ]
-    lines += [f"  {_line(name)}" for name in names[:10]]
+    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled.tree, name) for name in names))[:10]]
     lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
     return "\n".join(lines)
 
 
-def _line(name: str) -> str:
-    inner = name.removeprefix("der(").removesuffix(")")
-    owner, _, variable = inner.rpartition(".")
-    variable = variable.split("[")[0]
-    if variable == "Q":
-        return f"{name}: the orientation of {owner.removesuffix('.frame_a')}: angles_fixed=True"
-    return f"{name}: {owner or 'the model'}({variable}=fixed(...))"
+def _line(tree: Component, name: str) -> str:
+    """Return the constructor argument that would fix a state; a connector's state is fixed in the part that owns it."""
+    path = re.sub(r"\[[\d,]+\]$", "", name.removeprefix("der(").removesuffix(")"))
+    owner, rest = tree, path.split(".")
+    while len(rest) > 1 and not isinstance(owner, Connector):
+        owner = _member(owner, rest.pop(0))
+    variable = ".".join(rest)
+    words = type(owner).start_words.get(variable, f"{variable}=fixed(...)")
+    part = owner._owner if isinstance(owner, Connector) else owner
+    return f"{part._path or 'the model'}: {type(part).__name__}({words})"
+
+
+def _member(owner: Component, text: str) -> Any:
+    name, _, index = text.partition("[")
+    value = getattr(owner, name)
+    return value[int(index.removesuffix("]"))] if index else value
 
 
 def _contradiction(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
