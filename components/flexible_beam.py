@@ -121,15 +121,23 @@ class FlexibleBeam(Beam):
         force, moment, nodal = inertia.forces(a, ref.z, ref.R.w)
         spin = self.torsional_inertia * ref.R.w[0]
         twist = as_expr((self.torsional_inertia * ref.z[0], ref.R.w[2] * spin, -ref.R.w[1] * spin))
-        yield force == f_a + f_b
-        yield moment + twist == t_a + t_b + cross(r_b, f_b)
+        rates = self._nodes(self.qd)
+        elastic, drag = self._stiffness(U) + self.beta * self._stiffness(rates), self._drag(rates)
+        balance = nodal + elastic + drag
 
         load = [as_expr(0.0)] * (3 * self.elements + 3)
         load[2] = t_a[2] / self._l
         load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l]
-        rates = self._nodes(self.qd)
-        balance = nodal + self._stiffness(U) + self._damping(rates)
         yield as_expr([balance[k] for k in self.free]) == as_expr([load[k] for k in self.free])
+        if self.reference == "tangent":
+            # The balances of the nodes, subtracted from those of the whole beam, leave the load on the tip out of them.
+            root = [nodal[k] + elastic[k] - sum(drag[3 + k :: 3], as_expr(0.0)) for k in (0, 1)]
+            yield as_expr((*root, force[2])) == as_expr((f_a[0], f_a[1], f_a[2] + f_b[2]))
+            f_b = as_expr((balance[-3], balance[-2], f_b[2]))
+            t_b = as_expr((t_b[0], t_b[1], self._l * balance[-1]))
+        else:
+            yield force == f_a + f_b
+        yield moment + twist == t_a + t_b + cross(r_b, f_b)
 
     def initial_equations(self):
         zero = np.zeros(len(self.free))
@@ -159,10 +167,9 @@ class FlexibleBeam(Beam):
         b, l = beam_matrices(self.elements), self._l
         return self.E * self.A / l * (b.K_axial @ U) + self.E * self.J / l**3 * (b.K_bending @ U)
 
-    def _damping(self, Ud: Any) -> Any:
+    def _drag(self, Ud: Any) -> Any:
         b = beam_matrices(self.elements)
-        mass = self.rho * self.A * self._l
-        return self.alpha * mass * ((b.M11 + b.M22) @ Ud) + self.beta * self._stiffness(Ud)
+        return self.alpha * self.rho * self.A * self._l * ((b.M11 + b.M22) @ Ud)
 
     def _centre(self, inertia: Inertia) -> Any:
         return self.ref.r_0 + resolve1(self.ref.R, inertia.first() / inertia.mass)
@@ -178,7 +185,7 @@ class FlexibleBeam(Beam):
     def dissipated_power(self):
         """Power of the Rayleigh damping."""
         Ud = self._nodes(self.qd)
-        return dot(Ud, self._damping(Ud))
+        return dot(Ud, self._drag(Ud) + self.beta * self._stiffness(Ud))
 
     @observed
     def node_deflection(self):

@@ -180,9 +180,11 @@ class Instantiation:
         made: Any = bound._values.get(name, f.MISSING)
         if made is f.MISSING:
             make: Any = declared.make
-            made = make if isinstance(make, Component) else make() if isinstance(make, type) else None
-            if made is None:
-                made = with_place(lambda: make(bound), Origin.of(bound, name))
+            if isinstance(make, Component):
+                made = make
+            else:
+                call: Any = make if isinstance(make, type) else lambda: make(bound)  # type: ignore[operator]
+                made = with_place(call, Origin.of(bound, name))
         if declared.many:
             built: Any = [self._member(bound, item, f"{path}[{k}]") for k, item in enumerate(made)]
         else:

@@ -17,6 +17,8 @@ from acausal.language.component import Component, Connector
 from acausal.structure import complete
 
 ITERATIONS = 60
+CONVERGED = 1e-8
+ROUNDING = 1e-13
 CONSISTENT = 1e-7
 
 
@@ -158,7 +160,7 @@ def _newton(
     for _ in range(ITERATIONS):
         J = compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian
         block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
-        solve = _factor(block, "NATURAL" if plain else "COLAMD")
+        solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD")
         step = -solve(value)
         damping = 1.0
         while True:
@@ -173,7 +175,9 @@ def _newton(
             if damping < 1e-6:
                 raise InitializationError(_lost(compiled, residual(y), system, time))
         y = trial
-        if np.all(np.abs(simplified) <= 1e-11 * (scale + np.abs(y[free]))):
+        change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
+        if change <= CONVERGED:
+            y[free] -= simplified if change > ROUNDING else 0.0
             return y
     raise InitializationError(_lost(compiled, value, system, time))
 
@@ -184,7 +188,9 @@ def _is_range(indices: np.ndarray) -> bool:
 
 def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
     try:
-        return splu(J.tocsc(), permc_spec=order).solve
+        return splu(
+            J.tocsc(), permc_spec=order, diag_pivot_thresh=0.01, options={"SymmetricMode": order == "NATURAL"}
+        ).solve
     except RuntimeError:
         pass
     # Singular here: the step of least norm, if there is one, leads on.

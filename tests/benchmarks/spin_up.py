@@ -48,7 +48,7 @@ def main() -> None:
             ]
             ratio = ours.stats["solve_seconds"] / mark.solve_seconds
             table.add_row(f"{tolerance:g}", str(volumes), *(f"{a} / {b}" for a, b in pairs), f"{ratio:.2f}")
-    console = Console()
+    console = Console(width=125)
     console.print(table, "compiled / by hand; time: initialisation, choice of the order and integration")
     for tolerance in TOLERANCES:
         console.print(
