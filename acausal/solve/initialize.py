@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import casadi as ca
 import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
@@ -32,13 +33,16 @@ class InitialSystem:
         Rows of (alg, conditions) that are solved, as many as unknowns.
     surplus : array of int
         Rows that must then hold by themselves.
-    guessed : array of int
-        States that take their guesses.
+    known : array of int
+        States that are not solved for: they take their guesses, or follow from a condition at once.
+    direct : tuple of (int, int)
+        (row, state) of linear conditions that hold one state and nothing else.
     """
 
     rows: np.ndarray
     surplus: np.ndarray
-    guessed: np.ndarray
+    known: np.ndarray
+    direct: tuple[tuple[int, int], ...] = ()
 
 
 def initialize(
@@ -86,8 +90,6 @@ def algebraic(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float
 
 def _flag_matters(compiled: CompiledModel) -> bool:
     if "flag" not in compiled.cache:
-        import casadi as ca
-
         from acausal.language.functions import initial
 
         column = ca.vertcat(compiled.reduced.ode, compiled.reduced.alg)
@@ -119,14 +121,37 @@ def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarr
     used = [nz + k for k in done.used if k < given]
     guessed = [states[k - given] for k in done.used if k >= given]
     surplus = [nz + k for k in done.surplus if k < given]
-    system = InitialSystem(np.array([*range(nz), *used], int), np.array(surplus, int), np.array(sorted(guessed), int))
+    direct = _direct(compiled, used, rows)
+    solved = [row for row in used if row not in direct]
+    known = sorted([*guessed, *direct.values()])
+    system = InitialSystem(
+        np.array([*range(nz), *solved], int), np.array(surplus, int), np.array(known, int), tuple(direct.items())
+    )
     compiled.cache[key] = system
     return system
+
+
+def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> dict[int, int]:
+    """Conditions that give one state by themselves."""
+    if not used:
+        return {}
+    unknowns = ca.vertcat(compiled.reduced.x, compiled.reduced.z)
+    curved = ca.which_depends(compiled.conditions, unknowns, 2, True)
+    found: dict[int, int] = {}
+    for row in used:
+        inside = rows[compiled.nx + row]
+        if len(inside) == 1 and inside[0] < compiled.nx and not curved[row - compiled.nz]:
+            found[row] = inside[0]
+    return found
 
 
 def _solve(
     compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
 ) -> np.ndarray:
+    if system.direct:
+        local = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)
+        rows, states = np.array(system.direct).T + np.array([[compiled.nx], [0]])
+        y[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
     y = _newton(compiled, system, y, p, time, modes, 1.0)
     if system.surplus.size:
         value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]
@@ -147,7 +172,7 @@ def _newton(
 ) -> np.ndarray:
     """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
     nx, rows = compiled.nx, system.rows + compiled.nx
-    free = np.setdiff1d(np.arange(len(y)), system.guessed)
+    free = np.setdiff1d(np.arange(len(y)), system.known)
     if not free.size:
         return y
     scale = compiled.nominal[free]
