@@ -50,8 +50,12 @@ class FlatModel:
         Fixed start values and initial equations.
     eliminated : (casadi.SX, casadi.SX)
         Removed symbols and what they are, in remaining unknowns.
-    quadratures : mapping of str to casadi.SX
+    energies : mapping of str to casadi.SX
         Stored energy, dissipated and supplied power of the whole model, in original symbols.
+    limits, bound, structural_zeros
+        Bounds of parameters, parameters that follow others, and entries that were exactly 0.
+    redundant : tuple of Origin
+        Equations that said nothing new.
     tree : Component
         The bound model, whose attributes hold the original symbols.
     counts : mapping of str to int

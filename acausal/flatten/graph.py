@@ -14,8 +14,6 @@ from acausal.flatten.origin import Origin, line_of, with_place
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 
-Face = tuple[Connector, bool]  # (connector, seen from inside its owner)
-
 
 @dataclass(frozen=True)
 class Graph:

@@ -14,7 +14,7 @@ import numpy as np
 from acausal.errors import DeclarationError, UnitsError
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
-from acausal.language.component import Component, Connector, Record
+from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
 from acausal.units import Dimension, parse
 
@@ -227,11 +227,6 @@ def walk(component: Component) -> Iterator[Component]:
             for item in value if isinstance(value, list) else [value]:
                 if item is not None:
                     yield from walk(item)
-
-
-def is_record(component: Component) -> bool:
-    """Tell whether the component only holds variables."""
-    return isinstance(component, Connector | Record)
 
 
 def join(path: str, name: str) -> str:

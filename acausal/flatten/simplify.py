@@ -19,7 +19,8 @@ class Simplification:
     """Result of the propagation, in indices of unknowns and residuals.
 
     `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
-    among the remaining ones; `kept` are residuals replaced by `unknown - constant`; `contradictions` can never hold.
+    among the remaining ones; `used` are residuals that removed an unknown, `redundant` those that became 0 = 0, `kept`
+    those replaced by `unknown - constant`; `contradictions` can never hold.
     """
 
     derivative: list[int]

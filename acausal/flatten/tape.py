@@ -66,19 +66,20 @@ class Tape:
             if op == ca.OP_OUTPUT:
                 self.residual[function.instruction_output(k)[1]] = slot[inputs[0]]
                 continue
-            node = len(self.op)
-            self.op.append(op)
-            self.constant.append(function.instruction_constant(k) if op == ca.OP_CONST else 0.0)
+            node, constant, args = len(self.op), 0.0, ()
             if op == ca.OP_INPUT:
-                if inputs[0] == 0:
-                    self.input[inputs[1]] = node
+                argument, constant = inputs
+                if argument == 0:
+                    self.input[constant] = node
                 else:
-                    self.op[node] = ca.OP_PARAMETER
-                inputs = [inputs[1]]
-                self.args.append(())
-                self.constant[node] = inputs[0]
+                    op = ca.OP_PARAMETER
+            elif op == ca.OP_CONST:
+                constant = function.instruction_constant(k)
             else:
-                self.args.append(tuple(slot[i] for i in inputs) if op != ca.OP_CONST else ())
+                args = tuple(slot[i] for i in inputs)
+            self.op.append(op)
+            self.constant.append(constant)
+            self.args.append(args)
             slot[function.instruction_output(k)[0]] = node
 
     def _evaluate(self, node: int) -> Linear | None:
