@@ -24,7 +24,7 @@ def test_free_variables_are_named() -> None:
 
 def arrow(n: int) -> System:
     """Equation k holds variable k and variable 0; the last equation holds all."""
-    rows = tuple((k, 0) for k in range(1, n)) + (tuple(range(n)),)
+    rows = (*((k, 0) for k in range(1, n)), tuple(range(n)))
     return System(rows, (frozenset(),) * n, (-1,) * n, {}, (-1,) * n, (0,) * n)
 
 
