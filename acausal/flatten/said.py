@@ -38,13 +38,13 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
     """Instantiate a model, connect it and collect everything that its components state."""
     if not isinstance(model, Component):
         raise DeclarationError(f"expected a model, that is an instance such as SpinUp(); got {model!r}")
-    build = Instantiation(model, overrides)
-    components = build.components
-    graph = build_graph(components)
-    arrays = create_variables(components, graph.same)
     pending = Pending()
     token = PENDING.set(pending)
     try:
+        build = Instantiation(model, overrides)
+        components = build.components
+        graph = build_graph(components)
+        arrays = create_variables(components, graph.same)
         equations = collect(components, graph)
         starts = collect_initial(components)
         declared = [pair for group in graph.same for pair in group[0].declared_derivatives()]

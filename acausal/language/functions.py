@@ -154,7 +154,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     >>> torque = piecewise((0.01 * (1 - exp(-time / 0.167)), time <= 0.7), 0)  # doctest: +SKIP
     """
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
-    if is_deferred(*flat):
+    if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(lambda *c: piecewise(*c, smooth=smooth), cases)
     value = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from acausal.flatten import FlatModel
 from acausal.flatten.instantiate import join, walk
 from acausal.language.fields import Variable
@@ -43,10 +45,10 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     if singularity.under:
         part = singularity.under[0]
         lines.append(f"Nothing determines {_names(flat, part)}.")
+        lines += _hints(flat, part)
         if part.equations:
             lines.append(f"Only {len(part.equations)} equation{_s(len(part.equations))} hold them:")
             lines += _equations(flat, part)
-        lines += _hints(flat, part)
         lines.append(
             "Add the missing equation, or connect the part; "
             "a mass or inertia of 0 at a free end also leaves its motion undetermined."
@@ -79,8 +81,8 @@ def _names(flat: FlatModel, part: Part) -> str:
 
 
 def _equations(flat: FlatModel, part: Part) -> list[str]:
-    written = [e for e in part.equations if e < len(flat.origins)]
-    rows = [f"  {flat.origins[e]}" for e in written[:MOST]]
+    written = Counter(str(flat.origins[e]) for e in part.equations if e < len(flat.origins))
+    rows = [f"  {line}{f' ({n} entries)' if n > 1 else ''}" for line, n in list(written.items())[:MOST]]
     more = len(written) - MOST
     return rows + ([f"  and {more} more"] if more > 0 else [])
 

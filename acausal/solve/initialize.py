@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +13,7 @@ from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
-from acausal.language.component import Component, Connector
+from acausal.solve.words import contradiction_text, lost_text, missing_text
 from acausal.structure import complete
 
 ITERATIONS = 60
@@ -103,23 +102,19 @@ def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarr
     if key in compiled.cache:
         return compiled.cache[key]
     nx, nz = compiled.nx, compiled.nz
-    pattern = compiled.local.function.sparsity_out(1)
-    rows: list[list[int]] = [[] for _ in range(pattern.size1())]
-    for i, j in zip(*pattern.get_triplet(), strict=True):
-        rows[i].append(j)
+    rows = _rows(compiled, p, time, modes)
     equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
-    states = list(range(nx))
-    if initial == "guesses":
-        flat, plan = compiled.reduced.flat, compiled.reduced.plan
-        states.sort(key=lambda k: not flat.guessed[plan.states[k]] if plan.states[k] < len(flat.guessed) else True)
-        conditions = conditions + [[k] for k in states]
+    given = len(conditions)
     done = complete(equations, conditions, nx + nz)
-    given = len(rows) - nx - nz
-    if done.free:
-        with_guesses = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
-        raise InitializationError(_missing(compiled, [states[k - given] for k in with_guesses.used if k >= given]))
+    guessed = list(done.free)
+    if any(k >= nx for k in done.free):
+        # Some algebraic unknown is left over instead: let guesses of states take the places of conditions.
+        states = sorted(range(nx), key=lambda k: not _is_guessed(compiled, k))
+        done = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
+        guessed = [states[k - given] for k in done.used if k >= given]
+    if guessed and initial == "fixed":
+        raise InitializationError(missing_text(compiled, guessed))
     used = [nz + k for k in done.used if k < given]
-    guessed = [states[k - given] for k in done.used if k >= given]
     surplus = [nz + k for k in done.surplus if k < given]
     direct = _direct(compiled, used, rows)
     solved = [row for row in used if row not in direct]
@@ -129,6 +124,24 @@ def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarr
     )
     compiled.cache[key] = system
     return system
+
+
+def _is_guessed(compiled: CompiledModel, state: int) -> bool:
+    flat, index = compiled.reduced.flat, compiled.reduced.plan.states[state]
+    return index < len(flat.guessed) and bool(flat.guessed[index])
+
+
+def _rows(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray) -> list[list[int]]:
+    """Unknowns of each equation, those first on which it depends most at the guesses.
+
+    A condition on a velocity then determines a velocity, although it also holds the orientation.
+    """
+    start = compiled.start(p, time)[0].copy()
+    J: Any = compiled.at(start[: compiled.nx], start[compiled.nx :], p, time, modes, 1.0).jacobian.tocoo()
+    rows: list[list[int]] = [[] for _ in range(J.shape[0])]
+    for k in np.argsort(-np.abs(np.nan_to_num(J.data)), kind="stable"):
+        rows[J.row[k]].append(int(J.col[k]))
+    return rows
 
 
 def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> dict[int, int]:
@@ -157,7 +170,7 @@ def _solve(
         value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(y), initial=0))]
         if wrong:
-            raise InitializationError(_contradiction(compiled, value, wrong))
+            raise InitializationError(contradiction_text(compiled, value, wrong))
     return y
 
 
@@ -198,13 +211,17 @@ def _newton(
                     break
             damping /= 2
             if damping < 1e-6:
-                raise InitializationError(_lost(compiled, residual(y), system, time))
+                raise InitializationError(lost_text(compiled, residual(y), system.rows, system.surplus, time))
         y = trial
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= CONVERGED:
             y[free] -= simplified if change > ROUNDING else 0.0
+            if np.max(np.abs(value), initial=0.0) > CONSISTENT * (
+                1 + np.max(np.abs(y)) * float(np.max(np.abs(J.data)))
+            ):
+                break
             return y
-    raise InitializationError(_lost(compiled, value, system, time))
+    raise InitializationError(lost_text(compiled, value, system.rows, system.surplus, time))
 
 
 def _is_range(indices: np.ndarray) -> bool:
@@ -221,66 +238,3 @@ def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarr
     # Singular here: the step of least norm, if there is one, leads on.
     dense = J.toarray()
     return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]
-
-
-def _missing(compiled: CompiledModel, free: list[int]) -> str:
-    names = [compiled.states[k] for k in free]
-    lines = [
-        f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
-        "too few start values are fixed (the model itself is complete).",
-        "Fix for instance:",
-    ]
-    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled.tree, name) for name in names))[:10]]
-    lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
-    return "\n".join(lines)
-
-
-def _line(tree: Component, name: str) -> str:
-    """Return the constructor argument that would fix a state; a connector's state is fixed in the part that owns it."""
-    path = re.sub(r"\[[\d,]+\]$", "", name.removeprefix("der(").removesuffix(")"))
-    owner, rest = tree, path.split(".")
-    while len(rest) > 1 and not isinstance(owner, Connector):
-        owner = _member(owner, rest.pop(0))
-    variable = ".".join(rest)
-    words = type(owner).start_words.get(variable, f"{variable}=fixed(...)")
-    part = owner._owner if isinstance(owner, Connector) else owner
-    return f"{part._path or 'the model'}: {type(part).__name__}({words})"
-
-
-def _member(owner: Component, text: str) -> Any:
-    name, _, index = text.partition("[")
-    value = getattr(owner, name)
-    return value[int(index.removesuffix("]"))] if index else value
-
-
-def _contradiction(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
-    flat, nz = compiled.reduced.flat, compiled.nz
-    lines = ["the initial conditions contradict the equations of the model or each other:"]
-    for k in wrong[:10]:
-        condition = flat.initial[k - nz]
-        lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
-    lines.append("Remove one of them, or make it a guess: guess(...) instead of fixed(...).")
-    return "\n".join(lines)
-
-
-def _lost(compiled: CompiledModel, value: np.ndarray, system: InitialSystem, time: float) -> str:
-    flat, plan, nz = compiled.reduced.flat, compiled.reduced.plan, compiled.nz
-    order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
-    lines = [
-        f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"
-    ]
-    for k in order[:5]:
-        row = system.rows[k]
-        if row < nz:
-            equation = plan.residuals[row]
-            while equation >= len(flat.origins):
-                equation = plan.differentiated[equation - len(flat.origins)]
-            lines.append(f"  {flat.origins[equation]}: off by {value[k]:.4g}")
-        else:
-            condition = flat.initial[row - nz]
-            lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
-    if system.surplus.size:
-        lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
-        lines += [f"  {flat.initial[row - nz].text} ({flat.initial[row - nz].origin})" for row in system.surplus[:5]]
-    lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
-    return "\n".join(lines)

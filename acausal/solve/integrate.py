@@ -85,6 +85,8 @@ class Integrator:
             "max_num_steps": max_steps,
             "disable_internal_warnings": True,
             "quad_err_con": False,
+            # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps.
+            "nonlin_conv_coeff": 0.05,
             "show_eval_warnings": False,
         }
 

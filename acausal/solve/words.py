@@ -1,0 +1,77 @@
+"""What failed at the start, in the user's words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.language.component import Component, Connector
+
+
+def missing_text(compiled: CompiledModel, free: list[int]) -> str:
+    """Say which states are left open, and what would fix each."""
+    names = [compiled.states[k] for k in free]
+    lines = [
+        f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
+        "too few start values are fixed (the model itself is complete).",
+        "Fix for instance:",
+    ]
+    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled.tree, name) for name in names))[:10]]
+    lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
+    return "\n".join(lines)
+
+
+def _line(tree: Component, name: str) -> str:
+    """Return the constructor argument that would fix a state; a connector's state is fixed in the part that owns it."""
+    path = re.sub(r"\[[\d,]+\]$", "", name.removeprefix("der(").removesuffix(")"))
+    owner, rest = tree, path.split(".")
+    while len(rest) > 1 and not isinstance(owner, Connector):
+        owner = _member(owner, rest.pop(0))
+    variable = ".".join(rest)
+    words = type(owner).start_words.get(variable, f"{variable}=fixed(...)")
+    part = owner._owner if isinstance(owner, Connector) else owner
+    return f"{part._path or 'the model'}: {type(part).__name__}({words})"
+
+
+def _member(owner: Component, text: str) -> Any:
+    name, _, index = text.partition("[")
+    value = getattr(owner, name)
+    return value[int(index.removesuffix("]"))] if index else value
+
+
+def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
+    """Say which conditions contradict the rest."""
+    flat, nz = compiled.reduced.flat, compiled.nz
+    lines = ["the initial conditions contradict the equations of the model or each other:"]
+    for k in wrong[:10]:
+        condition = flat.initial[k - nz]
+        lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    lines.append("Remove one of them, or make it a guess: guess(...) instead of fixed(...).")
+    return "\n".join(lines)
+
+
+def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surplus: np.ndarray, time: float) -> str:
+    """Say which equations of the initial system were farthest from holding."""
+    flat, plan, nz = compiled.reduced.flat, compiled.reduced.plan, compiled.nz
+    order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
+    lines = [
+        f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"
+    ]
+    for k in order[:5]:
+        row = rows[k]
+        if row < nz:
+            equation = plan.residuals[row]
+            while equation >= len(flat.origins):
+                equation = plan.differentiated[equation - len(flat.origins)]
+            lines.append(f"  {flat.origins[equation]}: off by {value[k]:.4g}")
+        else:
+            condition = flat.initial[row - nz]
+            lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    if surplus.size:
+        lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
+        lines += [f"  {flat.initial[row - nz].text} ({flat.initial[row - nz].origin})" for row in surplus[:5]]
+    lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
+    return "\n".join(lines)
