@@ -10,6 +10,7 @@ from acausal import (
     PREFER,
     as_expr,
     branch,
+    cos,
     cross,
     der,
     dot,
@@ -17,6 +18,7 @@ from acausal import (
     outer,
     port,
     potential_root,
+    sin,
     structural,
     variable,
 )
@@ -245,7 +247,5 @@ class FlexibleBeam(Beam):
 
 def planar_rotation_without_rate(angle: Any) -> Any:
     """Rotation matrix about z, turning coordinates of the reference frame into those of the section."""
-    from acausal import cos, sin
-
     c, s = cos(angle), sin(angle)
     return as_expr([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, Scalar, dot, parameter, port, root, sqrt, structural
+from acausal import Component, DeclarationError, Scalar, dot, parameter, port, root, sqrt, structural
 from components.frame import Frame
 from components.orientation import unit_vector
 
@@ -68,8 +68,6 @@ class World(Component):
 
 def require_direction(component: Any, vector: Any, name: str) -> None:
     """Refuse a vector of length 0 where a direction is needed."""
-    from acausal import DeclarationError
-
     if not np.linalg.norm(vector) > 0:
         where = f"{component._path} ({type(component).__name__})"
         raise DeclarationError(f"`{name}` of {where} has length 0; give a direction, for instance {name}=(0, 0, 1).")

@@ -13,6 +13,7 @@ from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
+from acausal.language.functions import initial as initial_flag
 from acausal.solve.words import contradiction_text, lost_text, missing_text
 from acausal.structure import complete
 
@@ -89,10 +90,8 @@ def algebraic(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float
 
 def _flag_matters(compiled: CompiledModel) -> bool:
     if "flag" not in compiled.cache:
-        from acausal.language.functions import initial
-
         column = ca.vertcat(compiled.reduced.ode, compiled.reduced.alg)
-        compiled.cache["flag"] = any(ca.which_depends(column, initial.sx, 1, True))
+        compiled.cache["flag"] = any(ca.which_depends(column, initial_flag.sx, 1, True))
     return compiled.cache["flag"]
 
 
