@@ -47,11 +47,11 @@ class Frame(Connector):
         yield self.v, self.a - cross(self.R.w, self.v)
         yield self.R.w, self.z
 
-    def residual(self, other: Any) -> Iterator[Any]:
+    def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
         """Equal position, and a relative rotation matrix whose off-diagonal entries vanish."""
-        yield self.r_0 == other.r_0
+        yield self.r_0 == other.r_0, resolve1(self.R, self.f)
         T_rel = other.R.T @ self.R.T.T
-        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == as_expr(np.zeros(3))
+        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == as_expr(np.zeros(3)), self.t
 
     def root_equations(self) -> Iterator[Any]:
         """Quaternion of a free frame."""

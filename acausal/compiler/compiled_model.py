@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from acausal.compiler.call import Call
+from acausal.compiler.closing import Closing
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import not_settable, numeric
 from acausal.language import fields as f
@@ -96,14 +97,21 @@ class CompiledModel:
     def nominal(self) -> np.ndarray:
         """Typical size of each state and algebraic unknown."""
         flat, plan = self.reduced.flat, self.reduced.plan
-        nominal = np.concatenate([flat.nominal, np.ones(len(plan.created))])
+        nominal = np.concatenate([flat.nominal, np.ones(plan.system.n_variables - len(flat.nominal))])
+        for p in plan.constrained.projections:
+            nominal[p.state] = nominal[p.coordinate]
         return nominal[[*plan.states, *plan.algebraic]]
 
     @cached_property
     def conditions(self) -> ca.SX:
         """Residuals of fixed start values and initial equations, in x, z, parameters and time."""
         entries = [condition.residual for condition in self.reduced.flat.initial]
-        return self.reduced.resolve(ca.vertcat(*entries)) if entries else ca.SX(0, 1)
+        return self.reduced.resolve(ca.vertcat(ca.SX(0, 1), *entries), unprojected=True)
+
+    @cached_property
+    def closing(self) -> Closing:
+        """Constraints that hold at several levels."""
+        return Closing(self.reduced)
 
     @cached_property
     def arguments(self) -> list[ca.SX]:
@@ -142,8 +150,10 @@ class CompiledModel:
     def start(self) -> Call:
         """Function of parameters and time: start values of states and algebraic unknowns."""
         flat, plan = self.reduced.flat, self.reduced.plan
-        start = ca.vertcat(flat.start, ca.SX.zeros(len(plan.created)))
-        chosen = ca.densify(ca.vertcat(*[start[k] for k in (*plan.states, *plan.algebraic)]))
+        start = [*scalars(flat.start), *[ca.SX(0)] * (plan.system.n_variables - flat.start.numel())]
+        for p in plan.constrained.projections:
+            start[p.state] = start[p.coordinate]
+        chosen = ca.densify(ca.vertcat(ca.SX(0, 1), *[start[k] for k in (*plan.states, *plan.algebraic)]))
         return Call(ca.Function("start", [flat.parameters, time.sx], [chosen]))
 
     @cached_property

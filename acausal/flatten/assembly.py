@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.closing import closing
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel, Initial
 from acausal.flatten.origin import Origin
@@ -36,7 +37,8 @@ class Assembly:
     def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
         self.size = chain.levels[0].numel()
-        residuals = column(raw.equations.residuals)
+        closures = raw.equations.closures
+        residuals = column([*raw.equations.residuals, *[c.dual for c in closures]])
         self.residuals, starts, energies = resolved(
             [residuals, column(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
@@ -45,6 +47,8 @@ class Assembly:
         self.parameters = column(raw.build.parameters.symbols)
         self.modes = column([mode for mode, _ in raw.pending.switches])
         self.origins = raw.equations.scalar_origins()
+        self.substitutes = {c.row: len(self.origins) + k for k, c in enumerate(closures)}
+        self.origins += [self.origins[c.row] for c in closures]
 
     def flat_model(self) -> FlatModel:
         """Simplify and assemble."""
@@ -52,15 +56,15 @@ class Assembly:
         tape = Tape(self.symbols, others, self.residuals)
         present = set(tape.input)
         derivative = self._chains(present)
-        done = Simplifier(tape, derivative, self._rank()).run()
+        done = Simplifier(tape, derivative, self._rank(), self.substitutes).run()
         self._refuse_contradictions(done)
         values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         elements = scalars(self.symbols)
         final = [_expression(value, elements) for value in values]
-        removed, redundant = list(done.solved), set(done.redundant)
+        removed, unused = list(done.solved), self._unused(done)
         was = column([elements[k] for k in removed])
         becomes = column([final[k] for k in removed])
-        rows = [r for r in range(len(self.origins)) if r not in done.used and r not in redundant]
+        rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
         residuals = ca.substitute([self.residuals], [was], [becomes])[0]
         return self._build(done, rows, residuals, (was, becomes), values, present)
 
@@ -112,9 +116,10 @@ class Assembly:
             structural_zeros=tuple(build.parameters.structural_zeros),
             redundant=tuple(self.origins[r] for r in done.redundant),
             unconnected=raw.graph.unconnected,
+            **closing(raw, set(done.redundant), values, rows, residuals, self.substitutes),
             tree=build.root,
             counts={
-                "equations_flat": len(self.origins),
+                "equations_flat": len(self.origins) - len(self.substitutes),
                 "unknowns_flat": self.size + len([k for k in present if k >= self.size]),
                 "constants": sum(not terms for _, terms in done.solved.values()),
                 "aliases": sum(bool(terms) for _, terms in done.solved.values()),
@@ -124,6 +129,11 @@ class Assembly:
             },
             **attributes,
         )
+
+    def _unused(self, done: Simplification) -> set[int]:
+        """Residuals that say nothing new, and substitutes of those that do."""
+        redundant = set(done.redundant)
+        return redundant | {s for row, s in self.substitutes.items() if row not in redundant}
 
     def _chains(self, present: set[int]) -> list[int]:
         """Unknown -> its derivative among the symbols, as far as a derivative occurs."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import casadi as ca
@@ -13,9 +14,23 @@ from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
 from acausal.flatten.instantiate import join
 from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.spanning_tree import Cut
+from acausal.symbols import scalars
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
-from acausal.language.expression import Equation, Expr, equation
+from acausal.language.expression import Equation, Expr, as_expr, equation
+
+
+@dataclass(frozen=True)
+class Closure:
+    """A scalar residual that closes a loop.
+
+    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual says nothing new.
+    """
+
+    row: int
+    dual: ca.SX
+    cut: Cut
 
 
 @dataclass
@@ -25,6 +40,7 @@ class Equations:
     residuals: list[ca.SX]
     sides: list[tuple[ca.SX, ca.SX]]
     origins: list[Origin]
+    closures: list[Closure] = field(default_factory=list)
 
     def add(self, statement: Equation, origin: Origin) -> None:
         """Append an equation."""
@@ -52,9 +68,7 @@ def collect(components: list[Component], graph: Graph) -> Equations:
     for connector in graph.roots:
         _run(connector, connector.root_equations, found)
     for cut in graph.cuts:
-        origin = Origin("", f"connection of {cut.a._path} and {cut.b._path}", "closing a loop")
-        for statement in cut.a.residual(cut.b):
-            found.add(statement, origin)
+        _close(cut, graph, found)
     for balance in graph.balances:
         _balance(balance, found)
     return found
@@ -66,6 +80,24 @@ def collect_initial(components: list[Component]) -> Equations:
     for component in components:
         _run(component, component.initial_equations, found)
     return found
+
+
+def _close(cut: Cut, graph: Graph, found: Equations) -> None:
+    """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across."""
+    a, b = cut.statement.a, cut.statement.b
+    balance = next(s for s in graph.balances if {a, b} <= {c for c, _ in s})
+    side = next(set(group) for group in graph.same if a in group)
+    sent = copy(a)
+    for name, declared in a.fields.items():
+        if isinstance(declared, f.Variable) and declared.flow:
+            flows = [getattr(c, name).sx * sign for c, sign in balance if c in side]
+            setattr(sent, name, Expr(sum(flows[1:], flows[0])))
+    origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
+    for statement, dual in sent.residual(b):
+        row = sum(r.numel() for r in found.residuals)
+        found.add(statement, origin)
+        for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
+            found.closures.append(Closure(row + k, entry, cut))
 
 
 def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:

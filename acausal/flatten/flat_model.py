@@ -23,6 +23,54 @@ class Initial:
 
 
 @dataclass(frozen=True)
+class FlatClosure:
+    """A residual that closes a loop.
+
+    Parameters
+    ----------
+    row : int
+        The residual.
+    dual : casadi.SX
+        Flow that works on it, which is undetermined where the residual says nothing new.
+    loop : int
+        Number of its loop.
+    """
+
+    row: int
+    dual: ca.SX
+    loop: int
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop that is cut: the connection, its components, and what of its closing equations said nothing new.
+
+    Parameters
+    ----------
+    a, b : str
+        Paths of the two connected ports.
+    where : str
+        File and line of the connection.
+    parts : tuple of str
+        Paths of the components in the loop that move in themselves.
+    constraints : int
+        Scalar equations that close it.
+    dropped : int
+        Those that became 0 = 0.
+    undetermined : tuple of str
+        Flows that were left undetermined by them and are 0.
+    """
+
+    a: str
+    b: str
+    where: str
+    parts: tuple[str, ...]
+    constraints: int
+    dropped: int
+    undetermined: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class FlatModel:
     """A model as one list of scalar unknowns and one list of scalar equations.
 
@@ -56,6 +104,8 @@ class FlatModel:
         Bounds of parameters, parameters that follow others, and entries that were exactly 0.
     redundant : tuple of Origin
         Equations that said nothing new.
+    closures, loops
+        Residuals that close loops, and the loops.
     tree : Component
         The bound model, whose attributes hold the original symbols.
     counts : mapping of str to int
@@ -85,5 +135,7 @@ class FlatModel:
     structural_zeros: tuple[str, ...]
     redundant: tuple[Origin, ...]
     unconnected: tuple[str, ...]
+    closures: tuple[FlatClosure, ...]
+    loops: tuple[Loop, ...]
     tree: Component
     counts: Mapping[str, int]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +10,7 @@ from networkx.utils import UnionFind
 
 from acausal.errors import ConnectError
 from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 
@@ -25,8 +25,8 @@ class Graph:
         Connectors whose potentials are one variable.
     balances : list of tuple of (Connector, int)
         Connection sets: the signed flows of each sum to zero.
-    cuts : list of Connect
-        Connections that keep the residual of an over-determined record.
+    cuts : list of Cut
+        Connections that close a loop and keep the residual of an over-determined record.
     roots : list of Connector
         Potential roots that were chosen.
     unconnected : tuple of str
@@ -35,7 +35,7 @@ class Graph:
 
     same: list[tuple[Connector, ...]]
     balances: list[tuple[tuple[Connector, int], ...]]
-    cuts: list[Connect]
+    cuts: list[Cut]
     roots: list[Connector]
     unconnected: tuple[str, ...]
 
@@ -60,8 +60,8 @@ def build_graph(components: list[Component]) -> Graph:
                 )
     _refuse_doubles(connects)
     connectors = [c for c in components if isinstance(c, Connector)]
-    cuts, chosen = _spanning_tree(connectors, [c for _, c, _ in connects], branches, roots)
-    cut_ids = {id(c) for c in cuts}
+    cuts, chosen = spanning_tree(connectors, [(c, where) for _, c, where in connects], branches, roots)
+    cut_ids = {id(cut.statement) for cut in cuts}
     same = UnionFind(connectors)
     for _, statement, _ in connects:
         if id(statement) not in cut_ids:
@@ -119,78 +119,3 @@ def _balances(
     sets = [sorted(s, key=lambda face: order[id(face[0])]) for s in faces.to_sets()]
     sets.sort(key=lambda s: order[id(s[0][0])])
     return [tuple((connector, -1 if outside else 1) for connector, outside in s) for s in sets]
-
-
-def _spanning_tree(
-    connectors: list[Connector], connects: list[Connect], branches: list[Branch], roots: list[Root]
-) -> tuple[list[Connect], list[Connector]]:
-    """Span the over-determined connectors breadth first from the roots; branches are never cut.
-
-    Returns the connections that close a loop, and the potential roots that were needed.
-    """
-    nodes = [c for c in connectors if type(c).residual is not Connector.residual]
-    links: dict[int, list[tuple[Connector, Connect | None]]] = {id(n): [] for n in nodes}
-    for b in branches:
-        links[id(b.a)].append((b.b, None))
-        links[id(b.b)].append((b.a, None))
-    for c in connects:
-        if id(c.a) in links:
-            links[id(c.a)].append((c.b, c))
-            links[id(c.b)].append((c.a, c))
-    reached: set[int] = set()
-    tree: set[int] = set()
-    queue: deque[Connector] = deque()
-
-    def enter(node: Connector) -> None:
-        """Reach a node and everything that branches tie to it."""
-        stack = [node]
-        reached.add(id(node))
-        while stack:
-            here = stack.pop()
-            queue.append(here)
-            for there, statement in links[id(here)]:
-                if statement is None and there not in here._parents:
-                    if id(there) in reached:
-                        raise ConnectError(
-                            f"{here._path} and {there._path} are tied to each other, or to roots, in two ways without a "
-                            "connection between them that could be cut."
-                        )
-                    reached.add(id(there))
-                    there._parents = (here,)
-                    stack.append(there)
-
-    def grow() -> None:
-        while queue:
-            here = queue.popleft()
-            for there, statement in links[id(here)]:
-                if statement is not None and id(there) not in reached:
-                    tree.add(id(statement))
-                    enter(there)
-
-    for r in roots:
-        if r.priority is None:
-            enter(r.connector)
-    grow()
-    chosen = []
-    for r in sorted((r for r in roots if r.priority is not None), key=lambda r: r.priority or 0):
-        if id(r.connector) not in reached:
-            r.connector._is_root = True
-            chosen.append(r.connector)
-            enter(r.connector)
-            grow()
-    lost = [n for n in nodes if id(n) not in reached]
-    if lost:
-        raise ConnectError(
-            f"{_owner_of(lost[0])}: {lost[0]._path} has no connection to a root such as the World, nor to a body that "
-            f"could move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
-        )
-    return [c for c in connects if id(c.a) in links and id(c) not in tree], chosen
-
-
-def _owner_of(connector: Connector) -> Origin:
-    return Origin.of(connector if connector._owner is None else connector._owner)
-
-
-def _also(others: list[Connector]) -> str:
-    more = ", ..." if len(others) > 5 else ""
-    return f" (nor have {', '.join(c._path for c in others[:5])}{more})" if others else ""

@@ -43,10 +43,15 @@ class Simplifier:
         Unknown -> the unknown that is its derivative, or -1.
     rank : list of int
         How gladly an unknown stays: CHAINED or DECLARED plus its preference.
+    substitutes : dict of int to int, optional
+        Residuals that remove no unknown, and the residual that takes the place of each if it says nothing new.
     """
 
-    def __init__(self, tape: Tape, derivative: list[int], rank: list[int]) -> None:
+    def __init__(
+        self, tape: Tape, derivative: list[int], rank: list[int], substitutes: dict[int, int] | None = None
+    ) -> None:
         self.tape = tape
+        self.substitutes = substitutes or {}
         self.up = list(derivative)
         self.down = [-1] * len(derivative)
         for lower, upper in enumerate(derivative):
@@ -55,7 +60,7 @@ class Simplifier:
         self.rank = rank
         self.result = Simplification(self.up, rank, tape.solved)
         self.extra: list[Linear] = []
-        self.closed: set[int] = set()
+        self.closed: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
         """Propagate until nothing changes."""
@@ -80,7 +85,10 @@ class Simplifier:
                 self.result.contradictions.append((row, value[0]))
             else:
                 self.result.redundant.append(row)
-        elif self._assign(value, row):
+                if row in self.substitutes:
+                    self.closed.discard(self.substitutes[row])
+                    self._visit(self.substitutes[row])
+        elif row not in self.substitutes and self._assign(value, row):
             self.closed.add(row)
 
     def _assign(self, value: Linear, row: int | None) -> bool:

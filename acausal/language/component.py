@@ -160,8 +160,11 @@ class Connector(Component):
         """Yield pairs (variable, expression of its time derivative)."""
         yield from ()
 
-    def residual(self, other: Any) -> Iterator[Any]:
-        """Yield independent equations that make this record equal to the other one, used where a loop is cut."""
+    def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
+        """Yield pairs (independent equations that make this record equal to the other one, flows that work on them).
+
+        Used where a loop is cut: where an equation says nothing new, the flow that works on it is undetermined.
+        """
         yield from ()
 
     def root_equations(self) -> Iterator[Any]:

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.flatten import FlatModel
 from acausal.language.functions import initial, time
 from acausal.structure import System
+from acausal.symbols import scalars
 
 
 @dataclass(frozen=True)
@@ -74,5 +75,17 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
         defines=tuple(d if d >= 0 and d in declared and flat.derivative[d] < 0 else -1 for d in flat.defines),
         preference=flat.preference,
         monic=tuple(frozenset(m) for m in monic),
+        closures=_closures(flat),
     )
     return system, linear
+
+
+def _closures(flat: FlatModel) -> dict[int, tuple[int, ...]]:
+    """Residual that closes a loop -> unknowns of the flow that works on it."""
+    if not flat.closures:
+        return {}
+    index = {s.element_hash(): k for k, s in enumerate(scalars(flat.unknowns))}
+    return {
+        c.row: tuple(index[s.element_hash()] for s in ca.symvar(c.dual) if s.element_hash() in index)
+        for c in flat.closures
+    }

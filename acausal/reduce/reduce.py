@@ -7,7 +7,9 @@ import casadi as ca
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel
 from acausal.language.functions import initial, time
+from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
+from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.incidence import Linear, jacobian, system_of
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, analyse
@@ -47,16 +49,15 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
         Jacobian of its residuals, from `plan_of`.
     """
     created = [ca.SX.sym(f"der{k}") for k in plan.created]
+    created += [ca.SX.sym(f"x{k}") for k in range(plan.system.n_variables - flat.unknowns.numel() - len(created))]
     unknowns = ca.vertcat(flat.unknowns, *created)
-    names = list(flat.names)
-    for k in plan.created:
-        names.append(f"der({names[k]})")
     residuals, explicit = _differentiate(flat, plan, unknowns, linear)
     elements = scalars(unknowns)
+    closing = constrain(flat, plan, elements, residuals, explicit)
 
     def solved(pairs: tuple[tuple[int, int], ...]) -> tuple[ca.SX, ca.SX]:
         symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
-        return symbols, _solve(pairs, residuals, explicit, elements, plan)
+        return symbols, solve_explicit(pairs, residuals, explicit, elements, plan)
 
     x = ca.vertcat(*[elements[k] for k in plan.states])
     z = ca.vertcat(*[elements[k] for k in plan.algebraic])
@@ -67,7 +68,20 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
         values, ode, alg = _inline(assigned, values, ode, alg)
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
-    return ReducedModel(flat, plan, unknowns, tuple(names), x, z, ode, alg, definitions)
+    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, closing)
+
+
+def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
+    """Names of all unknowns; what is integrated in place of a coordinate has its name."""
+    names = list(flat.names)
+    names += [f"der({names[k]})" for k in plan.created]
+    names += [""] * (plan.system.n_variables - len(names))
+    for constraint in plan.constrained.constraints:
+        for multiplier in constraint.multipliers:
+            names[multiplier] = f"projection[{multiplier}]"
+    for p in plan.constrained.projections:
+        names[p.state], names[p.state_rate] = names[p.coordinate], f"der({names[p.coordinate]})"
+    return tuple(names)
 
 
 def _inline(symbols: ca.SX, values: ca.SX, ode: ca.SX, alg: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
@@ -98,36 +112,3 @@ def _differentiate(
         coefficients = jacobian(derivative, unknowns, ca.vertcat(time.sx, initial.sx, modes)).explicit
         explicit.update({(start + i, j): c for (i, j), c in coefficients.items()})
     return residuals, explicit
-
-
-def _solve(
-    pairs: tuple[tuple[int, int], ...],
-    residuals: list[ca.SX],
-    explicit: dict[tuple[int, int], ca.SX],
-    elements: list[ca.SX],
-    plan: Plan,
-) -> ca.SX:
-    """Solve each (unknown, equation) for its unknown: v = -r(v = 0) / c.
-
-    Rows that do not contain each other's unknown are treated in one substitution.
-    """
-    owner = {v: k for k, (v, _) in enumerate(pairs)}
-    colour = [0] * len(pairs)
-    taken: list[set[int]] = [set() for _ in pairs]
-    for k, (v, e) in enumerate(pairs):
-        inside = [owner[u] for u in plan.system.rows[e] if u in owner and u != v]
-        used = taken[k].union(colour[j] for j in inside if j < k)
-        colour[k] = next(c for c in range(len(pairs) + 1) if c not in used)
-        for j in inside:
-            taken[j].add(colour[k])
-    values: list[ca.SX] = [ca.SX(0)] * len(pairs)
-    for c in range(max(colour, default=-1) + 1):
-        chosen = [k for k in range(len(pairs)) if colour[k] == c]
-        symbols = ca.vertcat(*[elements[pairs[k][0]] for k in chosen])
-        column = ca.vertcat(*[residuals[pairs[k][1]] for k in chosen])
-        rest = ca.substitute([column], [symbols], [ca.SX.zeros(len(chosen))])[0]
-        for k, r in zip(chosen, scalars(rest), strict=True):
-            v, e = pairs[k]
-            coefficient = explicit[e, v]
-            values[k] = -r if coefficient.is_one() else r if coefficient.is_minus_one() else -r / coefficient
-    return ca.vertcat(*values)

@@ -8,6 +8,7 @@ from functools import cached_property
 import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.reduce.constrain import Closing
 from acausal.structure import Plan
 
 
@@ -29,6 +30,8 @@ class ReducedModel:
         States, algebraic unknowns and the equations of the integrated system.
     definitions : (casadi.SX, casadi.SX)
         Unknowns that were assigned or are observed, in order of evaluation, and what they are.
+    closing : Closing
+        Constraints that hold at several levels.
     """
 
     flat: FlatModel
@@ -40,11 +43,12 @@ class ReducedModel:
     ode: ca.SX
     alg: ca.SX
     definitions: tuple[ca.SX, ca.SX]
+    closing: Closing
 
     @cached_property
     def modes(self) -> ca.SX:
-        """Mode symbols of the switches, a column."""
-        return ca.vertcat(*[mode for mode, _ in self.flat.switches])
+        """Constants of a segment of integration: modes of the switches, then the choice."""
+        return ca.vertcat(*[mode for mode, _ in self.flat.switches], self.closing.choice)
 
     @cached_property
     def _resolved(self) -> ca.SX:
@@ -52,14 +56,18 @@ class ReducedModel:
         symbols, expressions = self.definitions
         return ca.substitute_inplace([symbols], [expressions], [])[0][0] if symbols.numel() else expressions
 
-    def resolve(self, expression: ca.SX) -> ca.SX:
+    def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
         """Express anything of the model in x, z, parameters and time.
 
         Parameters
         ----------
         expression : casadi.SX
             In original symbols of the model or in remaining unknowns.
+        unprojected : bool
+            Whether to take coordinates as what is integrated in their place, which they are where the multipliers are 0.
         """
         was, becomes = self.flat.eliminated
         first = ca.substitute([expression], [was], [becomes])
+        if unprojected:
+            first = ca.substitute(first, [self.closing.coordinates], [self.closing.states])
         return ca.substitute(first, [self.definitions[0]], [self._resolved])[0]

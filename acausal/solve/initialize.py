@@ -14,6 +14,8 @@ from scipy.sparse.linalg import splu
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
+from acausal.solve.closed_start import closed_guess, rows_and_knowns
+from acausal.solve.projection import choose_projection
 from acausal.solve.words import contradiction_text, lost_text, missing_text
 from acausal.structure import complete
 
@@ -47,7 +49,7 @@ class InitialSystem:
 
 def initialize(
     compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find states and algebraic unknowns that satisfy the equations and the initial conditions.
 
     Parameters
@@ -63,6 +65,8 @@ def initialize(
     -------
     x, z : arrays
         States and algebraic unknowns.
+    modes : array
+        Constants of the first segment: the given modes, and what is chosen for constraints.
 
     Raises
     ------
@@ -71,14 +75,66 @@ def initialize(
     """
     if initial not in ("fixed", "guesses"):
         raise DeclarationError(f'initial is {initial!r}; it must be "fixed" or "guesses".')
-    system = _system(compiled, p, time, modes, initial)
     y = compiled.start(p, time)[0].copy()
     nx = compiled.nx
+    if compiled.closing.size:
+        modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
+        system, y, modes = _closed(compiled, y, p, time, modes, initial)
+    else:
+        system = _system(compiled, p, time, modes, initial)
+        y = _direct_values(compiled, system.direct, y, p, time, modes)
     y = _solve(compiled, system, y, p, time, modes)
     # The conditions of the initial system hold no longer; the states stay, the rest follows.
-    if not _flag_matters(compiled):
-        return y[:nx], y[nx:]
-    return y[:nx], algebraic(compiled, y, p, time, modes)[nx:]
+    if _flag_matters(compiled):
+        y = algebraic(compiled, y, p, time, modes)
+    if compiled.closing.size:
+        modes = choose_projection(compiled, y[:nx], y[nx:], p, time, modes)
+    return y[:nx], y[nx:], modes
+
+
+def _closed(
+    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray, initial: str
+) -> tuple[InitialSystem, np.ndarray, np.ndarray]:
+    """Close the loops, and choose the initial system from there."""
+    nx, nz = compiled.nx, compiled.nz
+    given = compiled.conditions.numel()
+    rows = _rows(compiled, p, time, modes)
+    direct = _direct(compiled, list(range(nz, nz + given)), rows)
+    # The first condition on a state gives it, another one must agree.
+    first = {state: row for row, state in reversed(direct.items())}
+    direct = {row: state for state, row in first.items()}
+    y = _direct_values(compiled, tuple(direct.items()), y, p, time, modes)
+    held = np.array(sorted(first), dtype=int)
+    y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
+    y = algebraic(compiled, y, p, time, modes)
+    others = [k for k in range(given) if nz + k not in direct]
+    chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial)
+    equations, used, surplus, known = chosen
+    system = InitialSystem(
+        np.array([*equations, *(nz + k for k in used)], int),
+        np.array([nz + k for k in surplus], int),
+        np.array(sorted(known), int),
+        tuple(direct.items()),
+    )
+    return system, y, modes
+
+
+def _direct_values(
+    compiled: CompiledModel,
+    direct: tuple[tuple[int, int], ...],
+    y: np.ndarray,
+    p: np.ndarray,
+    time: float,
+    modes: np.ndarray,
+) -> np.ndarray:
+    """Give states the values that conditions state for them."""
+    if not direct:
+        return y
+    local = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)
+    rows, states = np.array(direct).T + np.array([[compiled.nx], [0]])
+    y = y.copy()
+    y[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
+    return y
 
 
 def algebraic(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
@@ -160,10 +216,6 @@ def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> 
 def _solve(
     compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
 ) -> np.ndarray:
-    if system.direct:
-        local = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)
-        rows, states = np.array(system.direct).T + np.array([[compiled.nx], [0]])
-        y[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
     y = _newton(compiled, system, y, p, time, modes, 1.0)
     if system.surplus.size:
         value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]

@@ -12,8 +12,10 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.solve.initialize import algebraic
+from acausal.solve.projection import WORN, choose_projection, worn
 
 CHUNKS = 25
+LOOKS = 100
 # Steps for all outputs together: before a run counts as long, and before a chunk or an output counts as hopeless.
 LONG, HOPELESS = 100_000, 2_000_000
 Progress = Callable[[float, int], None]
@@ -32,6 +34,7 @@ class Trace:
     factorisations: int = 0
     residual_evaluations: int = 0
     calls: int = 0
+    choices: int = 0
     seconds: float = 0.0
 
 
@@ -43,6 +46,7 @@ class Settings:
     max_order: int
     energy: bool
     progress: Progress | None = None
+    selected: bool = False
 
 
 class Failure(Exception):
@@ -129,6 +133,27 @@ class Integrator:
             self._report(part[-1])
         return x, z
 
+    def _choose(
+        self, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Start anew from where the constraints hold, with a projection that suits the position."""
+        c = self.compiled
+        if not c.closing.size:
+            return x, z, modes
+        x = c.closing.project(x, z, self.p, time, modes)
+        z = z.copy()
+        z[c.closing.multipliers] = 0.0
+        self.trace.choices += 1
+        return x, z, choose_projection(c, x, z, self.p, time, modes, self.settings.selected)
+
+    def _is_worn(self, times: np.ndarray, x: np.ndarray, modes: np.ndarray) -> bool:
+        """Whether the projection became unfit on the way."""
+        c = self.compiled
+        if not c.closing.size:
+            return False
+        some = np.unique(np.linspace(0, len(times) - 1, min(len(times), LOOKS)).astype(int))
+        return any(worn(c, x[k], self.p, float(times[k]), modes) < WORN for k in some)
+
     def _solve_everywhere(
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
@@ -155,6 +180,7 @@ class Integrator:
         careful: bool = True,
     ) -> bool:
         c, trace = self.compiled, self.trace
+        x, z, modes = self._choose(times[0], x, z, modes)
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         options = self.options(max_steps) | self.begin(times[0], span, x, z, modes, careful)
@@ -177,7 +203,11 @@ class Integrator:
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n = len(grid)
         energy = out["qf"].reshape(n, 2) if self.settings.energy else np.zeros((n, 2))
-        self._keep(times[1:], out["xf"].reshape(n, c.nx), out["zf"].reshape(n, c.nz), modes, energy)
+        states = out["xf"].reshape(n, c.nx)
+        if n > 1 and self._is_worn(times[1:], states, modes):
+            self.complaint = "the projection on the constraints became singular"
+            return False
+        self._keep(times[1:], states, out["zf"].reshape(n, c.nz), modes, energy)
         return True
 
     def _keep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, energy: np.ndarray) -> None:

@@ -97,7 +97,7 @@ def linearize(
         compiled = compile(model, parameters)
         p = compiled.parameter_values(None)
     modes = compiled.modes_at(p, time)[0].copy()
-    x, z = initialize(compiled, p, time, modes, initial)
+    x, z, modes = initialize(compiled, p, time, modes, initial)
     inputs = _inputs(compiled)
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
     u = ca.vertcat(*[sx for _, sx in inputs])

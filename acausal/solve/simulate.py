@@ -87,7 +87,7 @@ def simulate(
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
     modes = compiled.modes_at(p, _middle(start_time, breaks, stop_time))[0].copy()
-    x, z = initialize(compiled, p, start_time, modes, initial)
+    x, z, modes = initialize(compiled, p, start_time, modes, initial)
     if max_order is None:
         max_order = order_limit(eigenvalues_of(compiled, x, z, p, start_time, modes), stop_time - start_time)
     run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress), (start_time, stop_time))
@@ -147,7 +147,8 @@ def _integrate(
     begin = times[0]
     for k, end in enumerate(ends):
         if k:
-            modes = run.compiled.modes_at(p, (begin + end) / 2)[0].copy()
+            switched = run.compiled.modes_at(p, (begin + end) / 2)[0]
+            modes = np.concatenate([switched, modes[len(switched) :]])
             z = algebraic(run.compiled, np.concatenate([x, z]), p, begin, modes)[len(x) :]
         inner = times[(times > begin) & (times < end)]
         x, z = run.segment(np.concatenate([[begin], inner, [end]]), x, z, modes)

@@ -1,18 +1,23 @@
 """Structural analysis of equations: singularity, index reduction, states, block triangular form, tearing."""
 
 from acausal.structure.analyse import analyse
+from acausal.structure.block import Block
 from acausal.structure.conditions import Completion, complete
+from acausal.structure.constraints import Constrained, Constraint, Projection
 from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
-from acausal.structure.plan import Block, Plan
+from acausal.structure.plan import Plan
 from acausal.structure.singularity import Part, StructuralSingularity
 from acausal.structure.system import System
 
 __all__ = [
     "Block",
     "Completion",
+    "Constrained",
+    "Constraint",
     "DulmageMendelsohn",
     "Part",
     "Plan",
+    "Projection",
     "StructuralSingularity",
     "System",
     "analyse",

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from acausal.structure.blt import block_triangular
 from acausal.structure.check import check
+from acausal.structure.constraints import constrain
 from acausal.structure.observed import split_observed
 from acausal.structure.ordering import order_unknowns
 from acausal.structure.pantelides import pantelides
 from acausal.structure.plan import Plan
-from acausal.structure.states import match_algebraic
+from acausal.structure.states import choose_states
 from acausal.structure.system import System
 from acausal.structure.tearing import tear
 
@@ -24,9 +25,10 @@ def analyse(system: System) -> Plan:
     """
     check(system)
     extension = pantelides(system)
+    constrained = constrain(extension)
     extended = extension.system()
-    equation_of = match_algebraic(extended).equation_of
-    states = tuple(v for v, equation in enumerate(equation_of) if equation < 0)
+    choice = choose_states(extended, ())
+    states, equation_of = choice.states, choice.equation_of
     blocks = block_triangular(extended.rows, [(v, e) for v, e in enumerate(equation_of) if e >= 0])
     needed, observed = split_observed(extended, states, blocks)
     torn = tear(extended, needed)
@@ -49,4 +51,5 @@ def analyse(system: System) -> Plan:
         residuals=residuals,
         assigned=tuple(pairs),
         observed=tuple(observed),
+        constrained=constrained,
     )

@@ -20,7 +20,9 @@ def check(system: System) -> None:
     root = lowest(system.derivative)
     merged = sorted(set(root))
     column = {variable: k for k, variable in enumerate(merged)}
-    rows = [tuple({column[root[v]]: None for v in row}) for row in system.rows]
+    rows = [
+        tuple({column[root[v]]: None for v in (*row, *system.closures.get(e, ()))}) for e, row in enumerate(system.rows)
+    ]
     coarse = decompose(rows, len(merged))
     if not coarse.over.equations and not coarse.under.variables:
         return

@@ -18,18 +18,20 @@ class Extension:
         self.preference = list(system.preference)
         self.differentiated: list[int] = []
         self.created: list[int] = []
+        self.closures = system.closures
+        # Successive derivatives of each equation of the system, itself included.
+        self.levels = [[e] for e in range(system.n_equations)]
 
     def rate(self, variable: int) -> int:
         """Time derivative of an undeclared variable, created if it is missing."""
         if self.derivative[variable] < 0:
-            self.derivative[variable] = len(self.derivative)
-            self.derivative.append(-1)
-            self.preference.append(min(self.preference[variable], 0))
+            self.derivative[variable] = self.add_variable(preference=min(self.preference[variable], 0))
             self.created.append(variable)
         return self.derivative[variable]
 
-    def differentiate(self, equation: int) -> int:
-        """Append the time derivative of `equation` and return its index."""
+    def differentiate(self, base: int) -> None:
+        """Append one more time derivative of the equation `base` of the system."""
+        equation = self.levels[base][-1]
         row, explicit = self.rows[equation], self.explicit[equation]
         rates = {variable: self.rate(variable) for variable in row if variable not in self.declared}
         expressions = [v for variable in row for v in self.declared.get(variable, ())]
@@ -41,6 +43,28 @@ class Extension:
         self.monic.append(frozenset(rate for v, rate in solvable.items() if v in self.monic[equation]))
         self.defines.append(-1)
         self.differentiated.append(equation)
+        self.levels[base].append(len(self.rows) - 1)
+
+    def close(self, base: int) -> None:
+        """Differentiate a closure until it holds a variable without derivative; there its substitute may enter."""
+        while all(v in self.declared or self.derivative[v] >= 0 for v in self.rows[self.levels[base][-1]]):
+            self.differentiate(base)
+        top = self.levels[base][-1]
+        self.rows[top] = tuple(dict.fromkeys((*self.rows[top], *self.closures[base])))
+        self.explicit[top] = self.monic[top] = frozenset()
+
+    def add_variable(self, derivative: int = -1, preference: int = 0) -> int:
+        """Append a variable."""
+        self.derivative.append(derivative)
+        self.preference.append(preference)
+        return len(self.derivative) - 1
+
+    def add_equation(self, row: tuple[int, ...], explicit: tuple[int, ...], monic: tuple[int, ...]) -> int:
+        """Append an equation."""
+        self.rows.append(row)
+        self.explicit.append(frozenset(explicit))
+        self.monic.append(frozenset(monic))
+        self.defines.append(-1)
         return len(self.rows) - 1
 
     def system(self) -> System:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from acausal.structure.plan import Block
+from acausal.structure.block import Block
 from acausal.structure.system import System
 
 

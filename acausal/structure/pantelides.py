@@ -16,7 +16,7 @@ def pantelides(system: System) -> Extension:
 
     The equations that Pantelides colours from all unmatched ones are the over-determined part of the equations
     with the highest derivatives, and each of them has to be differentiated; definitions of declared variables are
-    left alone, their derivatives being written in the system.
+    left alone, their derivatives being written in the system. Closures are differentiated beforehand.
 
     Raises
     ------
@@ -25,18 +25,17 @@ def pantelides(system: System) -> Extension:
 
     """
     extension = Extension(system)
-    newest = list(range(system.n_equations))
-    times = [0] * system.n_equations
+    for e in system.closures:
+        extension.close(e)
     while True:
         derivative = extension.derivative
-        rows = [[v for v in extension.rows[e] if derivative[v] < 0] for e in newest]
+        rows = [[v for v in extension.rows[levels[-1]] if derivative[v] < 0] for levels in extension.levels]
         over = decompose(rows, len(derivative)).over
         if not over.equations:
             return extension
-        coloured = [e for e in over.equations if system.defines[e] < 0]
-        if not coloured or any(times[e] >= LIMIT for e in coloured):
+        coloured = [e for e in over.equations if system.defines[e] < 0 and e not in system.closures]
+        if not coloured or any(len(extension.levels[e]) > LIMIT for e in coloured):
             root = lowest(derivative)
             raise StructuralSingularity(over=(Part.of(over.equations, (root[v] for v in over.variables)),))
         for e in coloured:
-            newest[e] = extension.differentiate(newest[e])
-            times[e] += 1
+            extension.differentiate(e)

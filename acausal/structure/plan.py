@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from acausal.structure.block import Block
+from acausal.structure.constraints import Constrained
 from acausal.structure.system import System
-
-
-@dataclass(frozen=True)
-class Block:
-    """Equations to be solved together; `equations[i]` is matched with `variables[i]`."""
-
-    equations: tuple[int, ...]
-    variables: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -22,7 +16,7 @@ class Plan:
     Parameters
     ----------
     system : System
-        The system, extended at the end by differentiated equations and created variables.
+        The system, extended at the end by differentiated equations and created variables, then by projections.
     differentiated : tuple of int
         Equation of which each added equation is the derivative (may itself be an added one).
     created : tuple of int
@@ -39,6 +33,9 @@ class Plan:
         (variable, equation) substituted into the integrated system, in order of evaluation.
     observed : tuple of tuple of int
         (variable, equation) that no state derivative needs, in order of evaluation.
+    constrained : Constrained
+        Equations that hold at several levels, and the coordinates that are projected on them; each projection added two
+        equations, in this order, to the end of the system.
 
     """
 
@@ -51,3 +48,4 @@ class Plan:
     residuals: tuple[int, ...]
     assigned: tuple[tuple[int, int], ...]
     observed: tuple[tuple[int, int], ...]
+    constrained: Constrained = Constrained()

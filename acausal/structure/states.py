@@ -2,31 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from dataclasses import dataclass
+
 from acausal.structure.incidence import chains, transpose
-from acausal.structure.matching import Matching, augment, maximum_matching
-from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.matching import augment, maximum_matching
 from acausal.structure.system import System
 
 
-def match_algebraic(system: System) -> Matching:
-    """Match all equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
+@dataclass(frozen=True)
+class Choice:
+    """Equation of each algebraic variable, and the equations that no constant coefficient ties to a variable."""
+
+    equation_of: list[int]
+    left: list[int]
+
+    @property
+    def states(self) -> tuple[int, ...]:
+        """Variables without an equation, ascending."""
+        return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
+
+
+def choose_states(system: System, apart: Collection[int]) -> Choice:
+    """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
-    is a best one. A variable may be algebraic only if its derivative is.
+    is a best one. A variable may be algebraic only if its derivative is, and only where coefficients are constant: any
+    other choice of states could become singular on the way.
 
-    Raises
-    ------
-    StructuralSingularity
-        If equations stay unmatched (a declared derivative contradicts the equations).
+    Parameters
+    ----------
+    system : System
+        The extended system.
+    apart : collection of int
+        Equations that are left out.
 
     """
     derivative = system.derivative
-    highest = [[v for v in row if derivative[v] < 0] for row in system.rows]
+    highest = [() if e in apart else [v for v in row if derivative[v] < 0] for e, row in enumerate(system.rows)]
     matching = maximum_matching(highest, system.n_variables)
-    unmatched = matching.variable_of.count(-1)
-    columns = transpose(system.rows, system.n_variables) if unmatched else []
+    unmatched = [e for e, v in enumerate(matching.variable_of) if v < 0 and e not in apart]
+    columns = transpose([() if e in apart else sorted(x) for e, x in enumerate(system.explicit)], system.n_variables)
     # No free equation can be reached from what a failed search visited, now or later.
-    closed: set[int] = set()
+    closed: set[int] = set(apart)
     for variable in _candidates(system) if unmatched else ():
         if matching.equation_of[derivative[variable]] < 0:
             continue
@@ -34,13 +52,10 @@ def match_algebraic(system: System) -> Matching:
         if not search.found:
             closed.update(search.right)
             continue
-        unmatched -= 1
+        unmatched = [e for e in unmatched if matching.variable_of[e] < 0]
         if not unmatched:
             break
-    if unmatched:
-        left = [e for e, variable in enumerate(matching.variable_of) if variable < 0]
-        raise StructuralSingularity(over=(Part.of(left, (v for e in left for v in system.rows[e])),))
-    return matching
+    return Choice(matching.equation_of, unmatched)
 
 
 def _candidates(system: System) -> list[int]:

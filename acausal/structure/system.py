@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,9 @@ class System:
         Preference of each variable to be a state: -2 never, -1 avoid, 0 default, 1 prefer, 2 always.
     monic : tuple of frozenset of int, optional
         Those of `explicit` whose coefficient is 1 or -1, so that solving for them divides by nothing; default: all.
+    closures : mapping of int to tuple of int, optional
+        Equations that may turn out to say nothing new, and the variables of what then takes the place of each: they
+        close loops, are differentiated as often as it takes, and hold at every level.
 
     """
 
@@ -36,6 +39,7 @@ class System:
     defines: tuple[int, ...]
     preference: tuple[int, ...]
     monic: tuple[frozenset[int], ...] = ()
+    closures: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not self.monic:

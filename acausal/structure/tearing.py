@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from heapq import heappop, heappush
 
-from acausal.structure.plan import Block
+from acausal.structure.block import Block
 from acausal.structure.system import System
 
 LIMIT = 12

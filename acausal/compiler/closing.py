@@ -1,0 +1,68 @@
+"""The constraints that hold at several levels, as numbers."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.language.functions import initial, time
+from acausal.reduce import ReducedModel
+
+
+class Closing:
+    """Residuals and Jacobian of the constraints by the states, and the layout of what is chosen for them.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+
+    Attributes
+    ----------
+    rows : list of tuple of int
+        Positions of the residuals of each constraint, lowest level first.
+    multipliers : array of int
+        Position of the multiplier of each residual among the algebraic unknowns.
+    closures : list of int
+        Constraint of each switch.
+    entries : array of int, shape (2, n)
+        Residual and state of each entry of D.
+    """
+
+    def __init__(self, reduced: ReducedModel) -> None:
+        constrained, plan = reduced.plan.constrained, reduced.plan
+        states = {v: k for k, v in enumerate(plan.states)}
+        algebraic = {v: k for k, v in enumerate(plan.algebraic)}
+        multipliers = [m for c in constrained.constraints for m in c.multipliers]
+        residual = {m: k for k, m in enumerate(multipliers)}
+        self.rows = [tuple(residual[m] for m in c.multipliers) for c in constrained.constraints]
+        self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
+        place = {c.base: k for k, c in enumerate(constrained.constraints)}
+        self.closures = [place[c.row] for c in reduced.flat.closures]
+        pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
+        self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
+        self.size = len(multipliers)
+        self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
+        self._reduced = reduced
+        column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
+        r = reduced
+        arguments = [r.x, r.flat.parameters, time.sx, r.modes]
+        J = ca.densify(ca.jacobian(column, r.x))
+        self.function = ca.Function("closing", arguments, [ca.densify(column), J])
+        self._call = Call(self.function)
+        coordinates = r.resolve(r.closing.coordinates)
+        self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
+        self._places = [states[p.state] for p in constrained.projections]
+
+    def __call__(self, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
+        value, J = self._call(x, p, t, modes)
+        return value.copy(), J.reshape(len(x), self.size).T.copy()
+
+    def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+        """Return the states with every coordinate where the constraints have it."""
+        projected = x.copy()
+        if self.size:
+            projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
+        return projected

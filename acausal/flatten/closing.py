@@ -1,0 +1,67 @@
+"""What became of the equations that close loops."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from acausal.flatten.flat_model import FlatClosure, Loop
+from acausal.flatten.said import Said
+from acausal.flatten.spanning_tree import Cut
+from acausal.flatten.tape import Linear
+from acausal.language import fields as f
+from acausal.symbols import scalars
+
+
+def closing(
+    raw: Said,
+    redundant: set[int],
+    values: list[Linear],
+    rows: list[int],
+    residuals: ca.SX,
+    substitutes: dict[int, int],
+) -> dict[str, Any]:
+    """Return the closures and loops of a FlatModel.
+
+    Parameters
+    ----------
+    raw : Said
+        What was said.
+    redundant : set of int
+        Residuals that say nothing new.
+    values : list of Linear
+        What each unknown is.
+    rows : list of int
+        Residuals that remain.
+    residuals : casadi.SX
+        All residuals in remaining unknowns.
+    substitutes : dict of int to int
+        Residual that closes a loop -> row of the flow that works on it.
+    """
+    place = {r: n for n, r in enumerate(rows)}
+    entries = scalars(residuals)
+    cuts = raw.graph.cuts
+    number = {id(cut): k for k, cut in enumerate(cuts)}
+    closures = tuple(
+        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)])
+        for c in raw.equations.closures
+        if c.row in place
+    )
+    return {"closures": closures, "loops": tuple(_loop(raw, redundant, values, cut) for cut in cuts)}
+
+
+def _loop(raw: Said, redundant: set[int], values: list[Linear], cut: Cut) -> Loop:
+    own = [c for c in raw.equations.closures if c.cut is cut]
+    dropped = [c for c in own if c.row in redundant]
+    flows = [(name, a.declared.flow) for a in raw.arrays for name in a.names]
+    found = sorted({raw.index.get(s.element_hash(), -1) for c in dropped for s in ca.symvar(c.dual)})
+    undetermined = tuple(flows[k][0] for k in found if k >= 0 and flows[k][1] and values[k] == (0.0, ()))
+    parts = tuple(part._path for part in cut.loop if _moves(part))
+    ends = cut.statement
+    return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), len(dropped), undetermined)
+
+
+def _moves(part: Any) -> bool:
+    """Whether a component has variables that it offers as states."""
+    return any(isinstance(d, f.Variable) and d.select > 0 for d in part.fields.values())

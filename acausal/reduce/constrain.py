@@ -1,0 +1,103 @@
+"""Write the equations of constraints and projections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from acausal.errors import StructurallySingularError
+from acausal.flatten import FlatModel
+from acausal.reduce.explicit import solve_explicit
+from acausal.structure import Plan
+
+FEEDBACK = 1.0  # in 1/s: how fast what is integrated returns to what the constraints allow
+
+
+@dataclass(frozen=True)
+class Closing:
+    """The constraints in terms of what is integrated, and what is chosen for them.
+
+    Parameters
+    ----------
+    residuals : casadi.SX
+        The equations at all their levels, without the projection: coordinates are what is integrated.
+    choice : casadi.SX
+        Numbers that are chosen when values are known: for each closure 1 if it says something new, and the entries of
+        D of all projections (see `acausal.structure.constraints`).
+    coordinates, states : casadi.SX
+        Projected coordinates, and what is integrated in place of each.
+    """
+
+    residuals: ca.SX
+    choice: ca.SX
+    coordinates: ca.SX
+    states: ca.SX
+
+
+def constrain(
+    flat: FlatModel,
+    plan: Plan,
+    elements: list[ca.SX],
+    residuals: list[ca.SX],
+    explicit: dict[tuple[int, int], ca.SX],
+) -> Closing:
+    """Change the residuals of closures, append those of projections, and return the constraints themselves.
+
+    Parameters
+    ----------
+    flat : FlatModel
+        The model.
+    plan : Plan
+        Its plan.
+    elements : list of casadi.SX
+        All unknowns.
+    residuals : list of casadi.SX
+        Residuals of the extended system, without those of projections; changed in place.
+    explicit : dict of (int, int) to casadi.SX
+        Constant coefficients by (residual, unknown); changed in place.
+    """
+    projections = plan.constrained.projections
+    coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
+    states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
+    bare = _bare(plan, elements, residuals, explicit)
+    duals = {c.row: c.dual for c in flat.closures}
+    switches = {c.row: ca.SX.sym(f"s{k}") for k, c in enumerate(flat.closures)}
+    for constraint in plan.constrained.constraints:
+        on = switches.get(constraint.base)
+        if on is None:
+            continue
+        for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
+            residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
+        residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
+    D: list[ca.SX] = []
+    for p in projections:
+        row = len(residuals)
+        own = [ca.SX.sym(f"D{len(D) + k}") for k in range(len(p.multipliers))]
+        D += own
+        x, rate, state, state_rate = (elements[v] for v in (p.coordinate, p.rate, p.state, p.state_rate))
+        shift = sum((d * elements[m] for d, m in zip(own, p.multipliers, strict=True)), ca.SX(0))
+        residuals.append(x - state - shift)
+        residuals.append(state_rate - rate - FEEDBACK * (x - state))
+        one = ca.SX(1)
+        explicit.update({(row, p.coordinate): one, (row, p.state): -one})
+        explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
+    choice = ca.vertcat(ca.SX(0, 1), *switches.values(), *D)
+    return Closing(ca.substitute(bare, coordinates, states), choice, coordinates, states)
+
+
+def _bare(plan: Plan, elements: list[ca.SX], residuals: list[ca.SX], explicit: dict[tuple[int, int], ca.SX]) -> ca.SX:
+    """Return the constraints at all levels in terms of coordinates."""
+    rows = [row for c in plan.constrained.constraints for row in c.rows]
+    column = ca.vertcat(ca.SX(0, 1), *[residuals[row] for row in rows])
+    pairs = tuple((b.variables[0], b.equations[0]) for b in plan.constrained.between)
+    if not pairs:
+        return column
+    if any(len(b.variables) > 1 or (b.equations[0], b.variables[0]) not in explicit for b in plan.constrained.between):
+        raise StructurallySingularError(
+            "an equation constrains the motion through variables that are given implicitly only; "
+            "give them their own explicit equations."
+        )
+    symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
+    values = solve_explicit(pairs, residuals, explicit, elements, plan)
+    return ca.substitute_inplace([symbols], [values], [column])[1][0]

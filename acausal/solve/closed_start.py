@@ -1,0 +1,160 @@
+"""The initial system of a model with constraints at several levels: loops closed first, then ranks instead of patterns."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import qr, svd
+from scipy.sparse.linalg import splu
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.solve.closing import CLOSED, close, refuse_open_loops
+from acausal.solve.projection import choose_projection, find_redundancy, switches_of
+from acausal.solve.words import missing_text
+
+RANK = 1e-9
+
+
+def closed_guess(
+    compiled: CompiledModel, x: np.ndarray, held: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Close the loops near the guesses, and find what is redundant.
+
+    Returns
+    -------
+    x, modes : arrays
+        States, and constants of the segment.
+
+    Raises
+    ------
+    InitializationError
+        If a loop cannot close.
+    """
+    closed, mismatch = close(compiled, x, held, p, t, modes)
+    if not mismatch <= CLOSED:
+        refuse_open_loops(compiled, closed, p, t, modes)
+    redundancy = find_redundancy(compiled, closed, p, t, modes)
+    compiled.cache["redundancy"] = redundancy
+    modes = modes.copy()
+    modes[switches_of(compiled)] = [constraint not in redundancy.dropped for constraint in compiled.closing.closures]
+    return closed, choose_projection(compiled, closed, None, p, t, modes)
+
+
+def rows_and_knowns(
+    compiled: CompiledModel,
+    x: np.ndarray,
+    z: np.ndarray,
+    p: np.ndarray,
+    t: float,
+    modes: np.ndarray,
+    held: np.ndarray,
+    conditions: list[int],
+    initial: str,
+) -> tuple[list[int], list[int], list[int], list[int]]:
+    """Choose what completes the initial system, by the ranks of its Jacobian.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    x, z, p, t, modes
+        A point where the loops are closed.
+    held : array of int
+        States that are given.
+    conditions : list of int
+        Conditions in order of importance.
+    initial : "fixed" or "guesses"
+        Whether freedoms that are left are refused or take their guesses.
+
+    Returns
+    -------
+    equations : list of int
+        Algebraic equations that count.
+    used, surplus : lists of int
+        Conditions that are solved, and those that must then hold.
+    known : list of int
+        Unknowns in (x, z) that are not solved for.
+    """
+    c, nx, nz = compiled.closing, compiled.nx, compiled.nz
+    free = np.setdiff1d(np.arange(nx), held)
+    M, C = _reduced(compiled, x, z, p, t, modes, free)
+    used, surplus = _independent(M, C, conditions)
+    if surplus:
+        # A condition can lack influence at one position without lacking it around.
+        shake = 1e-3 * np.random.default_rng(0).standard_normal(len(free))
+        moved = x.copy()
+        moved[free] += shake * compiled.nominal[free]
+        M, C = _reduced(compiled, moved, z, p, t, modes, free)
+        used, surplus = _independent(M, C, conditions)
+    left = _left(compiled, np.vstack([M, C[used]]), free)
+    if left and initial == "fixed":
+        raise InitializationError(missing_text(compiled, left))
+    plan = compiled.reduced.plan
+    position = {e: k for k, e in enumerate(plan.residuals)}
+    off = {
+        position[row]
+        for k, on in zip(c.closures, modes[switches_of(compiled)], strict=True)
+        if not on
+        for row in plan.constrained.constraints[k].rows
+    }
+    equations = [k for k in range(nz) if k not in off]
+    return equations, used, surplus, [*held.tolist(), *left, *(nx + c.multipliers).tolist()]
+
+
+def _reduced(
+    compiled: CompiledModel,
+    x: np.ndarray,
+    z: np.ndarray,
+    p: np.ndarray,
+    t: float,
+    modes: np.ndarray,
+    free: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Jacobians of the multipliers and of the conditions by the free states, algebraic unknowns eliminated."""
+    nx, nz = compiled.nx, compiled.nz
+    J = compiled.at(x, z, p, t, modes, 1.0).jacobian.tocsc()
+    right = J[nx : nx + nz][:, free].toarray()
+    dz = -splu(J[nx : nx + nz, nx:].tocsc()).solve(right)
+    return dz[compiled.closing.multipliers], J[nx + nz :][:, free].toarray() + J[nx + nz :, nx:] @ dz
+
+
+def _independent(M: np.ndarray, C: np.ndarray, conditions: list[int]) -> tuple[list[int], list[int]]:
+    """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
+    basis = [v for v in svd(_unit(M), full_matrices=False)[2][: _rank(M)]] if M.size else []
+    used, surplus = [], []
+    for k in conditions:
+        size = np.linalg.norm(C[k])
+        v = C[k] / size if size else C[k]
+        for _ in range(2):
+            for b in basis:
+                v = v - (b @ v) * b
+        rest = np.linalg.norm(v)
+        if rest > 1e-7:
+            basis.append(v / rest)
+            used.append(k)
+        else:
+            surplus.append(k)
+    return used, surplus
+
+
+def _left(compiled: CompiledModel, rows: np.ndarray, free: np.ndarray) -> list[int]:
+    """States that nothing determines: those along which what is left free moves most, guessed ones first."""
+    _, _, V = svd(_unit(rows)) if len(rows) else (None, None, np.eye(len(free)))
+    null = V[_rank(rows) :]
+    if not len(null):
+        return []
+    flat, plan = compiled.reduced.flat, compiled.reduced.plan
+    of = {q.state: q.coordinate for q in plan.constrained.projections}
+    guessed = [bool(flat.guessed[of.get(v, v)]) if of.get(v, v) < len(flat.guessed) else False for v in plan.states]
+    weight = np.where(np.array(guessed)[free], 10.0, 1.0)
+    order = qr(null * weight, mode="r", pivoting=True)[1][: len(null)]
+    return sorted(int(free[k]) for k in order)
+
+
+def _unit(rows: np.ndarray) -> np.ndarray:
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    return rows / np.where(size > 0, size, 1.0)
+
+
+def _rank(rows: np.ndarray) -> int:
+    return int(np.sum(svd(_unit(rows), compute_uv=False) > RANK * max(rows.shape))) if rows.size else 0

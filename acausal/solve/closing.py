@@ -1,0 +1,140 @@
+"""Close the loops: coordinates that satisfy the constraints, near the guesses."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+
+CLOSED = 1e-9
+ATTEMPTS = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
+
+
+def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
+    """Residuals and states of each level of the constraints, positions first."""
+    c = compiled.closing
+    depth = max((len(r) for r in c.rows), default=0)
+    found = []
+    for d in range(depth, 0, -1):
+        rows = [r[len(r) - d] for r in c.rows if len(r) >= d]
+        inside = np.isin(c.entries[0], rows)
+        found.append((rows, np.unique(c.entries[1][inside])))
+    return found
+
+
+def close(
+    compiled: CompiledModel,
+    x: np.ndarray,
+    held: np.ndarray,
+    p: np.ndarray,
+    t: float,
+    modes: np.ndarray,
+    positions: bool = False,
+) -> tuple[np.ndarray, float]:
+    """Change the coordinates as little as possible so that the constraints hold, level by level.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    x : array
+        Guesses of the states.
+    held : array of int
+        States that are given.
+    p, t, modes
+        Parameters, time and constants of the segment.
+    positions : bool
+        True for the lowest level alone.
+
+    Returns
+    -------
+    x : array
+        The states.
+    mismatch : float
+        Largest residual.
+    """
+    x, mismatch = x.copy(), 0.0
+    for rows, columns in levels(compiled)[: 1 if positions else None]:
+        free = np.setdiff1d(columns, held)
+        x, left = _solve(compiled, x, rows, free, p, t, modes)
+        mismatch = max(mismatch, left)
+        if left > CLOSED:
+            break
+    return x, mismatch
+
+
+def _solve(
+    compiled: CompiledModel,
+    x: np.ndarray,
+    rows: list[int],
+    free: np.ndarray,
+    p: np.ndarray,
+    t: float,
+    modes: np.ndarray,
+) -> tuple[np.ndarray, float]:
+    c = compiled.closing
+
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        at = x.copy()
+        at[free] = u
+        value, J = c(at, p, t, modes)
+        return value[rows], J[rows][:, free]
+
+    value, _ = evaluate(x[free])
+    left = float(np.max(np.abs(value), initial=0.0))
+    best, smallest = x[free], left
+    if not free.size:
+        return x, left
+    scale = compiled.nominal[free]
+    for k, size in enumerate(ATTEMPTS):
+        if smallest <= CLOSED:
+            break
+        start = x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
+        options = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
+        u = least_squares(lambda u: evaluate(u)[0], start, jac=lambda u: evaluate(u)[1], **options).x
+        left = float(np.max(np.abs(evaluate(u)[0])))
+        if left < smallest:
+            best, smallest = u, left
+    best = _polish(evaluate, best, scale)
+    result = x.copy()
+    result[free] = best
+    return result, float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
+
+
+def _polish(evaluate, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Gauss-Newton steps of least norm down to rounding."""
+    for _ in range(5):
+        value, J = evaluate(u)
+        step = scale * np.linalg.lstsq(J * scale, -value, rcond=1e-7)[0]
+        if not np.max(np.abs(evaluate(u + step)[0])) < np.max(np.abs(value), initial=0.0):
+            break
+        u = u + step
+    return u
+
+
+def refuse_open_loops(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> None:
+    """Raise InitializationError with the mismatch of every loop that does not close."""
+    c, flat = compiled.closing, compiled.reduced.flat
+    value, _ = c(x, p, t, modes)
+    lines = []
+    for number, loop in enumerate(flat.loops):
+        own = [k for k, closure in enumerate(flat.closures) if closure.loop == number]
+        off = [value[c.rows[c.closures[k]][0]] for k in own]
+        worst = float(np.max(np.abs(off), initial=0.0))
+        if worst > CLOSED:
+            lines.append(
+                f"  {loop.a} and {loop.b} ({loop.where}) miss each other by {worst:.4g} m or rad; "
+                f"the loop goes through {', '.join(loop.parts)}"
+            )
+    for k, rows in enumerate(c.rows):
+        base = compiled.reduced.plan.constrained.constraints[k].base
+        if k not in c.closures and np.max(np.abs(value[list(rows)])) > CLOSED:
+            lines.append(f"  {flat.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
+    if lines:
+        raise InitializationError(
+            f"these loops cannot close at t = {t:g} s, whatever their joints do:\n"
+            + "\n".join(lines)
+            + "\nCheck lengths and fixed start values, or give better guesses of the joints' positions (guess(...))."
+        )

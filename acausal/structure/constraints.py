@@ -1,0 +1,158 @@
+"""Equations that must hold at several levels of differentiation, and the coordinates that are projected on them.
+
+An equation that was differentiated, and that ties no variable to the others by a constant coefficient, constrains
+states: no fixed choice of dependent ones among them stays regular. All of them are integrated, as X, and what the
+equations hold is the projection x = X + D mu with a multiplier mu for each constraint (Eich 1993, coordinate projection,
+with the projection inside of the system: its index is 1). D, one number for each coordinate and constraint, is chosen
+when numbers are known: columns of the constraint Jacobian give the projection along it, unit vectors make some
+coordinates follow from the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from acausal.structure.block import Block
+from acausal.structure.blt import block_triangular
+from acausal.structure.extension import Extension
+from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.states import Choice, choose_states
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """One equation at all its levels.
+
+    Parameters
+    ----------
+    base : int
+        The equation of the system.
+    rows : tuple of int
+        The equation and its derivatives, the highest left out.
+    multipliers : tuple of int
+        Variable for each of the rows.
+    top : int
+        The highest derivative.
+    """
+
+    base: int
+    rows: tuple[int, ...]
+    multipliers: tuple[int, ...]
+    top: int
+
+
+@dataclass(frozen=True)
+class Projection:
+    """A coordinate x = state + D multipliers, with der(state) = rate + feedback (x - state).
+
+    Parameters
+    ----------
+    coordinate, rate : int
+        Variable, and the one that is its time derivative.
+    state, state_rate : int
+        Integrated variable and its derivative.
+    multipliers : tuple of int
+        Those of the constraints that hold the coordinate at the lowest level of it.
+    """
+
+    coordinate: int
+    rate: int
+    state: int
+    state_rate: int
+    multipliers: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Constrained:
+    """What constrains the states.
+
+    Parameters
+    ----------
+    constraints : tuple of Constraint
+        The equations.
+    projections : tuple of Projection
+        The coordinates that they hold.
+    between : tuple of Block
+        How algebraic variables in the constraints follow from coordinates, in order of solution.
+    """
+
+    constraints: tuple[Constraint, ...] = ()
+    projections: tuple[Projection, ...] = ()
+    between: tuple[Block, ...] = ()
+
+
+def constrain(extension: Extension) -> Constrained:
+    """Find the constraints, and add multipliers, projections and integrated variables.
+
+    Raises
+    ------
+    StructuralSingularity
+        If equations hold none of the states.
+
+    """
+    base_of = {e: base for base, levels in enumerate(extension.levels) for e in levels}
+    bases = list(extension.closures)
+    while True:
+        apart = {e for base in bases for e in extension.levels[base][:-1]}
+        choice = choose_states(extension.system(), apart)
+        found = sorted({base_of[e] for e in choice.left if e != extension.levels[base_of[e]][-1]}.difference(bases))
+        if not found:
+            break
+        bases += found
+    if choice.left:
+        raise StructuralSingularity(over=(Part.of(choice.left, (v for e in choice.left for v in extension.rows[e])),))
+    constraints, seen = [], set()
+    holding: dict[int, list[int]] = {}
+    written = list(extension.rows)
+    for base in sorted(bases):
+        *rows, top = extension.levels[base]
+        multipliers = tuple(extension.add_variable() for _ in rows)
+        for row, multiplier, coordinates in zip(rows, multipliers, _coordinates(extension, choice, rows), strict=True):
+            seen |= reach(extension.rows[row], written, choice.equation_of)
+            extension.rows[row] += (multiplier,)
+            extension.explicit[row] = extension.monic[row] = frozenset()
+            for x in coordinates:
+                holding.setdefault(x, []).append(multiplier)
+        constraints.append(Constraint(base, tuple(rows), multipliers, top))
+    pairs = [(v, choice.equation_of[v]) for v in sorted(seen) if choice.equation_of[v] >= 0]
+    between = block_triangular(written, pairs)
+    return Constrained(tuple(constraints), tuple(_project(extension, x, holding[x]) for x in sorted(holding)), between)
+
+
+def _coordinates(extension: Extension, choice: Choice, rows: Iterable[int]) -> list[list[int]]:
+    """States that enter at each level, those left out whose derivative enters with them."""
+    before: set[int] = set()
+    found = []
+    for row in rows:
+        seen = reach(extension.rows[row], extension.rows, choice.equation_of)
+        reached = {v for v in seen if choice.equation_of[v] < 0}
+        found.append(sorted(v for v in reached - before if extension.derivative[v] not in reached))
+        before |= reached
+    return found
+
+
+def reach(start: Iterable[int], rows: list[tuple[int, ...]], equation_of: list[int]) -> set[int]:
+    """Variables on which others depend, through the equations of algebraic ones; themselves included."""
+    seen = set(start)
+    stack = list(seen)
+    while stack:
+        equation = equation_of[stack.pop()]
+        if equation < 0:
+            continue
+        for u in rows[equation]:
+            if u not in seen:
+                seen.add(u)
+                stack.append(u)
+    return seen
+
+
+def _project(extension: Extension, x: int, multipliers: list[int]) -> Projection:
+    """Let an integrated variable take the place of the state x."""
+    rate = extension.derivative[x]
+    state_rate = extension.add_variable()
+    state = extension.add_variable(derivative=state_rate, preference=extension.preference[x])
+    extension.derivative[x] = -1
+    extension.add_equation((x, state, *multipliers), (x, state), (x, state))
+    extension.add_equation((state_rate, rate, x, state), (state_rate, rate, x, state), (state_rate, rate))
+    return Projection(x, rate, state, state_rate, tuple(multipliers))
