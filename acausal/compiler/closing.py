@@ -53,6 +53,10 @@ class Closing:
         self._call = Call(self.function)
         coordinates = r.resolve(r.closing.coordinates)
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
+        found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
+        self._guessed = np.array([place for place, _ in found], dtype=int)
+        following = ca.vertcat(ca.SX(0, 1), *[r.closing.following[k] for _, k in found])
+        self._following = Call(ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))]))
         self._places = [states[p.state] for p in constrained.projections]
 
     def __call__(self, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -66,3 +70,9 @@ class Closing:
         if self.size:
             projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
         return projected
+
+    def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+        """Return the algebraic unknowns with all those in place that follow from the states."""
+        z = z.copy()
+        z[self._guessed] = self._following(x, p, t, modes)[0]
+        return z

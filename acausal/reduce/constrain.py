@@ -27,12 +27,15 @@ class Closing:
         D of all projections (see `acausal.structure.constraints`).
     coordinates, states : casadi.SX
         Projected coordinates, and what is integrated in place of each.
+    following : casadi.SX
+        Values of the unknowns that follow explicitly from states, without the projection.
     """
 
     residuals: ca.SX
     choice: ca.SX
     coordinates: ca.SX
     states: ca.SX
+    following: ca.SX
 
 
 def constrain(
@@ -60,7 +63,7 @@ def constrain(
     projections = plan.constrained.projections
     coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
     states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
-    bare = _bare(plan, elements, residuals, explicit)
+    bare, following = _bare(plan, elements, residuals, explicit)
     duals = {c.row: c.dual for c in flat.closures}
     switches = {c.row: ca.SX.sym(f"s{k}") for k, c in enumerate(flat.closures)}
     for constraint in plan.constrained.constraints:
@@ -83,21 +86,26 @@ def constrain(
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
     choice = ca.vertcat(ca.SX(0, 1), *switches.values(), *D)
-    return Closing(ca.substitute(bare, coordinates, states), choice, coordinates, states)
+    bare, following = ca.substitute([bare, following], [coordinates], [states])
+    return Closing(bare, choice, coordinates, states, following)
 
 
-def _bare(plan: Plan, elements: list[ca.SX], residuals: list[ca.SX], explicit: dict[tuple[int, int], ca.SX]) -> ca.SX:
-    """Return the constraints at all levels in terms of coordinates."""
-    rows = [row for c in plan.constrained.constraints for row in c.rows]
+def _bare(
+    plan: Plan, elements: list[ca.SX], residuals: list[ca.SX], explicit: dict[tuple[int, int], ca.SX]
+) -> tuple[ca.SX, ca.SX]:
+    """Return the constraints at all levels, and what follows from states, in terms of states."""
+    constrained = plan.constrained
+    rows = [row for c in constrained.constraints for row in c.rows]
     column = ca.vertcat(ca.SX(0, 1), *[residuals[row] for row in rows])
-    pairs = tuple((b.variables[0], b.equations[0]) for b in plan.constrained.between)
-    if not pairs:
-        return column
-    if any(len(b.variables) > 1 or (b.equations[0], b.variables[0]) not in explicit for b in plan.constrained.between):
+    pairs = constrained.following
+    if not {v for v, _ in pairs}.issuperset(constrained.reached):
         raise StructurallySingularError(
             "an equation constrains the motion through variables that are given implicitly only; "
             "give them their own explicit equations."
         )
+    if not pairs:
+        return column, ca.SX(0, 1)
     symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
     values = solve_explicit(pairs, residuals, explicit, elements, plan)
-    return ca.substitute_inplace([symbols], [values], [column])[1][0]
+    definitions, others = ca.substitute_inplace([symbols], [values], [column])
+    return others[0], definitions[0]

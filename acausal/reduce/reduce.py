@@ -80,7 +80,7 @@ def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
         for multiplier in constraint.multipliers:
             names[multiplier] = f"projection[{multiplier}]"
     for p in plan.constrained.projections:
-        names[p.state], names[p.state_rate] = names[p.coordinate], f"der({names[p.coordinate]})"
+        names[p.state], names[p.state_rate] = names[p.coordinate], f"der({names[p.coordinate]}) integrated"
     return tuple(names)
 
 
@@ -98,6 +98,8 @@ def _differentiate(
     for k, expression in flat.declared.items():
         if plan.system.derivative[k] < 0:
             seeds[k] = expression
+    for p in plan.constrained.projections:
+        seeds[p.coordinate] = elements[p.rate]
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
     residuals, explicit = scalars(flat.residuals), dict(linear.explicit)
     first, total = len(residuals), len(residuals) + len(plan.differentiated)

@@ -106,6 +106,7 @@ def _closed(
     y = _direct_values(compiled, tuple(direct.items()), y, p, time, modes)
     held = np.array(sorted(first), dtype=int)
     y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
+    y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
     y = algebraic(compiled, y, p, time, modes)
     others = [k for k in range(given) if nz + k not in direct]
     chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from acausal.structure.block import Block
 from acausal.structure.blt import block_triangular
 from acausal.structure.extension import Extension
 from acausal.structure.singularity import Part, StructuralSingularity
@@ -73,13 +72,16 @@ class Constrained:
         The equations.
     projections : tuple of Projection
         The coordinates that they hold.
-    between : tuple of Block
-        How algebraic variables in the constraints follow from coordinates, in order of solution.
+    reached : tuple of int
+        Algebraic variables through which the constraints hold coordinates.
+    following : tuple of (int, int)
+        (variable, equation) that follow explicitly from states alone, in order of evaluation.
     """
 
     constraints: tuple[Constraint, ...] = ()
     projections: tuple[Projection, ...] = ()
-    between: tuple[Block, ...] = ()
+    reached: tuple[int, ...] = ()
+    following: tuple[tuple[int, int], ...] = ()
 
 
 def constrain(extension: Extension) -> Constrained:
@@ -115,9 +117,23 @@ def constrain(extension: Extension) -> Constrained:
             for x in coordinates:
                 holding.setdefault(x, []).append(multiplier)
         constraints.append(Constraint(base, tuple(rows), multipliers, top))
-    pairs = [(v, choice.equation_of[v]) for v in sorted(seen) if choice.equation_of[v] >= 0]
-    between = block_triangular(written, pairs)
-    return Constrained(tuple(constraints), tuple(_project(extension, x, holding[x]) for x in sorted(holding)), between)
+    if not constraints:
+        return Constrained()
+    following = _following(extension, written, choice)
+    projections = tuple(_project(extension, x, holding[x]) for x in sorted(holding))
+    reached = tuple(sorted(v for v in seen if choice.equation_of[v] >= 0))
+    return Constrained(tuple(constraints), projections, reached, following)
+
+
+def _following(extension: Extension, rows: list[tuple[int, ...]], choice: Choice) -> tuple[tuple[int, int], ...]:
+    known = set(choice.states)
+    found = []
+    for block in block_triangular(rows, [(v, e) for v, e in enumerate(choice.equation_of) if e >= 0]):
+        v, e = block.variables[0], block.equations[0]
+        if len(block.variables) == 1 and v in extension.explicit[e] and known.issuperset(u for u in rows[e] if u != v):
+            known.add(v)
+            found.append((v, e))
+    return tuple(found)
 
 
 def _coordinates(extension: Extension, choice: Choice, rows: Iterable[int]) -> list[list[int]]:
