@@ -179,15 +179,15 @@ class CompiledModel:
         excess = ca.vertcat(*[e for _, e in flat.switches])
         return Call(ca.Function("modes", [flat.parameters, time.sx], [ca.densify(excess < 0)]))
 
-    def integrator(self, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool) -> Call:
+    def integrator(self, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool) -> Call:
         """Return the IDAS integrator for a relative grid and options, built once.
 
         Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters.
         """
-        key = (grid, tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())), energy)
+        key = (grid, tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())), energy, moves)
         if key not in self.integrators:
             started = clock.perf_counter()
-            dae = self._dae_energy if energy else self._dae
+            dae = self._dae(energy, moves)
             function = ca.integrator("simulate", "idas", dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)
             self.seconds["integrators"] = self.seconds.get("integrators", 0.0) + clock.perf_counter() - started
@@ -214,8 +214,15 @@ class CompiledModel:
         """Function of parameters: what the integrated equations need of them."""
         return Call(ca.Function("hoist", [self.reduced.flat.parameters], [ca.densify(self._hoisted[2])]))
 
-    def _make_dae(self, quadratures: bool) -> dict[str, ca.SX]:
+    def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
+        key = ("dae", quadratures, moves)
+        if key not in self.cache:
+            self.cache[key] = self._make_dae(quadratures, moves)
+        return self.cache[key]
+
+    def _make_dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         r, (column, hoisted, _) = self.reduced, self._hoisted
+        column = ca.substitute(column, r.closing.moves, moves)
         s, t0, T = ca.SX.sym("s"), ca.SX.sym("t0"), ca.SX.sym("T")
         column = ca.substitute(column, time.sx, t0 + s * T)
         ode, alg, powers = ca.vertsplit(column, [0, self.nx, self.nx + self.nz, column.numel()])
@@ -223,14 +230,6 @@ class CompiledModel:
         if quadratures:
             dae["quad"] = T * powers
         return dae
-
-    @cached_property
-    def _dae(self) -> dict[str, ca.SX]:
-        return self._make_dae(False)
-
-    @cached_property
-    def _dae_energy(self) -> dict[str, ca.SX]:
-        return self._make_dae(True)
 
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes.

@@ -23,12 +23,15 @@ class Closing:
     residuals : casadi.SX
         The equations at all their levels, without the projection: coordinates are what is integrated.
     choice : casadi.SX
-        Numbers that are chosen when values are known: for each closure 1 if it says something new, and the entries of
-        D of all projections (see `acausal.structure.constraints`).
+        Numbers that are chosen when values are known: for each closure 1 if it says something new; 1 if D moves with the
+        constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
+        `acausal.structure.constraints`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
         Projected coordinates, and what is integrated in place of each.
     following : casadi.SX
         Values of the unknowns that follow explicitly from states, without the projection.
+    moves : casadi.SX
+        The entry of the choice that tells whether D moves.
     """
 
     residuals: ca.SX
@@ -36,6 +39,7 @@ class Closing:
     coordinates: ca.SX
     states: ca.SX
     following: ca.SX
+    moves: ca.SX
 
 
 def constrain(
@@ -73,11 +77,15 @@ def constrain(
         for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
             residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
         residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
-    D: list[ca.SX] = []
-    for p in projections:
+    bare, following = ca.substitute([bare, following], [coordinates], [states])
+    moves, D = ca.SX.sym("moves"), []
+    row_of = {m: k for k, m in enumerate(m for c in plan.constrained.constraints for m in c.multipliers)}
+    J = ca.jacobian(bare, states)
+    for column, p in enumerate(projections):
         row = len(residuals)
-        own = [ca.SX.sym(f"D{len(D) + k}") for k in range(len(p.multipliers))]
-        D += own
+        entries = [ca.SX.sym(f"D{len(D) + k}") for k in range(len(p.multipliers))]
+        D += entries
+        own = [d * (moves * J[row_of[m], column] + (1 - moves)) for d, m in zip(entries, p.multipliers, strict=True)]
         x, rate, state, state_rate = (elements[v] for v in (p.coordinate, p.rate, p.state, p.state_rate))
         shift = sum((d * elements[m] for d, m in zip(own, p.multipliers, strict=True)), ca.SX(0))
         residuals.append(x - state - shift)
@@ -85,9 +93,8 @@ def constrain(
         one = ca.SX(1)
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
-    choice = ca.vertcat(ca.SX(0, 1), *switches.values(), *D)
-    bare, following = ca.substitute([bare, following], [coordinates], [states])
-    return Closing(bare, choice, coordinates, states, following)
+    choice = ca.vertcat(*switches.values(), moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
+    return Closing(bare, choice, coordinates, states, following, moves)
 
 
 def _bare(

@@ -46,7 +46,7 @@ class Settings:
     max_order: int
     energy: bool
     progress: Progress | None = None
-    selected: bool = False
+    constraints: str = "auto"
 
 
 class Failure(Exception):
@@ -77,6 +77,7 @@ class Integrator:
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = Trace()
         self.complaint = ""
+        self.moves, self.worn = settings.constraints == "projection", False
 
     def options(self, max_steps: int) -> dict[str, Any]:
         """Options of IDAS: order limit, algebraic variables out of the error test, weights from nominal values."""
@@ -124,6 +125,10 @@ class Integrator:
         n = len(times) - 1
         if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
             return self._last()
+        if self.settings.constraints == "auto" and self.worn and not self.moves:
+            self.moves = True
+            if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
+                return self._last()
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
@@ -144,12 +149,12 @@ class Integrator:
         z = z.copy()
         z[c.closing.multipliers] = 0.0
         self.trace.choices += 1
-        return x, z, choose_projection(c, x, z, self.p, time, modes, self.settings.selected)
+        return x, z, choose_projection(c, x, z, self.p, time, modes, self.moves)
 
     def _is_worn(self, times: np.ndarray, x: np.ndarray, modes: np.ndarray) -> bool:
-        """Whether the projection became unfit on the way."""
+        """Whether the chosen states became unfit on the way."""
         c = self.compiled
-        if not c.closing.size:
+        if not c.closing.size or self.moves:
             return False
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), LOOKS)).astype(int))
         return any(worn(c, x[k], self.p, float(times[k]), modes) < WORN for k in some)
@@ -184,7 +189,7 @@ class Integrator:
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         options = self.options(max_steps) | self.begin(times[0], span, x, z, modes, careful)
-        call = c.integrator(grid, options, self.settings.energy)
+        call = c.integrator(grid, options, self.settings.energy, self.moves)
         names = call.function.name_in()
         given = {"x0": x, "z0": z, "p": np.concatenate([[times[0], span], self.hoisted, modes])}
         for k, name in enumerate(names):
@@ -199,13 +204,14 @@ class Integrator:
         trace.factorisations += stats.get("nlinsetups", 0)
         trace.residual_evaluations += stats.get("nfevals", 0)
         if not done:
+            self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
             return False
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n = len(grid)
         energy = out["qf"].reshape(n, 2) if self.settings.energy else np.zeros((n, 2))
         states = out["xf"].reshape(n, c.nx)
-        if n > 1 and self._is_worn(times[1:], states, modes):
-            self.complaint = "the projection on the constraints became singular"
+        self.worn = n > 1 and self._is_worn(times[1:], states, modes)
+        if self.worn:
             return False
         self._keep(times[1:], states, out["zf"].reshape(n, c.nz), modes, energy)
         return True

@@ -18,7 +18,7 @@ from acausal.solve.order import state_matrix
 
 RANK = 1e-8
 MOTION = 1e-2
-WORN = 0.05
+WORN, SPARED = 0.05, 0.3
 
 
 @dataclass(frozen=True)
@@ -90,6 +90,15 @@ def _moved(
     return moved if mismatch < 1e-10 else None
 
 
+def held(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+    """Jacobian of the constraints by the coordinates that each holds at its level."""
+    c = compiled.closing
+    entries = tuple(c.entries)
+    J = np.zeros((c.size, compiled.nx))
+    J[entries] = c(x, p, t, modes)[1][entries]
+    return J
+
+
 def choose_projection(
     compiled: CompiledModel,
     x: np.ndarray,
@@ -97,7 +106,7 @@ def choose_projection(
     p: np.ndarray,
     t: float,
     modes: np.ndarray,
-    selected: bool = False,
+    moves: bool = False,
 ) -> np.ndarray:
     """Return the constants of a segment with D chosen anew at a consistent point.
 
@@ -107,22 +116,24 @@ def choose_projection(
         The model.
     x, z, p, t, modes
         A consistent point, and the constants of the segment before; without z all coordinates count alike.
-    selected : bool
-        True makes some coordinates follow from the others (pivoted choice of states), False projects along the constraint
-        Jacobian, stiff coordinates the less.
+    moves : bool
+        False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
+        Jacobian as it changes on the way, stiff coordinates the less.
     """
     c = compiled.closing
     on = np.ones(c.size, dtype=bool)
     for k, constraint in enumerate(c.closures):
         on[list(c.rows[constraint])] = modes[switches_of(compiled)][k] > 0
-    J = scaled(c(x, p, t, modes)[1]) * on[:, None]
-    D = np.zeros_like(J)
-    weights = 1 / (1 + _stiffness(compiled, x, z, p, t, modes)) if z is not None else 1.0
-    D[tuple(c.entries)] = (J * weights)[tuple(c.entries)]
-    if selected:
-        D = _select(compiled, D, on)
+    J = held(compiled, x, p, t, modes) * on[:, None]
+    stiffness = np.zeros(compiled.nx) if z is None else _stiffness(compiled, x, z, p, t, modes)
+    weights = _spared(J, stiffness)
+    D = J * weights
+    size = np.linalg.norm(D, axis=1, keepdims=True)
     chosen = modes.copy()
-    chosen[len(modes) - c.entries.shape[1] :] = scaled(D)[tuple(c.entries)]
+    first = len(modes) - c.entries.shape[1]
+    chosen[first - 1] = moves
+    factors = on[:, None] * weights / np.where(size > 0, size, 1.0)
+    chosen[first:] = (factors if moves else _select(compiled, scaled(D), on))[tuple(c.entries)]
     return chosen
 
 
@@ -135,10 +146,19 @@ def switches_of(compiled: CompiledModel) -> slice:
 def _stiffness(
     compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
 ) -> np.ndarray:
-    """How strongly each coordinate resists, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate."""
-    nx = compiled.nx
-    A = state_matrix(compiled.at(x, z, p, t, modes, 0.0).jacobian[: nx + compiled.nz], nx)
-    plan = compiled.reduced.plan
+    """How strongly each coordinate resists, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
+
+    Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
+    """
+    nx, plan, c = compiled.nx, compiled.reduced.plan, compiled.closing
+    lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
+    rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
+    columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
+    J = compiled.at(x, z, p, t, modes, 0.0).jacobian.toarray()[np.ix_(rows, columns)]
+    try:
+        A = state_matrix(J, nx)
+    except np.linalg.LinAlgError:
+        return np.zeros(nx)
     place = {v: k for k, v in enumerate(plan.states)}
     of = {q.coordinate: place[q.state] for q in plan.constrained.projections}
     stiffness = np.zeros(nx)
@@ -163,14 +183,30 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
     return selection
 
 
-def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> float:
-    """Smallest singular value of the scaled Jacobian along D, over that of the Jacobian itself: 1 is best."""
-    c = compiled.closing
-    J = scaled(c(x, p, t, modes)[1])
-    D = np.zeros_like(J)
-    D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
+def _spared(J: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
+
+    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that serves.
+    """
+    for exponent in range(1, 13):
+        weights = 1 / (1 + stiffness / 10.0**exponent)
+        if _transversality(J, J * weights) >= SPARED:
+            return weights
+    return np.ones(len(stiffness))
+
+
+def _transversality(J: np.ndarray, D: np.ndarray) -> float:
+    """Cosine of the largest angle between the row spaces of J and D: 1 is best, 0 is singular."""
     on = np.linalg.norm(D, axis=1) > 0
     if not on.any():
         return 1.0
-    along = svd(J[on] @ scaled(D[on]).T, compute_uv=False)[-1]
-    return float(along / max(svd(J[on], compute_uv=False)[-1], 1e-300))
+    bases = [np.linalg.qr(scaled(A[on]).T)[0] for A in (J, D)]
+    return float(svd(bases[0].T @ bases[1], compute_uv=False)[-1])
+
+
+def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> float:
+    """How well the projection of a segment still suits a position: 1 is best, 0 is singular."""
+    c = compiled.closing
+    D = np.zeros((c.size, compiled.nx))
+    D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
+    return _transversality(held(compiled, x, p, t, modes), D)

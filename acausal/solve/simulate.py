@@ -21,6 +21,7 @@ from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Tra
 from acausal.solve.order import eigenvalues_of, order_limit
 
 METHODS = ("idas",)
+CONSTRAINTS = ("auto", "states", "projection")
 
 
 def simulate(
@@ -33,6 +34,7 @@ def simulate(
     parameters: Mapping[str, Any] | None = None,
     initial: str = "fixed",
     method: str = "idas",
+    constraints: str = "auto",
     max_order: int | None = None,
     energy: bool = False,
     progress: Progress | None = None,
@@ -56,6 +58,10 @@ def simulate(
         Whether states without a condition at the start are refused or take their guesses.
     method : "idas"
         Integrator.
+    constraints : "auto", "states" or "projection"
+        How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
+        and again where the pivots fall; "projection" integrates all of them and projects. "auto" begins with states, and
+        projects if they do not last.
     max_order : int, optional
         Limit of the order of the multistep method, 1 to 5; chosen from the problem where it is not given.
     energy : bool
@@ -76,6 +82,8 @@ def simulate(
         If the integration fails; its `result` holds what was computed.
     """
     _check(start_time, stop_time, tolerance, intervals, method, max_order)
+    if constraints not in CONSTRAINTS:
+        raise DeclarationError(f"constraints is {constraints!r}; it must be one of {', '.join(CONSTRAINTS)}.")
     if isinstance(model, CompiledModel):
         compiled, p = model, model.parameter_values(parameters)
     else:
@@ -90,14 +98,14 @@ def simulate(
     x, z, modes = initialize(compiled, p, start_time, modes, initial)
     if max_order is None:
         max_order = order_limit(eigenvalues_of(compiled, x, z, p, start_time, modes), stop_time - start_time)
-    run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress), (start_time, stop_time))
+    run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress, constraints), (start_time, stop_time))
     failure: BaseException | None = None
     try:
         _integrate(run, p, times, breaks, x, z, modes)
     except (Failure, KeyboardInterrupt) as caught:
         failure = caught
     waited = compiled.seconds.get("integrators", 0.0) - built
-    stats = _stats(compiled, run.trace, tolerance, max_order, breaks)
+    stats = _stats(compiled, run, tolerance, max_order, breaks)
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     result = _result(compiled, run.trace, p, (start_time, x, z, modes), times, stats, energy)
     if isinstance(failure, Failure):
@@ -156,9 +164,9 @@ def _integrate(
 
 
 def _stats(
-    compiled: CompiledModel, trace: Trace, tolerance: float, max_order: int, breaks: list[float]
+    compiled: CompiledModel, run: Integrator, tolerance: float, max_order: int, breaks: list[float]
 ) -> dict[str, Any]:
-    report = compiled.report
+    report, trace = compiled.report, run.trace
     return {
         "equations_flat": report["equations_flat"],
         "equations_reduced": report["equations_reduced"],
@@ -173,6 +181,8 @@ def _stats(
         "max_order": max_order,
         "tolerance": tolerance,
         "method": "idas",
+        "constraints": "projection" if run.moves else "states",
+        "choices": trace.choices,
         "break_times": breaks,
     }
 
