@@ -4,14 +4,31 @@ from __future__ import annotations
 
 from acausal.structure.blt import block_triangular
 from acausal.structure.check import check
-from acausal.structure.constraints import constrain
+from acausal.structure.constraints import Constrained, constrain
+from acausal.structure.extension import Extension
 from acausal.structure.observed import split_observed
 from acausal.structure.ordering import order_unknowns
 from acausal.structure.pantelides import pantelides
 from acausal.structure.plan import Plan
-from acausal.structure.states import choose_states
+from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.states import Choice, choose_states
 from acausal.structure.system import System
 from acausal.structure.tearing import tear
+
+
+def _reduce(system: System) -> tuple[Extension, Constrained, Choice]:
+    """Differentiate, project on what constrains the states, and match."""
+    extension = pantelides(system)
+    constrained = constrain(extension)
+    choice = choose_states(extension.system())
+    if not choice.left:
+        return extension, constrained, choice
+    # Constraints that reach too few states: some state must follow from the others by a fixed choice.
+    extension = pantelides(system)
+    choice = choose_states(extension.system(), constant=False)
+    if choice.left:
+        raise StructuralSingularity(over=(Part.of(choice.left, (v for e in choice.left for v in extension.rows[e])),))
+    return extension, Constrained(), choice
 
 
 def analyse(system: System) -> Plan:
@@ -24,10 +41,8 @@ def analyse(system: System) -> Plan:
 
     """
     check(system)
-    extension = pantelides(system)
-    constrained = constrain(extension)
+    extension, constrained, choice = _reduce(system)
     extended = extension.system()
-    choice = choose_states(extended, ())
     states, equation_of = choice.states, choice.equation_of
     blocks = block_triangular(extended.rows, [(v, e) for v, e in enumerate(equation_of) if e >= 0])
     needed, observed = split_observed(extended, states, blocks)

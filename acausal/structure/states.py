@@ -12,7 +12,7 @@ from acausal.structure.system import System
 
 @dataclass(frozen=True)
 class Choice:
-    """Equation of each algebraic variable, and the equations that no constant coefficient ties to a variable."""
+    """Equation of each algebraic variable, and the equations that are left over."""
 
     equation_of: list[int]
     left: list[int]
@@ -23,12 +23,11 @@ class Choice:
         return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
 
 
-def choose_states(system: System, apart: Collection[int]) -> Choice:
+def choose_states(system: System, apart: Collection[int] = (), constant: bool = True) -> Choice:
     """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
-    is a best one. A variable may be algebraic only if its derivative is, and only where coefficients are constant: any
-    other choice of states could become singular on the way.
+    is a best one. A variable may be algebraic only if its derivative is.
 
     Parameters
     ----------
@@ -36,13 +35,17 @@ def choose_states(system: System, apart: Collection[int]) -> Choice:
         The extended system.
     apart : collection of int
         Equations that are left out.
+    constant : bool
+        True lets a variable be algebraic only through constant coefficients: any other choice of states could become
+        singular on the way.
 
     """
     derivative = system.derivative
     highest = [() if e in apart else [v for v in row if derivative[v] < 0] for e, row in enumerate(system.rows)]
     matching = maximum_matching(highest, system.n_variables)
     unmatched = [e for e, v in enumerate(matching.variable_of) if v < 0 and e not in apart]
-    columns = transpose([() if e in apart else sorted(x) for e, x in enumerate(system.explicit)], system.n_variables)
+    ties = [sorted(x) for x in system.explicit] if constant else system.rows
+    columns = transpose([() if e in apart else x for e, x in enumerate(ties)], system.n_variables)
     # No free equation can be reached from what a failed search visited, now or later.
     closed: set[int] = set(apart)
     for variable in _candidates(system) if unmatched else ():

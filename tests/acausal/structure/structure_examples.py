@@ -21,6 +21,7 @@ class Model:
         defines: Mapping[int, str] | None = None,
         preference: Mapping[str, int] | None = None,
         names: str = "",
+        closures: Mapping[int, str] | None = None,
     ) -> None:
         split = [(*e.split("|"), "")[:2] for e in equations]
         words = [*names.split(), *(w for e in split for part in e for w in part.split())]
@@ -35,14 +36,23 @@ class Model:
             declared={at[n]: tuple(at[w] for w in row.split()) for n, row in (declared or {}).items()},
             defines=tuple(at[defines[k]] if k in (defines or {}) else -1 for k in range(len(split))),  # type: ignore[index]
             preference=tuple((preference or {}).get(n, 0) for n in at),
+            closures={k: tuple(at[w] for w in row.split()) for k, row in (closures or {}).items()},
         )
 
     def names(self, plan: Plan, variables: Sequence[int]) -> list[str]:
-        """Names, those of created variables with a prime."""
+        """Names, those of created variables with a prime; what is integrated in place of a coordinate in capitals."""
         name = list(self.name)
         for variable in plan.created:
             name.append(name[variable] + "'")
+        name += ["mu"] * (plan.system.n_variables - len(name))
+        for p in plan.constrained.projections:
+            name[p.state], name[p.state_rate] = name[p.coordinate].upper(), name[p.coordinate].upper() + "'"
         return [name[v] for v in variables]
+
+
+def freedom(plan: Plan) -> int:
+    """States less the constraints on them."""
+    return len(plan.states) - sum(len(c.rows) for c in plan.constrained.constraints)
 
 
 def rods(n: int, closed: bool = False) -> Model:
