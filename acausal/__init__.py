@@ -43,6 +43,7 @@ from acausal.language import (
     cos,
     cross,
     der,
+    discrete,
     dot,
     effect,
     exp,
@@ -62,6 +63,7 @@ from acausal.language import (
     piecewise,
     port,
     potential_root,
+    reinit,
     root,
     rooted,
     sign,
@@ -71,6 +73,7 @@ from acausal.language import (
     tan,
     time,
     variable,
+    when,
 )
 from acausal.result import Result
 from acausal.solve import Linearization, linearize, simulate
@@ -115,6 +118,7 @@ __all__ = [
     "cos",
     "cross",
     "der",
+    "discrete",
     "dot",
     "effect",
     "exp",
@@ -135,6 +139,7 @@ __all__ = [
     "piecewise",
     "port",
     "potential_root",
+    "reinit",
     "root",
     "rooted",
     "sign",
@@ -145,4 +150,5 @@ __all__ = [
     "tan",
     "time",
     "variable",
+    "when",
 ]

@@ -4,6 +4,7 @@ from components import rotational
 from components.body import Body
 from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
+from components.body_rod import BodyRod
 from components.body_shape import BodyShape
 from components.damper import Damper
 from components.fixed import Fixed
@@ -27,6 +28,7 @@ from components.orientation import (
 )
 from components.prismatic import Prismatic
 from components.revolute import Revolute
+from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
 from components.spherical import Spherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
@@ -43,6 +45,7 @@ __all__ = [
     "Body",
     "BodyBox",
     "BodyCylinder",
+    "BodyRod",
     "BodyShape",
     "Damper",
     "Fixed",
@@ -57,6 +60,7 @@ __all__ = [
     "Prismatic",
     "RelativeOrientation",
     "Revolute",
+    "RevolutePlanarLoopConstraint",
     "Spherical",
     "Spring",
     "SpringDamperParallel",

@@ -31,8 +31,10 @@ class LineForce(TwoFrames):
         a, b = self.frame_a, self.frame_b
         r_rel_0 = b.r_0 - a.r_0
         square, least = dot(r_rel_0, r_rel_0), self.s_small**2
-        yield self.s == sqrt(piecewise((square, square > least), least, smooth=True))
-        e_0 = r_rel_0 / self.s
+        # Not s itself: an iteration may begin with s = 0, and never divides by it here.
+        length = sqrt(piecewise((square, square > least), least, smooth=True))
+        e_0 = r_rel_0 / length
+        yield self.s == length
         yield self.v == dot(e_0, resolve1(b.R, b.v) - resolve1(a.R, a.v))
         yield from self.law()
         yield a.f == -resolve2(a.R, e_0 * self.f)

@@ -1,16 +1,46 @@
 """Scenes: each a file that can be copied and changed."""
 
 from acausal import Model
+from models.bricard import Bricard
+from models.car_axis import CarAxis
+from models.four_bar import FourBar
+from models.four_bar_spatial import FourBarSpatial
 from models.free_vibration import FreeVibration
+from models.governor import Governor
+from models.n_four_bar import NFourBar
 from models.pendulum import FlexiblePendulum
 from models.simple_pendulum import SimplePendulum
+from models.slider_crank import SliderCrank
 from models.spin_up import SpinUp
+from models.squeezer import Squeezer
 
 SCENES: dict[str, type[Model]] = {
     "free-vibration": FreeVibration,
     "pendulum": FlexiblePendulum,
     "spin-up": SpinUp,
+    "slider-crank": SliderCrank,
     "simple-pendulum": SimplePendulum,
+    "n-four-bar": NFourBar,
+    "squeezer": Squeezer,
+    "bricard": Bricard,
+    "governor": Governor,
+    "car-axis": CarAxis,
+    "four-bar": FourBar,
+    "four-bar-spatial": FourBarSpatial,
 }
 
-__all__ = ["SCENES", "FlexiblePendulum", "FreeVibration", "SimplePendulum", "SpinUp"]
+__all__ = [
+    "SCENES",
+    "Bricard",
+    "CarAxis",
+    "FlexiblePendulum",
+    "FourBar",
+    "FourBarSpatial",
+    "FreeVibration",
+    "Governor",
+    "NFourBar",
+    "SimplePendulum",
+    "SliderCrank",
+    "SpinUp",
+    "Squeezer",
+]

@@ -49,6 +49,15 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     lap("reduce")
     compiled = CompiledModel(reduced, seconds)
     compiled.parameter_values(None)
-    _ = compiled.local, compiled.values, compiled.start, compiled.breaks, compiled.modes_at, compiled.hoist, compiled.closing
+    _ = (
+        compiled.local,
+        compiled.values,
+        compiled.start,
+        compiled.breaks,
+        compiled.modes_at,
+        compiled.hoist,
+        compiled.closing,
+    )
+    compiled.guards.check()
     lap("generate")
     return compiled

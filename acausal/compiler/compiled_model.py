@@ -14,8 +14,8 @@ import scipy.sparse as sparse
 
 from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
-from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import not_settable, numeric
+from acausal.compiler.guards import Guards
+from acausal.compiler.parameters import Settable
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
@@ -157,34 +157,31 @@ class CompiledModel:
         return Call(ca.Function("start", [flat.parameters, time.sx], [chosen]))
 
     @cached_property
-    def breaks(self) -> Call:
-        """Function of parameters: break time of each switch."""
-        flat = self.reduced.flat
-        excess = ca.vertcat(*[e for _, e in flat.switches])
-        if not flat.switches:
-            return Call(ca.Function("breaks", [flat.parameters], [ca.SX(0, 1)]))
-        known = {s.element_hash() for s in scalars(ca.vertcat(flat.parameters, time.sx))}
-        if any(s.element_hash() not in known for s in ca.symvar(excess)):
-            raise DeclarationError(
-                "the condition of a piecewise compares something other than time with parameters; "
-                "write it as time < ..., or use smooth=True if value and first two derivatives do not jump."
-            )
-        at_zero = ca.substitute(excess, time.sx, 0)
-        return Call(ca.Function("breaks", [flat.parameters], [ca.densify(-at_zero / ca.jacobian(excess, time.sx))]))
+    def guards(self) -> Guards:
+        """Conditions that are watched during the integration."""
+        return Guards(self.reduced, self.start.function, self.nominal)
 
-    @cached_property
+    @property
+    def breaks(self) -> Call:
+        """Function of parameters: break times."""
+        return self.guards.breaks
+
+    @property
     def modes_at(self) -> Call:
-        """Function of parameters and time: 1 for each switch whose condition holds."""
-        flat = self.reduced.flat
-        excess = ca.vertcat(*[e for _, e in flat.switches])
-        return Call(ca.Function("modes", [flat.parameters, time.sx], [ca.densify(excess < 0)]))
+        """Function of parameters and time: modes of the switches and discrete variables, before anything is solved."""
+        return self.guards.guess
 
     def integrator(self, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool) -> Call:
         """Return the IDAS integrator for a relative grid and options, built once.
 
         Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters.
         """
-        key = (grid, tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())), energy, moves)
+        key = (
+            grid,
+            tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())),
+            energy,
+            moves,
+        )
         if key not in self.integrators:
             started = clock.perf_counter()
             dae = self._dae(energy, moves)
@@ -210,6 +207,12 @@ class CompiledModel:
         return self.reduced.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
+    def stored(self) -> Call:
+        """Function of x, z, parameters, time and modes: stored energy."""
+        energy = ca.substitute(self.reduced.resolve(self.reduced.flat.energies["stored_energy"]), initial.sx, 0)
+        return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(energy)]))
+
+    @cached_property
     def hoist(self) -> Call:
         """Function of parameters: what the integrated equations need of them."""
         return Call(ca.Function("hoist", [self.reduced.flat.parameters], [ca.densify(self._hoisted[2])]))
@@ -232,78 +235,9 @@ class CompiledModel:
         return dae
 
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
-        """Return the values of all free parameters after some changes.
-
-        Raises
-        ------
-        DeclarationError
-            For an unknown name, a structural parameter, a structural zero, a parameter that follows others, or a
-            value out of its limits.
-        """
-        flat = self.reduced.flat
-        values = flat.parameter_values.copy()
-        for path, value in (changes or {}).items():
-            self._set(values, path, value)
-        self._check_limits(values)
-        return values
-
-    def _set(self, values: np.ndarray, path: str, value: Any) -> None:
-        flat = self.reduced.flat
-        index = {name: k for k, name in enumerate(flat.parameter_names)}
-        try:
-            array = numeric(value, np.shape(value), f"`{path}`")
-        except ValueError:
-            raise DeclarationError(f"`{path}` is {value!r}; it must be an array of numbers.") from None
-        prefix = path + "["
-        entries = [n for n in (*index, *flat.structural_zeros) if n == path or n.startswith(prefix)]
-        if not entries:
-            if path in flat.bound:
-                raise DeclarationError(
-                    f"`{path}` follows {flat.bound[path]}; change that, or compile with its own value."
-                )
-            if path in self._structural_names:
-                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. Compile again with it.")
-            known = [*flat.parameter_names, *flat.structural_zeros, *flat.bound, *self._structural_names]
-            raise DeclarationError(not_settable(path, self.tree, known))
-        for name in entries:
-            at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
-            if (
-                len(at) != array.ndim
-                or len(entries) != array.size
-                or any(k >= n for k, n in zip(at, array.shape, strict=True))
-            ):
-                raise DeclarationError(
-                    f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
-                )
-            entry = float(array[at])
-            if name in index:
-                values[index[name]] = entry
-            elif entry != 0:
-                raise DeclarationError(
-                    f"`{name}` was exactly 0 when compiled and is no longer in the equations (a structural zero). "
-                    f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
-                )
+        """Return the values of all free parameters after some changes; see `Settable`."""
+        return self._settable.values(changes)
 
     @cached_property
-    def _structural_names(self) -> set[str]:
-        from acausal.flatten.instantiate import join, walk
-
-        return {join(c._path, n) for c in walk(self.tree) for n, d in c.fields.items() if isinstance(d, f.Structural)}
-
-    def _check_limits(self, values: np.ndarray) -> None:
-        flat = self.reduced.flat
-        if not flat.limits:
-            return
-        if "limits" not in self.cache:
-            column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in flat.limits])
-            owners = np.repeat(np.arange(len(flat.limits)), [sx.numel() for _, sx, _ in flat.limits])
-            least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in flat.limits])[owners]
-            positive = np.array([d.positive for _, _, d in flat.limits])[owners]
-            self.cache["limits"] = Call(ca.Function("limits", [flat.parameters], [column])), owners, least, positive
-        call, owners, least, positive = self.cache["limits"]
-        found = call(values)[0]
-        wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
-        if wrong.size:
-            path, _, declared = flat.limits[owners[wrong[0]]]
-            bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
-            raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
+    def _settable(self) -> Settable:
+        return Settable(self.reduced.flat)

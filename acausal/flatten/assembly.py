@@ -10,11 +10,13 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.flatten.closing import closing
 from acausal.flatten.derivatives import Derivatives
+from acausal.flatten.discontinuities import guards
 from acausal.flatten.flat_model import FlatModel, Initial
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
 from acausal.flatten.tape import Linear, Tape
+from acausal.language.fields import ALWAYS
 from acausal.language.functions import initial, time
 from acausal.symbols import scalars
 
@@ -45,7 +47,11 @@ class Assembly:
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
         self.symbols = ca.vertcat(*chain.levels)
         self.parameters = column(raw.build.parameters.symbols)
-        self.modes = column([mode for mode, _ in raw.pending.switches])
+        self.guards = guards(raw.pending, raw.discretes, resolved)
+        self.discretes = tuple(
+            zip([ca.vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)
+        )
+        self.modes = column([*[mode for mode, _ in raw.pending.switches], *[symbol for symbol, _ in self.discretes]])
         self.origins = raw.equations.scalar_origins()
         self.substitutes = {c.row: len(self.origins) + k for k, c in enumerate(closures)}
         self.origins += [self.origins[c.row] for c in closures]
@@ -107,7 +113,9 @@ class Assembly:
             parameters=self.parameters,
             parameter_names=tuple(build.parameters.names),
             parameter_values=np.array(build.parameters.values),
-            switches=tuple((mode, condition.excess.sx) for mode, condition in raw.pending.switches),
+            switches=tuple((m, g.excess) for (m, _), g in zip(raw.pending.switches, self.guards, strict=False)),
+            guards=self.guards,
+            discretes=self.discretes,
             initial=self._initial(was, becomes),
             eliminated=eliminated,
             energies=self.energies,
@@ -182,6 +190,8 @@ class Assembly:
         guessed = [a.guessed or a.fixed for a in arrays for _ in range(a.expr.sx.numel())]
         nominal = self._numbers(column([ca.vec(a.nominal.sx) for a in arrays]))
         select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
+        for k in self._jumping():
+            select[k] = ALWAYS
         extra = self.symbols.numel() - self.size
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
         nominal, select = np.concatenate([nominal, np.ones(extra)]), select + [0] * extra
@@ -202,6 +212,12 @@ class Assembly:
             "nominal": nominal[unknowns],
             "preference": tuple(select[k] for k in unknowns),
         }
+
+    def _jumping(self) -> list[int]:
+        """Variables that jump at instants, which have to be states."""
+        targets = [jump.target for guard in self.guards for jump in guard.jumps if jump.target.is_symbolic()]
+        places = (self.raw.index.get(target.element_hash(), -1) for target in targets)
+        return [k for k in places if k >= 0]
 
     def _numbers(self, column: ca.SX) -> np.ndarray:
         """Values of expressions of parameters, as they are when compiled."""

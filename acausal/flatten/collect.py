@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from copy import copy
 from collections.abc import Callable, Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,10 +15,12 @@ from acausal.flatten.graph import Graph
 from acausal.flatten.instantiate import join
 from acausal.flatten.origin import Origin, line_of, with_place
 from acausal.flatten.spanning_tree import Cut
-from acausal.symbols import scalars
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
+from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
+from acausal.language.functions import PENDING
+from acausal.symbols import scalars
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,7 @@ def collect(components: list[Component], graph: Graph) -> Equations:
                 with_place(
                     lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin
                 )
+                PENDING.get().place(origin)
     for connector in graph.roots:
         _run(connector, connector.root_equations, found)
     for cut in graph.cuts:
@@ -125,6 +128,10 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
         if statement is _END:
             return
         origin = Origin(component._path, name, line_of(generator) or here.where)
+        PENDING.get().place(origin)
+        if isinstance(statement, When) and generate.__name__ == "equations":
+            PENDING.get().whens.append((statement, origin))
+            continue
         if not isinstance(statement, Equation):
             raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {_shown(statement)}.")
         residual = ca.vec(statement.lhs.sx - statement.rhs.sx)
@@ -141,4 +148,5 @@ _END: Any = object()
 
 
 def _shown(value: Any) -> str:
-    return "an equation" if isinstance(value, Equation) else f"{value!r}"
+    kinds = {Equation: "an equation", When: "when(...), which belongs to equations()"}
+    return next((text for kind, text in kinds.items() if isinstance(value, kind)), f"{value!r}")

@@ -9,6 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from acausal.flatten.discontinuities import Guard
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 
@@ -94,6 +95,10 @@ class FlatModel:
         Free parameters.
     switches : tuple of (casadi.SX, casadi.SX)
         Mode symbols, and the expression that is negative while the mode is 1.
+    guards : tuple of Guard
+        Conditions that are watched: one for each switch, then one for each statement of jumps.
+    discretes : tuple of (casadi.SX, casadi.SX)
+        Symbols of the discrete variables, and their values at the start.
     initial : tuple of Initial
         Fixed start values and initial equations.
     eliminated : (casadi.SX, casadi.SX)
@@ -127,6 +132,8 @@ class FlatModel:
     parameter_names: tuple[str, ...]
     parameter_values: np.ndarray
     switches: tuple[tuple[ca.SX, ca.SX], ...]
+    guards: tuple[Guard, ...]
+    discretes: tuple[tuple[ca.SX, ca.SX], ...]
     initial: tuple[Initial, ...]
     eliminated: tuple[ca.SX, ca.SX]
     energies: Mapping[str, ca.SX]
@@ -139,3 +146,8 @@ class FlatModel:
     loops: tuple[Loop, ...]
     tree: Component
     counts: Mapping[str, int]
+
+    @property
+    def modes(self) -> ca.SX:
+        """Symbols that are constant between instants: modes of the switches, then discrete variables."""
+        return ca.vertcat(*[mode for mode, _ in self.switches], *[symbol for symbol, _ in self.discretes])

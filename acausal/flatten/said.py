@@ -10,6 +10,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.collect import Equations, collect, collect_initial
+from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, with_place
@@ -31,6 +32,8 @@ class Said:
     declared: list[tuple[Expr, Expr]]
     energies: dict[str, Any]
     pending: Pending
+    discretes: list[Discrete]
+    discrete_starts: list[ca.SX]
     index: dict[int, int] = field(default_factory=dict)
 
 
@@ -44,7 +47,10 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         build = Instantiation(model, overrides)
         components = build.components
         graph = build_graph(components)
+        discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
+        discrete_values = discrete_starts(discretes)
+        pending.place(Origin.of(build.root, "a value of the class body"))
         equations = collect(components, graph)
         starts = collect_initial(components)
         declared = [pair for group in graph.same for pair in group[0].declared_derivatives()]
@@ -55,9 +61,10 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
             ).sx
             for name in ("stored_energy", "dissipated_power", "supplied_power")
         }
+        pending.place(Origin.of(build.root))
     finally:
         PENDING.reset(token)
-    return Said(build, graph, arrays, equations, starts, declared, energies, pending)
+    return Said(build, graph, arrays, equations, starts, declared, energies, pending, discretes, discrete_values)
 
 
 def column(entries: Iterable[Any]) -> ca.SX:
@@ -68,4 +75,5 @@ def column(entries: Iterable[Any]) -> ca.SX:
 def _power(component: Component, name: str) -> Expr:
     origin = Origin(component._path, type(component).__name__, f"{name}()")
     value = as_expr(with_place(getattr(component, name), origin))
+    PENDING.get().place(origin)
     return Expr(value.sx)

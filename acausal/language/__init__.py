@@ -1,8 +1,10 @@
 """The language: what users write models with."""
 
 from acausal.language.component import Component, Connector, Model, Path, Record
+from acausal.language.condition import Condition
 from acausal.language.connection import branch, chain, connect, is_root, potential_root, root, rooted
 from acausal.language.declare import (
+    discrete,
     effect,
     fixed,
     flow,
@@ -18,7 +20,8 @@ from acausal.language.declare import (
     structural,
     variable,
 )
-from acausal.language.expression import Condition, Equation, Expr, as_expr
+from acausal.language.events import When, reinit, when
+from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -57,6 +60,7 @@ __all__ = [
     "Record",
     "Scalar",
     "Vector3",
+    "When",
     "acos",
     "as_expr",
     "asin",
@@ -67,6 +71,7 @@ __all__ = [
     "cos",
     "cross",
     "der",
+    "discrete",
     "dot",
     "effect",
     "exp",
@@ -86,6 +91,7 @@ __all__ = [
     "piecewise",
     "port",
     "potential_root",
+    "reinit",
     "root",
     "rooted",
     "sign",
@@ -95,4 +101,5 @@ __all__ = [
     "tan",
     "time",
     "variable",
+    "when",
 ]

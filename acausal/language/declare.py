@@ -136,6 +136,23 @@ def variable(
     return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
 
 
+def discrete(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
+    """Declare a discrete variable: constant except where `when` lets it jump by reinit(...).
+
+    Parameters
+    ----------
+    description : str
+        What its values mean.
+    unit : str, optional
+        SI unit.
+    shape : tuple of int, optional
+        Shape where the annotation does not tell.
+    start : float, array or expression of other fields
+        Value at the start, such as sign(w_rel).
+    """
+    return Variable(description, unit, shape, start=start, causality="discrete")
+
+
 def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
     """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
     return Variable(description, unit, shape, start=start, causality="input")

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError, UnitsError
+from acausal.language.condition import Condition
 from acausal.units import Dimension, parse
 
 DIMENSIONLESS = parse("1")
@@ -129,7 +130,7 @@ class Expr:
     def __bool__(self) -> bool:
         raise DeclarationError(
             f"{self!r} is symbolic: Python cannot decide on it with `if`, `and`, `or` or `in`. "
-            "Use piecewise((value, condition), ..., otherwise) for a switch in time, "
+            "Use piecewise((value, condition), ..., otherwise) for a switch, "
             "or declare the field structural(...) if the equations themselves depend on it."
         )
 
@@ -140,21 +141,6 @@ class Expr:
         )
 
     __float__ = __int__ = __index__ = _no_number
-
-
-class Condition:
-    """The relation `excess < 0` or `excess <= 0`, as used in piecewise."""
-
-    def __init__(self, excess: Expr, kind: str) -> None:
-        self.excess = excess
-        self.kind = kind
-
-    def __bool__(self) -> bool:
-        raise DeclarationError(
-            "a comparison of symbolic expressions has no truth value while the model is built. "
-            "Use piecewise((value, condition), ..., otherwise), "
-            "or declare the field structural(...) if the equations themselves depend on it."
-        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.expression import Condition, Expr, as_expr
+from acausal.language.condition import Condition
+from acausal.language.expression import Expr, as_expr
 
 NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "no default", "__bool__": lambda self: False})()

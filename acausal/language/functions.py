@@ -11,7 +11,9 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
-from acausal.language.expression import DIMENSIONLESS, Condition, Expr, as_expr, is_deferred
+from acausal.language.condition import Condition
+from acausal.language.events import When
+from acausal.language.expression import DIMENSIONLESS, Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
 from acausal.units import Dimension, parse
 
@@ -22,15 +24,37 @@ initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
 
 
 class Pending:
-    """What equations ask for while a model is flattened: derivatives and switching conditions.
+    """What equations ask for while a model is flattened: derivatives, switching conditions and jumps.
 
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (mode, condition): `mode` is 1 while the condition holds.
+    `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
+    `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
     """
 
     def __init__(self) -> None:
         self.derivatives: list[tuple[ca.SX, ca.SX]] = []
         self.switches: list[tuple[ca.SX, Condition]] = []
+        self.places: list[Any] = []
+        self.whens: list[tuple[When, Any]] = []
+        self.discrete: set[int] = set()
+
+    def mode(self, condition: Condition) -> ca.SX:
+        """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
+        if all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
+            return _truth(condition)
+        for mode, other in self.switches:
+            if other.kind == condition.kind and ca.is_equal(other.excess.sx, condition.excess.sx, 9):
+                return mode
+        self.switches.append((ca.SX.sym("mode"), condition))
+        return self.switches[-1][0]
+
+    def place(self, origin: Any) -> None:
+        """Say where the switches come from that have been asked for since the last call."""
+        self.places += [origin] * (len(self.switches) - len(self.places))
+
+
+def _truth(condition: Condition) -> ca.SX:
+    return condition.excess.sx < 0 if condition.kind == "<" else condition.excess.sx <= 0
 
 
 PENDING: ContextVar[Pending] = ContextVar("pending")
@@ -139,10 +163,11 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     Parameters
     ----------
     *cases : (value, Condition) pairs, then a value
-        The last argument, without a condition, holds otherwise. A condition compares `time` with an expression of
-        parameters; such instants are break times: the integration stops there exactly.
+        The last argument, without a condition, holds otherwise. Where a condition compares `time` with an expression
+        of parameters, the instant is a break time: the integration stops there exactly. Any other condition is watched:
+        the integration stops where it changes, located to about the tolerance.
     smooth : bool
-        True promises that value and first two derivatives are continuous, so that no break time is needed.
+        True promises that value and first two derivatives are continuous, so that no stop is needed.
 
     Returns
     -------
@@ -162,13 +187,11 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
             raise DeclarationError(
                 "a case of piecewise is a pair (value, condition), with a condition such as time < 1"
             )
+        if condition.excess.shape:
+            raise DeclarationError("a condition of piecewise compares two scalars")
         choice = as_expr(choice)
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
-        if smooth:
-            mode = condition.excess.sx < 0 if condition.kind == "<" else condition.excess.sx <= 0
-        else:
-            mode = ca.SX.sym("mode")
-            _pending("piecewise").switches.append((mode, condition))
+        mode = _truth(condition) if smooth else _pending("piecewise").mode(condition)
         value = Expr(ca.if_else(mode, choice.sx, value.sx), choice.unit if choice.unit is not None else value.unit)
     return value

@@ -50,7 +50,7 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
 
 def system_of(flat: FlatModel) -> tuple[System, Linear]:
     """Return the System of a flat model, and its Jacobian."""
-    modes = ca.vertcat(*[mode for mode, _ in flat.switches])
+    modes = flat.modes
     linear = jacobian(flat.residuals, flat.unknowns, ca.vertcat(time.sx, initial.sx, modes))
     explicit: list[set[int]] = [set() for _ in linear.rows]
     monic: list[set[int]] = [set() for _ in linear.rows]

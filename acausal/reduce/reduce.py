@@ -103,7 +103,7 @@ def _differentiate(
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
     residuals, explicit = scalars(flat.residuals), dict(linear.explicit)
     first, total = len(residuals), len(residuals) + len(plan.differentiated)
-    modes = ca.vertcat(*[mode for mode, _ in flat.switches])
+    modes = flat.modes
     while len(residuals) < total:
         start = len(residuals)
         sources = list(plan.differentiated[start - first :])

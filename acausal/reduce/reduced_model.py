@@ -47,8 +47,8 @@ class ReducedModel:
 
     @cached_property
     def modes(self) -> ca.SX:
-        """Constants of a segment of integration: modes of the switches, then the choice."""
-        return ca.vertcat(*[mode for mode, _ in self.flat.switches], self.closing.choice)
+        """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
+        return ca.vertcat(self.flat.modes, self.closing.choice)
 
     @cached_property
     def _resolved(self) -> ca.SX:

@@ -1,4 +1,4 @@
-"""The initial system of a model with constraints at several levels: loops closed first, then ranks instead of patterns."""
+"""What completes the initial system, by ranks at a point where the loops are closed instead of by patterns."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def rows_and_knowns(
     modes: np.ndarray,
     held: np.ndarray,
     conditions: list[int],
-    initial: str,
+    refuse: bool,
 ) -> tuple[list[int], list[int], list[int], list[int]]:
     """Choose what completes the initial system, by the ranks of its Jacobian.
 
@@ -62,8 +62,8 @@ def rows_and_knowns(
     held : array of int
         States that are given.
     conditions : list of int
-        Conditions in order of importance.
-    initial : "fixed" or "guesses"
+        Rows in order of importance; counted from the first algebraic equation, those of derivatives are negative.
+    refuse : bool
         Whether freedoms that are left are refused or take their guesses.
 
     Returns
@@ -77,17 +77,18 @@ def rows_and_knowns(
     """
     c, nx, nz = compiled.closing, compiled.nx, compiled.nz
     free = np.setdiff1d(np.arange(nx), held)
-    M, C = _reduced(compiled, x, z, p, t, modes, free)
-    used, surplus = _independent(M, C, conditions)
+    rows = nx + np.array(conditions, dtype=int)
+    M, C = _reduced(compiled, x, z, p, t, modes, free, rows)
+    used, surplus = _independent(M, C)
     if surplus:
         # A condition can lack influence at one position without lacking it around.
         shake = 1e-3 * np.random.default_rng(0).standard_normal(len(free))
         moved = x.copy()
         moved[free] += shake * compiled.nominal[free]
-        M, C = _reduced(compiled, moved, z, p, t, modes, free)
-        used, surplus = _independent(M, C, conditions)
+        M, C = _reduced(compiled, moved, z, p, t, modes, free, rows)
+        used, surplus = _independent(M, C)
     left = _left(compiled, np.vstack([M, C[used]]), free)
-    if left and initial == "fixed":
+    if left and refuse:
         raise InitializationError(missing_text(compiled, left))
     plan = compiled.reduced.plan
     position = {e: k for k, e in enumerate(plan.residuals)}
@@ -98,6 +99,7 @@ def rows_and_knowns(
         for row in plan.constrained.constraints[k].rows
     }
     equations = [k for k in range(nz) if k not in off]
+    used, surplus = ([conditions[k] for k in chosen] for chosen in (used, surplus))
     return equations, used, surplus, [*held.tolist(), *left, *(nx + c.multipliers).tolist()]
 
 
@@ -109,20 +111,21 @@ def _reduced(
     t: float,
     modes: np.ndarray,
     free: np.ndarray,
+    rows: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobians of the multipliers and of the conditions by the free states, algebraic unknowns eliminated."""
+    """Jacobians of the multipliers and of some rows by the free states, algebraic unknowns eliminated."""
     nx, nz = compiled.nx, compiled.nz
     J = compiled.at(x, z, p, t, modes, 1.0).jacobian.tocsc()
     right = J[nx : nx + nz][:, free].toarray()
-    dz = -splu(J[nx : nx + nz, nx:].tocsc()).solve(right)
-    return dz[compiled.closing.multipliers], J[nx + nz :][:, free].toarray() + J[nx + nz :, nx:] @ dz
+    dz = -splu(J[nx : nx + nz, nx:].tocsc()).solve(right) if nz else right
+    return dz[compiled.closing.multipliers], J[rows][:, free].toarray() + J[rows][:, nx:] @ dz
 
 
-def _independent(M: np.ndarray, C: np.ndarray, conditions: list[int]) -> tuple[list[int], list[int]]:
+def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
     """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
     basis = [v for v in svd(_unit(M), full_matrices=False)[2][: _rank(M)]] if M.size else []
     used, surplus = [], []
-    for k in conditions:
+    for k in range(len(C)):
         size = np.linalg.norm(C[k])
         v = C[k] / size if size else C[k]
         for _ in range(2):

@@ -19,10 +19,12 @@ from acausal.solve.projection import choose_projection
 from acausal.solve.words import contradiction_text, lost_text, missing_text
 from acausal.structure import complete
 
+INITIAL = ("fixed", "guesses", "steady")
 ITERATIONS = 60
 CONVERGED = 1e-8
 ROUNDING = 1e-13
 CONSISTENT = 1e-7
+SHORTEST = 1e-4
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,9 @@ def initialize(
         The model.
     p, time, modes : array, float, array
         Parameters, start time and modes of the switches at the start.
-    initial : "fixed" or "guesses"
-        What to do with states that no condition determines: refuse, or take their guesses.
+    initial : "fixed", "guesses" or "steady"
+        What to do with states that no condition determines: refuse, take their guesses, or find those at which all
+        derivatives vanish.
 
     Returns
     -------
@@ -73,13 +76,13 @@ def initialize(
     InitializationError
         If conditions are missing or contradict each other, or no solution is found.
     """
-    if initial not in ("fixed", "guesses"):
-        raise DeclarationError(f'initial is {initial!r}; it must be "fixed" or "guesses".')
+    if initial not in INITIAL:
+        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.")
     y = compiled.start(p, time)[0].copy()
     nx = compiled.nx
-    if compiled.closing.size:
-        modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
-        system, y, modes = _closed(compiled, y, p, time, modes, initial)
+    modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
+    if compiled.closing.size or initial == "steady":
+        system, y, modes = _ranked(compiled, y, p, time, modes, initial)
     else:
         system = _system(compiled, p, time, modes, initial)
         y = _direct_values(compiled, system.direct, y, p, time, modes)
@@ -92,10 +95,10 @@ def initialize(
     return y[:nx], y[nx:], modes
 
 
-def _closed(
+def _ranked(
     compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray, initial: str
 ) -> tuple[InitialSystem, np.ndarray, np.ndarray]:
-    """Close the loops, and choose the initial system from there."""
+    """Close the loops, and choose the initial system from there by ranks."""
     nx, nz = compiled.nx, compiled.nz
     given = compiled.conditions.numel()
     rows = _rows(compiled, p, time, modes)
@@ -105,19 +108,19 @@ def _closed(
     direct = {row: state for state, row in first.items()}
     y = _direct_values(compiled, tuple(direct.items()), y, p, time, modes)
     held = np.array(sorted(first), dtype=int)
-    y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
-    y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
+    if compiled.closing.size:
+        y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
+        y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
     y = algebraic(compiled, y, p, time, modes)
-    others = [k for k in range(given) if nz + k not in direct]
-    chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial)
+    others = [row for row in range(nz, nz + given) if row not in direct]
+    if initial == "steady":
+        others += range(-nx, 0)
+    chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed")
     equations, used, surplus, known = chosen
-    system = InitialSystem(
-        np.array([*equations, *(nz + k for k in used)], int),
-        np.array([nz + k for k in surplus], int),
-        np.array(sorted(known), int),
-        tuple(direct.items()),
-    )
-    return system, y, modes
+    # Derivatives that cannot vanish beside what is given do not matter.
+    demanded = [row for row in surplus if row >= 0]
+    rows = np.array([*equations, *used], int)
+    return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
 
 
 def _direct_values(
@@ -217,12 +220,37 @@ def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> 
 def _solve(
     compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
 ) -> np.ndarray:
-    y = _newton(compiled, system, y, p, time, modes, 1.0)
+    try:
+        y = _newton(compiled, system, y, p, time, modes, 1.0)
+    except InitializationError:
+        found = _continue(compiled, system, y, p, time, modes)
+        if found is None:
+            raise
+        y = found
     if system.surplus.size:
         value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(y), initial=0))]
         if wrong:
             raise InitializationError(contradiction_text(compiled, value, wrong))
+    return y
+
+
+def _continue(
+    compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> np.ndarray | None:
+    """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
+    rows = system.rows + compiled.nx
+    first = compiled.values(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)[0][rows].copy()
+    s, step = 0.0, 0.1
+    while s < 1:
+        target = min(1.0, s + step)
+        try:
+            y = _newton(compiled, system, y, p, time, modes, 1.0, (1 - target) * first)
+            s, step = target, 1.5 * step
+        except InitializationError:
+            step /= 3
+            if step < SHORTEST:
+                return None
     return y
 
 
@@ -234,6 +262,7 @@ def _newton(
     time: float,
     modes: np.ndarray,
     flag: float,
+    offset: np.ndarray | float = 0.0,
 ) -> np.ndarray:
     """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
     nx, rows = compiled.nx, system.rows + compiled.nx
@@ -244,7 +273,7 @@ def _newton(
     plain = _is_range(rows) and _is_range(free)
 
     def residual(at: np.ndarray) -> np.ndarray:
-        return compiled.values(at[:nx], at[nx:], p, time, modes, flag)[0][rows]
+        return compiled.values(at[:nx], at[nx:], p, time, modes, flag)[0][rows] - offset
 
     value = residual(y)
     for _ in range(ITERATIONS):

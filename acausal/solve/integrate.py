@@ -36,6 +36,37 @@ class Trace:
     calls: int = 0
     choices: int = 0
     seconds: float = 0.0
+    before: np.ndarray = field(default_factory=lambda: np.zeros(2))
+
+    def put(self, call: int, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
+        """Put other values into the last row of a call, if there is one."""
+        if len(self.x) >= -call:
+            self.x[call][-1], self.z[call][-1] = x, z
+            self.modes[call] = np.vstack([self.modes[call][:-1], modes])
+
+    def spend(self, energy: np.ndarray) -> None:
+        """Add supplied and dissipated energy to all that follows, and to the last row."""
+        if self.energy:
+            self.energy[-1][-1] += energy
+        else:
+            self.before = self.before + energy
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Rows of one call: times, states, algebraic unknowns, integrals of power since its start; modes and steps."""
+
+    times: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    energy: np.ndarray
+    modes: np.ndarray
+    steps: int
+
+    def rows(self, first: int, last: int) -> Stretch:
+        """Return some of the rows, as if the call had begun at its start all the same."""
+        part = slice(first, last)
+        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)
 
 
 @dataclass(frozen=True)
@@ -121,22 +152,27 @@ class Integrator:
             If the integrator gives up; the trace holds what was reached.
         """
         if not self.compiled.nx:
-            return self._solve_everywhere(times, x, z, modes)
+            self.keep(self._solve_everywhere(times, z, modes))
+            return self._last()
         n = len(times) - 1
         if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
             return self._last()
-        if self.settings.constraints == "auto" and self.worn and not self.moves:
-            self.moves = True
-            if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
-                return self._last()
+        if self.rescue() and self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
+            return self._last()
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
             if not self._call(part, x, z, modes, HOPELESS // (len(part) - 1)):
                 self._creep(part, x, z, modes)
             x, z = self._last()
-            self._report(part[-1])
+            self.report(part[-1])
         return x, z
+
+    def rescue(self) -> bool:
+        """Let the projection move where the chosen states became unfit; False if that changes nothing."""
+        moves = self.moves or (self.settings.constraints == "auto" and self.worn)
+        changed, self.moves = moves != self.moves, moves
+        return changed
 
     def _choose(
         self, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray
@@ -159,20 +195,20 @@ class Integrator:
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), LOOKS)).astype(int))
         return any(worn(c, x[k], self.p, float(times[k]), modes) < WORN for k in some)
 
-    def _solve_everywhere(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:
         """Go from output to output where there is nothing to integrate."""
+        found = []
         for time in times[1:]:
             z = algebraic(self.compiled, z, self.p, float(time), modes)
-            self._keep(np.array([time]), x[None], z[None], modes, np.zeros((1, 2)))
-        return x, z
+            found.append(z)
+        n = len(found)
+        return Stretch(np.array(times[1:]), np.zeros((n, 0)), np.array(found), np.zeros((n, 2)), modes, 0)
 
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
             if not self._call(times[k : k + 2], x, z, modes, HOPELESS):
-                raise _failure(times[k], times[k + 1], self.complaint)
+                raise self.failure(times[k], times[k + 1])
             x, z = self._last()
 
     def _call(
@@ -184,7 +220,19 @@ class Integrator:
         max_steps: int,
         careful: bool = True,
     ) -> bool:
+        stretch = self.attempt(times, x, z, modes, max_steps, careful)
+        if stretch is None:
+            return False
+        self.keep(stretch)
+        return True
+
+    def attempt(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, max_steps: int, careful: bool
+    ) -> Stretch | None:
+        """Integrate from times[0] through all other times in one call; None where the integrator gives up."""
         c, trace = self.compiled, self.trace
+        if not c.nx:
+            return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
@@ -205,39 +253,38 @@ class Integrator:
         trace.residual_evaluations += stats.get("nfevals", 0)
         if not done:
             self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
-            return False
+            return None
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n = len(grid)
-        energy = out["qf"].reshape(n, 2) if self.settings.energy else np.zeros((n, 2))
-        states = out["xf"].reshape(n, c.nx)
+        energy = out["qf"].reshape(n, 2).copy() if self.settings.energy else np.zeros((n, 2))
+        states, algebraics = out["xf"].reshape(n, c.nx).copy(), out["zf"].reshape(n, c.nz).copy()
         self.worn = n > 1 and self._is_worn(times[1:], states, modes)
         if self.worn:
-            return False
-        self._keep(times[1:], states, out["zf"].reshape(n, c.nz), modes, energy)
-        return True
+            return None
+        return Stretch(np.array(times[1:]), states, algebraics, energy, modes, stats.get("nsteps", 0))
 
-    def _keep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, energy: np.ndarray) -> None:
+    def keep(self, stretch: Stretch) -> None:
         """Append rows to the trace; integrals of power go on from the last one."""
         trace = self.trace
-        before = trace.energy[-1][-1] if trace.energy else np.zeros(2)
-        trace.times.append(np.array(times))
-        trace.x.append(x.copy())
-        trace.z.append(z.copy())
-        trace.energy.append(before + energy)
-        trace.modes.append(np.broadcast_to(modes, (len(times), len(modes))))
+        before = trace.energy[-1][-1] if trace.energy else trace.before
+        trace.times.append(stretch.times)
+        trace.x.append(stretch.x)
+        trace.z.append(stretch.z)
+        trace.energy.append(before + stretch.energy)
+        trace.modes.append(np.broadcast_to(stretch.modes, (len(stretch.times), len(stretch.modes))))
 
     def _last(self) -> tuple[np.ndarray, np.ndarray]:
         return self.trace.x[-1][-1], self.trace.z[-1][-1]
 
-    def _report(self, time: float) -> None:
+    def report(self, time: float) -> None:
+        """Tell the progress."""
         if self.settings.progress:
             start, stop = self.span
             self.settings.progress((time - start) / (stop - start), self.trace.steps)
 
-
-def _failure(start: float, end: float, complaint: str) -> Failure:
-    """Read time and reason from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed`."""
-    found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", complaint)
-    if not found:
-        return Failure(float(start), "it gave no reason")
-    return Failure(float(start + float(found[1]) * (end - start)), found[2].strip().rstrip("."))
+    def failure(self, start: float, end: float) -> Failure:
+        """Read time and reason from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed`."""
+        found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", self.complaint)
+        if not found:
+            return Failure(float(start), "it gave no reason")
+        return Failure(float(start + float(found[1]) * (end - start)), found[2].strip().rstrip("."))

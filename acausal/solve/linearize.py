@@ -13,7 +13,7 @@ from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.solve.initialize import initialize
+from acausal.solve.instant import start
 from acausal.solve.order import state_matrix
 from acausal.symbols import scalars
 
@@ -96,8 +96,8 @@ def linearize(
     else:
         compiled = compile(model, parameters)
         p = compiled.parameter_values(None)
-    modes = compiled.modes_at(p, time)[0].copy()
-    x, z, modes = initialize(compiled, p, time, modes, initial)
+    at = start(compiled, p, time, time, initial)
+    x, z, modes = at.x, at.z, at.modes
     inputs = _inputs(compiled)
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
     u = ca.vertcat(*[sx for _, sx in inputs])

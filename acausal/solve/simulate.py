@@ -16,7 +16,8 @@ from acausal.language.component import Component
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
 from acausal.result import Result
-from acausal.solve.initialize import algebraic, initialize
+from acausal.solve.events import Chattering, Run
+from acausal.solve.instant import Point, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
 from acausal.solve.order import eigenvalues_of, order_limit
 
@@ -94,22 +95,28 @@ def simulate(
     times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, intervals + 1)
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
-    modes = compiled.modes_at(p, _middle(start_time, breaks, stop_time))[0].copy()
-    x, z, modes = initialize(compiled, p, start_time, modes, initial)
+    at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), initial)
     if max_order is None:
-        max_order = order_limit(eigenvalues_of(compiled, x, z, p, start_time, modes), stop_time - start_time)
-    run = Integrator(compiled, p, Settings(tolerance, max_order, energy, progress, constraints), (start_time, stop_time))
+        rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
+        max_order = order_limit(rates, stop_time - start_time)
+    integrator = Integrator(
+        compiled, p, Settings(tolerance, max_order, energy, progress, constraints), (start_time, stop_time)
+    )
+    run = Run(integrator, times, breaks)
     failure: BaseException | None = None
     try:
-        _integrate(run, p, times, breaks, x, z, modes)
-    except (Failure, KeyboardInterrupt) as caught:
+        run.go(at)
+    except (Failure, Chattering, KeyboardInterrupt) as caught:
         failure = caught
     waited = compiled.seconds.get("integrators", 0.0) - built
-    stats = _stats(compiled, run, tolerance, max_order, breaks)
+    stats = _stats(compiled, integrator, tolerance, max_order, breaks)
+    stats |= {"events": len(run.events), "event_times": run.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
-    result = _result(compiled, run.trace, p, (start_time, x, z, modes), times, stats, energy)
+    result = _result(compiled, integrator.trace, p, run.first or at, times, stats, energy)
     if isinstance(failure, Failure):
-        raise SimulationError(_failure_text(compiled, run, p, failure), result)
+        raise SimulationError(_failure_text(compiled, integrator, p, failure), result)
+    if isinstance(failure, Chattering):
+        raise SimulationError(str(failure), result)
     if failure is not None:
         failure.result = result  # type: ignore[attr-defined]
         raise failure
@@ -141,28 +148,6 @@ def _middle(start: float, breaks: list[float], stop: float) -> float:
     return (start + (breaks[0] if breaks else stop)) / 2
 
 
-def _integrate(
-    run: Integrator,
-    p: np.ndarray,
-    times: np.ndarray,
-    breaks: list[float],
-    x: np.ndarray,
-    z: np.ndarray,
-    modes: np.ndarray,
-) -> None:
-    """Go from break to break; the law of each segment holds up to its end."""
-    ends = [*breaks, times[-1]]
-    begin = times[0]
-    for k, end in enumerate(ends):
-        if k:
-            switched = run.compiled.modes_at(p, (begin + end) / 2)[0]
-            modes = np.concatenate([switched, modes[len(switched) :]])
-            z = algebraic(run.compiled, np.concatenate([x, z]), p, begin, modes)[len(x) :]
-        inner = times[(times > begin) & (times < end)]
-        x, z = run.segment(np.concatenate([[begin], inner, [end]]), x, z, modes)
-        begin = end
-
-
 def _stats(
     compiled: CompiledModel, run: Integrator, tolerance: float, max_order: int, breaks: list[float]
 ) -> dict[str, Any]:
@@ -191,16 +176,15 @@ def _result(
     compiled: CompiledModel,
     trace: Trace,
     p: np.ndarray,
-    first: tuple[float, np.ndarray, np.ndarray, np.ndarray],
+    first: Point,
     times: np.ndarray,
     stats: dict[str, Any],
     energy: bool,
 ) -> Result:
-    t0, x0, z0, modes0 = first
-    t = np.concatenate([[t0], *trace.times])
-    x = np.vstack([x0[None], *trace.x])
-    z = np.vstack([z0[None], *trace.z])
-    modes = np.vstack([modes0[None], *trace.modes])
+    t = np.concatenate([[first.time], *trace.times])
+    x = np.vstack([first.x[None], *trace.x])
+    z = np.vstack([first.z[None], *trace.z])
+    modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], p)
     if energy:

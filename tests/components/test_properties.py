@@ -23,6 +23,7 @@ from components import (
     Body,
     BodyBox,
     BodyCylinder,
+    BodyRod,
     BodyShape,
     Damper,
     Fixed,
@@ -32,6 +33,7 @@ from components import (
     Force,
     Prismatic,
     Revolute,
+    RevolutePlanarLoopConstraint,
     Spherical,
     Spring,
     SpringDamperParallel,
@@ -172,6 +174,28 @@ class OnBodyCylinder(OnSpherical):
     def it(self):
         r = np.array([0.3, -0.2, 0.4]) * (-1 if self.turned else 1)
         return BodyCylinder(r=tuple(r), diameter=0.08, inner_diameter=0.05)
+
+
+class OnBodyRod(OnSpherical):
+    @part
+    def it(self):
+        r = np.array([0.3, -0.2, 0.4]) * (-1 if self.turned else 1)
+        return BodyRod(r=tuple(r), m=2.0)
+
+
+class OnPlanarLoop(Scene):
+    """A four-bar in the xy plane of the place; the tip rides on the coupler."""
+
+    first, second, third = Revolute(phi=fixed(0), w=fixed(3.0)), Revolute(), Revolute()
+    crank, coupler, rocker = BodyRod(r=(0.2, 0, 0), m=1), BodyRod(r=(0.1, 0.5, 0), m=1), BodyRod(r=(0.4, 0.05, 0), m=1)
+    ground = FixedTranslation(r=(-0.1, 0.45, 0))
+    it = RevolutePlanarLoopConstraint()
+
+    def graph(self):
+        a, b = self.through(self.it)
+        yield chain(self.place, self.first, self.crank, self.second, self.coupler, self.tip)
+        yield chain(self.place, self.ground, self.third, self.rocker, b)
+        yield connect(self.coupler.frame_b, a)
 
 
 class OnRevolute(Scene):
@@ -411,6 +435,14 @@ class OnShaftSpringDamper(WithRotor):
         return rotational.SpringDamper(c=8.0, d=0.3, phi_rel0=-0.3 if self.turned else 0.3)
 
 
+class OnShaftFriction(WithRotor):
+    it = rotational.Friction(tau_sliding=0.05, tau_static=0.1)
+
+
+class OnShaftClutch(WithRotor):
+    it = rotational.Clutch(tau_max=0.1, f_normalized=0.5)
+
+
 class OnShaftFixed(Shaft):
     it = rotational.Fixed(phi0=0.2)
     spring = rotational.Spring(c=8.0)
@@ -462,7 +494,9 @@ SCENES: dict[str, type[Scene]] = {
     "BodyShape": OnBodyShape,
     "BodyBox": OnBodyBox,
     "BodyCylinder": OnBodyCylinder,
+    "BodyRod": OnBodyRod,
     "Revolute": OnRevolute,
+    "RevolutePlanarLoopConstraint": OnPlanarLoop,
     "Prismatic": OnDrivenPrismatic,
     "Spherical": OnSphericalJoint,
     "Spring": OnSpring,
@@ -477,6 +511,8 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Spring": OnShaftSpring,
     "rotational.Damper": OnShaftDamper,
     "rotational.SpringDamper": OnShaftSpringDamper,
+    "rotational.Friction": OnShaftFriction,
+    "rotational.Clutch": OnShaftClutch,
     "rotational.Fixed": OnShaftFixed,
     "rotational.Inertia": OnShaftInertia,
     "rotational.Torque": OnShaftTorque,
@@ -485,7 +521,7 @@ SCENES: dict[str, type[Scene]] = {
 }
 TURNED = SCENES | {"Prismatic": OnPrismatic}
 BASES = {"LineForce", "TwoFrameBody", "TwoFrames", "TwoFlanges", "rotational.Compliant", "rotational.OneFlange"}
-BASES |= {"rotational.TwoFlanges"}
+BASES |= {"rotational.TwoFlanges", "rotational.Slipping"}
 
 
 def exported() -> dict[str, type]:
@@ -498,7 +534,7 @@ def exported() -> dict[str, type]:
 EXPORTED = exported()
 SIDED = [name for name in SCENES if issubclass(EXPORTED[name], TwoFrames | TwoFlanges)]
 DISSIPATING = {"Damper", "SpringDamperParallel", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
-DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper"}
+DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {"rotational.Position", "rotational.Speed"}
 
@@ -620,7 +656,15 @@ def test_documented(name):
         ), n
 
 
-DIMENSIONLESS = {("Orientation", "T"), ("Frame", "Q"), ("Spherical", "Q")}
+DIMENSIONLESS = {
+    ("Orientation", "T"),
+    ("Frame", "Q"),
+    ("Spherical", "Q"),
+    ("Friction", "mode"),
+    ("Clutch", "mode"),
+    ("Clutch", "f_normalized"),
+    ("Clutch", "peak"),
+}
 
 
 @every(EXPORTED)

@@ -12,6 +12,7 @@ from components import (
     Body,
     BodyBox,
     BodyCylinder,
+    BodyRod,
     BodyShape,
     Fixed,
     FixedRotation,
@@ -220,6 +221,13 @@ def test_inertia_of_a_pipe(r):
     np.testing.assert_allclose(
         value("body.I"), across * np.eye(3) + (along - across) * np.outer(e, e), rtol=1e-9, atol=1e-12 * mass
     )
+
+
+@pytest.mark.parametrize("r", [(1, 0, 0), (1, 2, -1)])
+def test_inertia_of_a_rod(r):
+    value = start(Swinging(body=BodyRod(r=r, m=3.0)))
+    np.testing.assert_allclose(value("body.body.r_CM"), np.array(r) / 2)
+    np.testing.assert_allclose(value("body.I"), 3 / 12 * (np.dot(r, r) * np.eye(3) - np.outer(r, r)), atol=1e-15)
 
 
 @pytest.mark.parametrize("make", [BodyBox, BodyCylinder])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import DeclarationError, Model, Scalar, der, output, parameter, piecewise, time, variable
+from acausal import Model, Scalar, der, output, parameter, piecewise, time, variable
 
 
 class Switched(Model):
@@ -33,16 +33,6 @@ def test_break_times_follow_parameters_of_a_compiled_model():
     compiled = ac.compile(Switched())
     result = ac.simulate(compiled, stop_time=1.0, intervals=10, parameters={"first": 0.4})
     assert result["x"][-1] == pytest.approx(0.4 - 0.8 + 5 * 0.2, abs=1e-9)
-
-
-def test_condition_on_a_variable_is_refused():
-    class Bad(Switched):
-        def equations(self):
-            yield self.rate == piecewise((1, self.x < 1), 0)
-            yield der(self.x) == self.rate
-
-    with pytest.raises(DeclarationError, match="something other than time"):
-        ac.compile(Bad())
 
 
 class Piston(Model):

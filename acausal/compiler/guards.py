@@ -1,0 +1,178 @@
+"""The conditions that are watched during an integration, and what happens when they change, as numbers."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.errors import DeclarationError
+from acausal.flatten.discontinuities import Guard, Jump
+from acausal.language.functions import initial, time
+from acausal.reduce import ReducedModel
+from acausal.symbols import scalars
+
+
+class Guards:
+    """Guards of a model: those of its switches, then one for each `when`.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+    start : casadi.Function
+        Start values of states and algebraic unknowns, of parameters and time.
+    nominal : array
+        Typical sizes of states and algebraic unknowns.
+
+    Attributes
+    ----------
+    timed : list of int
+        Guards that compare time with parameters: their instants are known before.
+    watched : list of int
+        All others.
+    n_switches, n_modes : int
+        Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
+    """
+
+    def __init__(self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray) -> None:
+        flat = reduced.flat
+        self.reduced, self.guards, self._start, self._nominal = reduced, flat.guards, start, nominal
+        self.n_switches, self.n_modes = len(flat.switches), flat.modes.numel()
+        self.arguments = [reduced.x, reduced.z, flat.parameters, time.sx, reduced.modes]
+        self._excess = self._resolve([g.excess for g in flat.guards])
+        known = {s.element_hash() for s in scalars(ca.vertcat(*self.arguments))}
+        for guard, excess in zip(flat.guards, scalars(self._excess), strict=True):
+            if any(s.element_hash() not in known for s in ca.symvar(excess)):
+                raise DeclarationError(
+                    f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
+                    "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
+                )
+        free = {s.element_hash() for s in scalars(ca.vertcat(flat.parameters, time.sx))}
+        curved = ca.which_depends(self._excess, time.sx, 2, True) if flat.guards else []
+        self.timed = [
+            k
+            for k, (e, bent) in enumerate(zip(scalars(self._excess), curved, strict=True))
+            if not bent and all(s.element_hash() in free for s in ca.symvar(e))
+        ]
+        self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
+
+    @property
+    def eventful(self) -> bool:
+        """Whether anything but break times of switches can happen."""
+        return bool(self.watched or self.n_modes > self.n_switches or len(self.guards) > self.n_switches)
+
+    def _resolve(self, entries: list[ca.SX]) -> ca.SX:
+        column = ca.vertcat(ca.SX(0, 1), *entries)
+        return ca.densify(ca.substitute(self.reduced.resolve(column), initial.sx, 0))
+
+    @cached_property
+    def breaks(self) -> Call:
+        """Function of parameters: break time of each timed guard."""
+        p, excess = self.reduced.flat.parameters, self._excess[self.timed]
+        if not self.timed:
+            return Call(ca.Function("breaks", [p], [ca.SX(0, 1)]))
+        at_zero = ca.substitute(excess, time.sx, 0)
+        return Call(ca.Function("breaks", [p], [ca.densify(-at_zero / ca.jtimes(excess, time.sx, 1))]))
+
+    @cached_property
+    def timed_excess(self) -> Call:
+        """Function of parameters and time: excess of each timed guard."""
+        return Call(ca.Function("timed", [self.reduced.flat.parameters, time.sx], [self._excess[self.timed]]))
+
+    @cached_property
+    def guess(self) -> Call:
+        """Function of parameters and time: modes and discrete variables, exact where only time decides."""
+        flat, r = self.reduced.flat, self.reduced
+        head = self._head()
+        starts = self._start(flat.parameters, time.sx) if head.numel() else ca.SX(0, 1)
+        head = ca.substitute([head], [r.modes], [ca.SX.zeros(r.modes.numel())])[0] if head.numel() else head
+        head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
+        return Call(ca.Function("modes", [flat.parameters, time.sx], [ca.densify(head)]))
+
+    @cached_property
+    def start(self) -> Call:
+        """Function of x, z, parameters, time and modes: modes and discrete variables that fit these values."""
+        return Call(ca.Function("start", self.arguments, [ca.densify(self._head())]))
+
+    def _head(self) -> ca.SX:
+        switches = scalars(self._excess)[: self.n_switches]
+        inclusive = [guard.inclusive for guard in self.guards]
+        modes = [e <= 0 if inside else e < 0 for e, inside in zip(switches, inclusive, strict=False)]
+        return ca.vertcat(ca.SX(0, 1), *modes, self._resolve([s for _, s in self.reduced.flat.discretes]))
+
+    @cached_property
+    def scale(self) -> Call:
+        """Function of x, z, parameters, time and modes: how much each watched excess changes by nominal changes."""
+        J = ca.jacobian(self._excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
+        return Call(ca.Function("scale", self.arguments, [ca.densify(ca.fabs(J) @ ca.SX(ca.DM(self._nominal)))]))
+
+    @cached_property
+    def _rates(self) -> ca.Function:
+        """Function of x, z, parameters, time and modes: watched excesses and their time derivatives."""
+        r, excess = self.reduced, self._excess[self.watched]
+        ode, alg = (ca.substitute(e, initial.sx, 0) for e in (r.ode, r.alg))
+        moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(ode, 1)
+        direct = ca.densify(ca.jtimes(excess, moving, seeds))
+        by_z = ca.sparsify(ca.jacobian(excess, r.z))
+        if not by_z.nnz():
+            return ca.Function("rates", self.arguments, [excess, direct])
+        follows = [ca.jacobian(alg, r.z), ca.densify(ca.jtimes(alg, moving, seeds))]
+        parts = ca.Function("parts", self.arguments, [excess, direct, by_z, *follows])
+        inputs = [ca.MX.sym("i", a.numel()) for a in self.arguments]
+        value, rate, J, inner, right = parts(*inputs)
+        return ca.Function("rates", inputs, [value, rate - J @ ca.solve(inner, right, "qr")])
+
+    def along(
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return watched excesses and their time derivatives, a row for each time."""
+        n = len(t)
+        if n not in self._maps:
+            self._maps[n] = Call(self._rates.map(n))
+        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n))
+        return value.reshape(n, -1).copy(), np.nan_to_num(rate.reshape(n, -1), posinf=0.0, neginf=0.0)
+
+    @cached_property
+    def _maps(self) -> dict[int, Call]:
+        return {}
+
+    def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
+        """Function of x, z, parameters, time and modes: new values; and for each whether it is a state, and which."""
+        return self._jumps[guard]
+
+    @cached_property
+    def _jumps(self) -> dict[int, tuple[Call, list[tuple[bool, int]]]]:
+        made: dict[int, Any] = {}
+        for k, guard in enumerate(self.guards):
+            if not guard.jumps:
+                continue
+            places = [self._place(guard, jump) for jump in guard.jumps]
+            values = ca.vertcat(*[value for _, value in places])
+            made[k] = Call(ca.Function("jump", self.arguments, [ca.densify(values)])), [at for at, _ in places]
+        return made
+
+    def _place(self, guard: Guard, jump: Jump) -> tuple[tuple[bool, int], ca.SX]:
+        """Where a jump goes in the states or modes, and what stands there afterwards."""
+        target, value = self._resolve([jump.target]), self._resolve([jump.value])
+        if jump.discrete is not None:
+            return (False, self.n_switches + jump.discrete), value
+        x = self.reduced.x
+        J = ca.sparsify(ca.jacobian(target, ca.vertcat(x, *self.arguments[1:])))
+        states = J.sparsity().get_triplet()[1]
+        slopes: list[Any] = J.nonzeros()
+        if len(states) != 1 or states[0] >= x.numel() or not slopes[0].is_constant():
+            names = ", ".join(f"`{self.reduced.names[s]}`" for s in self.reduced.plan.states) or "none"
+            raise DeclarationError(
+                f"{guard.origin}: reinit({jump.target}, ...) needs a state or a discrete variable; the states are {names}. "
+                "Let one of these jump, or declare the variable with select=ALWAYS."
+            )
+        k = states[0]
+        return (True, k), x[k] + (value - target) / slopes[0]
+
+    def check(self) -> None:
+        """Raise DeclarationError if something jumps that cannot."""
+        _ = self._jumps

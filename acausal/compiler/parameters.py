@@ -1,0 +1,110 @@
+"""Set parameters of a compiled model by path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.errors import DeclarationError
+from acausal.flatten import FlatModel
+from acausal.flatten.instantiate import join, not_settable, numeric, walk
+from acausal.language import fields as f
+
+
+class Settable:
+    """The parameters of a flat model.
+
+    Parameters
+    ----------
+    flat : FlatModel
+        The model.
+    """
+
+    def __init__(self, flat: FlatModel) -> None:
+        self.flat = flat
+
+    def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
+        """Return the values of all free parameters after some changes.
+
+        Raises
+        ------
+        DeclarationError
+            For an unknown name, a structural parameter, a structural zero, a parameter that follows others, or a
+            value out of its limits.
+        """
+        flat = self.flat
+        values = flat.parameter_values.copy()
+        for path, value in (changes or {}).items():
+            self._set(values, path, value)
+        self._check_limits(values)
+        return values
+
+    def _set(self, values: np.ndarray, path: str, value: Any) -> None:
+        flat = self.flat
+        index = {name: k for k, name in enumerate(flat.parameter_names)}
+        try:
+            array = numeric(value, np.shape(value), f"`{path}`")
+        except ValueError:
+            raise DeclarationError(f"`{path}` is {value!r}; it must be an array of numbers.") from None
+        prefix = path + "["
+        entries = [n for n in (*index, *flat.structural_zeros) if n == path or n.startswith(prefix)]
+        if not entries:
+            if path in flat.bound:
+                raise DeclarationError(
+                    f"`{path}` follows {flat.bound[path]}; change that, or compile with its own value."
+                )
+            if path in self._structural_names:
+                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. Compile again with it.")
+            known = [*flat.parameter_names, *flat.structural_zeros, *flat.bound, *self._structural_names]
+            raise DeclarationError(not_settable(path, self.flat.tree, known))
+        for name in entries:
+            at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
+            if (
+                len(at) != array.ndim
+                or len(entries) != array.size
+                or any(k >= n for k, n in zip(at, array.shape, strict=True))
+            ):
+                raise DeclarationError(
+                    f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
+                )
+            entry = float(array[at])
+            if name in index:
+                values[index[name]] = entry
+            elif entry != 0:
+                raise DeclarationError(
+                    f"`{name}` was exactly 0 when compiled and is no longer in the equations (a structural zero). "
+                    f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
+                )
+
+    @cached_property
+    def _structural_names(self) -> set[str]:
+        return {
+            join(c._path, n) for c in walk(self.flat.tree) for n, d in c.fields.items() if isinstance(d, f.Structural)
+        }
+
+    def _check_limits(self, values: np.ndarray) -> None:
+        flat = self.flat
+        if not flat.limits:
+            return
+        call, owners, least, positive = self._limits
+        found = call(values)[0]
+        wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
+        if wrong.size:
+            path, _, declared = flat.limits[owners[wrong[0]]]
+            bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
+            raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
+
+    @cached_property
+    def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
+        """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
+        flat = self.flat
+        column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in flat.limits])
+        owners = np.repeat(np.arange(len(flat.limits)), [sx.numel() for _, sx, _ in flat.limits])
+        least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in flat.limits])[owners]
+        positive = np.array([d.positive for _, _, d in flat.limits])[owners]
+        return Call(ca.Function("limits", [flat.parameters], [column])), owners, least, positive

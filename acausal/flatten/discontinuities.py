@@ -1,0 +1,110 @@
+"""Guards and discrete variables of a flat model: what changes at instants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import join, unit_of
+from acausal.flatten.origin import Origin, with_place
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.language.expression import Expr, as_expr
+from acausal.language.functions import PENDING, Pending
+from acausal.symbols import scalars
+
+Resolve = Callable[[list[ca.SX]], list[ca.SX]]
+
+
+@dataclass(frozen=True)
+class Discrete:
+    """A declared discrete variable with its symbols."""
+
+    expr: Expr
+    declared: f.Variable
+    owner: Component
+
+    def start(self) -> ca.SX:
+        """Value at the start, a column; the variables of the owner must exist by now."""
+        given = self.owner._values.get(self.declared.name)
+        value = given.value if isinstance(given, f.Start) else f.evaluate(self.declared.start, self.owner)
+        sx = ca.densify(ca.vec(as_expr(value).sx))
+        size = self.expr.sx.numel()
+        if sx.numel() not in (1, size):
+            raise DeclarationError(f"start of `{self.expr.name}` has {sx.numel()} entries; it must have {size}.")
+        return sx if sx.numel() == size else ca.repmat(sx, size, 1)
+
+
+@dataclass(frozen=True)
+class Jump:
+    """A scalar that becomes `value` at an instant; the place of a discrete one, or None where `target` is a state."""
+
+    target: ca.SX
+    value: ca.SX
+    discrete: int | None
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A condition that is watched: `excess` is negative while it holds; at 0 it holds if `inclusive`.
+
+    The guards of a model are those of its switches, then one for each `when`, with its jumps.
+    """
+
+    excess: ca.SX
+    inclusive: bool
+    origin: Origin
+    jumps: tuple[Jump, ...] = ()
+    at_start: bool = False
+
+
+def create_discretes(components: list[Component]) -> list[Discrete]:
+    """Create the symbols of the discrete variables and set them as attributes."""
+    found = []
+    for component in components:
+        for name, declared in component.fields.items():
+            if isinstance(declared, f.Variable) and declared.causality == "discrete":
+                path = join(component._path, name)
+                shape = declared.shape if isinstance(declared.shape, tuple) else ()
+                expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path)
+                setattr(component, name, expr)
+                found.append(Discrete(expr, declared, component))
+                PENDING.get().discrete.update(s.element_hash() for s in scalars(ca.vec(expr.sx)))
+    return found
+
+
+def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
+    """Start values of the discrete variables, a column each."""
+    return [with_place(d.start, Origin.of(d.owner, d.declared.name)) for d in discretes]
+
+
+def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Guard, ...]:
+    """Put together the guards of the switches and of the statements of jumps.
+
+    Parameters
+    ----------
+    pending : Pending
+        What equations asked for.
+    discretes : list of Discrete
+        Which jumps are those of discrete variables.
+    resolve : callable
+        Replaces placeholders of derivatives.
+    """
+    place = {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(ca.vec(d.expr.sx)))}
+    conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
+    excess = resolve([condition.excess.sx for condition in conditions])
+    found = [
+        Guard(e, c.kind == "<=", origin)
+        for e, c, origin in zip(excess, conditions, pending.places, strict=False)  # whens follow below
+    ]
+    for e, (when, origin) in zip(excess[len(found) :], pending.whens, strict=True):
+        jumps = []
+        for jump in when.jumps:
+            target, value = resolve([ca.densify(ca.vec(s.sx)) for s in (jump.variable, jump.value)])
+            for t, v in zip(scalars(target), scalars(value), strict=True):
+                jumps.append(Jump(t, v, place.get(t.element_hash()) if t.is_symbolic() else None))
+        found.append(Guard(e, when.condition.kind == "<=", origin, tuple(jumps), when.at_start))
+    return tuple(found)

@@ -1,0 +1,64 @@
+"""Statements of what happens at an instant: `yield when(condition, reinit(variable, value), ...)`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from acausal.errors import DeclarationError
+from acausal.language.condition import Condition
+from acausal.language.expression import Equation, Expr, equation
+
+
+@dataclass(frozen=True)
+class Reinit:
+    """A variable that jumps, and the value to which it jumps."""
+
+    variable: Expr
+    value: Expr
+
+
+@dataclass(frozen=True)
+class When:
+    """What happens at the instant at which a condition becomes true."""
+
+    condition: Condition
+    jumps: tuple[Reinit, ...]
+    at_start: bool
+
+
+def reinit(variable: Any, value: Any) -> Reinit:
+    """Let a variable jump, inside when().
+
+    Parameters
+    ----------
+    variable : Expr
+        A state or a discrete variable.
+    value : float or Expr
+        What it becomes, computed from the values just before the instant.
+    """
+    same: Equation = equation(variable, value)
+    return Reinit(same.lhs, same.rhs)
+
+
+def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
+    """State what happens at each instant at which a condition becomes true; yield it in equations().
+
+    Parameters
+    ----------
+    condition : Condition
+        Comparison of two scalars, such as self.h < 0.
+    *jumps : reinit(...)
+        All are computed from the values just before the instant.
+    at_start : bool
+        Whether it also happens at the start, where the condition holds there.
+
+    Examples
+    --------
+    >>> yield when(self.h < 0, reinit(self.v, -self.e * self.v))  # doctest: +SKIP
+    """
+    if not isinstance(condition, Condition) or condition.excess.shape:
+        raise DeclarationError("when needs a condition that compares two scalars, such as when(self.h < 0, ...)")
+    if not jumps or not all(isinstance(jump, Reinit) for jump in jumps):
+        raise DeclarationError("when(condition, ...) needs one or more reinit(variable, value) after the condition")
+    return When(condition, jumps, at_start)

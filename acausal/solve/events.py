@@ -1,0 +1,222 @@
+"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, go on from there.
+
+After an event the outputs are integrated in blocks of 1, 2, 4, ... intervals: their relative grids, and so the
+integrators, are the same after each event.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.errors import InitializationError
+from acausal.solve.instant import Cycling, Instants, Point, places_text
+from acausal.solve.integrate import LONG, Failure, Integrator, Stretch
+from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
+
+MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
+DENSEST, STEPS_A_ROW = 64, 20
+
+
+class Chattering(Exception):
+    """Conditions change again and again at one time; `text` is the message."""
+
+
+class Run:
+    """Integration over all segments and events.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Integrates a segment.
+    times : array
+        Output times.
+    breaks : list of float
+        Break times.
+    """
+
+    def __init__(self, integrator: Integrator, times: np.ndarray, breaks: list[float]) -> None:
+        self.integrator, self.times = integrator, times
+        # A rounding error apart from an output, a break is on it.
+        near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
+        self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
+        c, self.p = integrator.compiled, integrator.p
+        self.guards, span = c.guards, float(times[-1] - times[0])
+        self.instants = Instants(c, self.p, integrator.settings.tolerance, span)
+        self.locator = Locator(integrator, self.instants)
+        self.events: list[float] = []
+        self.recent: deque[float] = deque(maxlen=MOST)
+        self.weak, self.density, self.block = 0, 1, 0
+        self.first: Point | None = None
+
+    def go(self, at: Point) -> None:
+        """Go from break to break; the law of each segment holds up to its end."""
+        excess = self.guards.timed_excess(self.p, at.time)[0]
+        acts = [k for k, e in zip(self.guards.timed, excess, strict=True) if e <= 0 and self.guards.guards[k].at_start]
+        self.first = at = self._happen(at, event=False, fired=acts)
+        for end in [*self.breaks, float(self.times[-1])]:
+            if at.time != self.times[0]:
+                at = self._at_break(at, end)
+            at = self._segment(at, end)
+
+    def _at_break(self, at: Point, end: float) -> Point:
+        """Switch what the clock switches."""
+        after = self.guards.timed_excess(self.p, (at.time + end) / 2)[0] < 0
+        due = np.isclose(self.guards.breaks(self.p)[0], at.time, rtol=1e-12, atol=0)
+        modes = at.modes.copy()
+        fired = []
+        for k, holds, is_due in zip(self.guards.timed, after, due, strict=True):
+            if k < self.guards.n_switches:
+                modes[k] = holds
+            elif is_due and holds:
+                fired.append(k)
+        return self._happen(at, event=False, fired=fired, modes=modes)
+
+    def _segment(self, at: Point, end: float) -> Point:
+        if not self.guards.watched:
+            inner = self.times[(self.times > at.time) & (self.times < end)]
+            x, z = self.integrator.segment(np.concatenate([[at.time], inner, [end]]), at.x, at.z, at.modes)
+            return replace(at, time=end, x=x, z=z, modes=self.integrator.trace.modes[-1][-1])
+        while at.time < end:
+            at = self._advance(at, end)
+            self.integrator.report(at.time)
+        return at
+
+    def _advance(self, at: Point, end: float) -> Point:
+        """Integrate one stretch and go to its end, or to the first event in it."""
+        grid = self._grid(at.time, end)
+        stretch = self._integrate(at, grid)
+        if stretch is None:
+            return at if self.integrator.rescue() else self._shorter(at, grid)
+        if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3) and self.density < DENSEST:
+            self.density *= 4
+            return at
+        try:
+            crossing = self.locator.first(at, stretch)
+        except TooCoarse:
+            if self.density < DENSEST:
+                self.density *= 4
+                return at
+            crossing = self.locator.first(at, stretch, depth=1)
+        if crossing is None:
+            self.integrator.keep(stretch)
+            self.block *= 2
+            return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
+        return self._event(at, stretch, crossing)
+
+    def _grid(self, now: float, end: float) -> np.ndarray:
+        """Next times: all up to the end at first, blocks of equal intervals after an event."""
+        ahead = self.times[(self.times > now) & (self.times < end)]
+        grid = np.concatenate([[now], ahead, [end]])
+        if not self.block:
+            return grid
+        steps = np.diff(grid)
+        equal = int(np.argmin(np.append(np.isclose(steps, steps[0], rtol=1e-9), False)))
+        return grid[: 1 + 2 ** int(np.log2(min(equal, self.block)))]
+
+    def _integrate(self, at: Point, grid: np.ndarray) -> Stretch | None:
+        n = len(grid) - 1
+        parts = max(self.density, FINE // n)
+        fine = np.interp(np.arange(n * parts + 1) / parts, np.arange(n + 1), grid)
+        fine[::parts] = grid
+        return self.integrator.attempt(fine, at.x, at.z, at.modes, max(1000, LONG // n), careful=False)
+
+    def _shorter(self, at: Point, grid: np.ndarray) -> Point:
+        """The call failed, perhaps because the law is no longer right beyond an event: look at less of the time."""
+        if len(grid) > 2:
+            self.block = max(1, (len(grid) - 1) // 8)
+            return at
+        for k in range(40):
+            times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
+            if times[1] - times[0] <= self.locator.shortest:
+                break
+            stretch = self.integrator.attempt(times, at.x, at.z, at.modes, LONG, careful=True)
+            if stretch is None:
+                continue
+            crossing = self.locator.first(at, stretch, depth=1)
+            if crossing:
+                return self._event(at, stretch, crossing)
+            self.integrator.keep(stretch)
+            return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
+        here = self.locator.row(at, at.time, at.x, at.z, np.zeros(2), at.modes)
+        due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
+        if not due.any():
+            raise self.integrator.failure(float(grid[0]), float(grid[1]))
+        return self._happen(at, event=True, due=due)
+
+    def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
+        """Keep what was before the event, let it happen, and go on from it."""
+        after = crossing.after
+        out = after.value <= 0
+        width = self.instants.width(at)
+        self.weak = self.weak + 1 if np.all(crossing.peak[out] <= width[out]) else 0
+        delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), 1e-300), initial=np.inf)
+        snap = min(float(delay), self.instants.span / (100 * (len(self.times) - 1)))
+        times = np.array([*self.times, *self.breaks])
+        near = times[np.argmin(np.abs(times - after.time))]
+        on_output = abs(near - after.time) <= snap
+        label = float(near) if on_output and near > at.time else after.time
+        n = int(np.searchsorted(stretch.times, min(label, after.time)))
+        if n:
+            self.integrator.keep(stretch.rows(0, n))
+        self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
+        base = stretch.energy[n - 1] if n else np.zeros(2)
+        reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, modes=after.modes)
+        new = self._happen(reached, event=True, crossed=out, label=label, energy=after.energy - base)
+        if on_output and near == at.time:
+            self.integrator.trace.put(-2, new.x, new.z, new.modes)
+        self.block = 1
+        return new
+
+    def _happen(
+        self,
+        at: Point,
+        event: bool,
+        *,
+        fired: list[int] | None = None,
+        modes: np.ndarray | None = None,
+        due: np.ndarray | None = None,
+        crossed: np.ndarray | None = None,
+        label: float | None = None,
+        energy: np.ndarray | None = None,
+    ) -> Point:
+        """Let everything happen at an instant; record the values after it and what the stored energy lost."""
+        try:
+            new, changed = self.instants.settle(at, fired, modes, due, crossed)
+        except Cycling as cycling:
+            raise Chattering(self._text(at.time, cycling.guards, "switch back and forth")) from None
+        except InitializationError as error:
+            raise Failure(at.time, f"the equations have no solution after an event: {error}") from None
+        if event and changed:
+            self.events.append(at.time)
+        gained = np.zeros(2) if energy is None else energy
+        if self.integrator.settings.energy and changed:
+            change = self._stored(new) - self._stored(at)
+            gained = gained + np.array([max(change, 0.0), max(-change, 0.0)])
+        if event:
+            time = np.array([at.time if label is None else label])
+            self.integrator.keep(Stretch(time, new.x[None], new.z[None], gained[None], new.modes, 0))
+        elif fired:
+            self.integrator.trace.put(-1, new.x, new.z, new.modes)
+        self.integrator.trace.spend(np.zeros(2) if event else gained)
+        return new
+
+    def _stored(self, at: Point) -> float:
+        return float(self.integrator.compiled.stored(at.x, at.z, self.p, at.time, at.modes)[0][0])
+
+    def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
+        crowded = len(self.recent) == MOST and time - self.recent[0] <= WINDOW * self.instants.span
+        self.recent.append(time)
+        if crowded or self.weak >= MOST:
+            raise Chattering(self._text(time, guards, f"changed {MOST} times with hardly any motion between"))
+
+    def _text(self, time: float, guards: list[int], what: str) -> str:
+        return (
+            f"at t = {time:.6g} s the events do not come to an end; these conditions {what}:\n"
+            f"{places_text(self.integrator.compiled, guards)}\n"
+            "A body that bounces ever lower, or a force that changes sign with the speed, does that. Let a discrete "
+            "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
+            "without a jump (smooth=True). What was computed is kept."
+        )

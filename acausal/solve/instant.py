@@ -1,0 +1,186 @@
+"""What happens at one instant: modes flip, variables jump and algebraic unknowns follow until nothing changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.solve.initialize import algebraic, initialize
+
+ROUNDS = 20
+SHORT = 1e-8  # of the run: what changes sign within that time does so now
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where a run is: time, states, algebraic unknowns, modes, and which watched conditions hold."""
+
+    time: float
+    x: np.ndarray
+    z: np.ndarray
+    modes: np.ndarray
+    truth: np.ndarray
+
+
+class Cycling(Exception):
+    """The conditions of the guards `names` find no rest."""
+
+    def __init__(self, guards: list[int]) -> None:
+        super().__init__()
+        self.guards = guards
+
+
+class Instants:
+    """Changes at single instants of a run.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    p : array
+        Parameter values.
+    tolerance, span : float
+        Relative tolerance, and length of the run in s.
+    """
+
+    def __init__(self, compiled: CompiledModel, p: np.ndarray, tolerance: float, span: float) -> None:
+        self.compiled, self.p, self.tolerance, self.span = compiled, p, tolerance, span
+        self.guards = compiled.guards
+        self.watched = np.array(self.guards.watched, dtype=int)
+        self.is_switch = self.watched < self.guards.n_switches
+
+    def width(self, at: Point) -> np.ndarray:
+        """How far each watched excess may be off by the tolerance."""
+        scale = np.nan_to_num(self.guards.scale(at.x, at.z, self.p, at.time, at.modes)[0])
+        return self.tolerance * np.where(scale > 0, scale, 1.0)
+
+    def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Watched excesses and their time derivatives."""
+        value, rate = self.guards.along(at.x[None], at.z[None], self.p, np.array([at.time]), at.modes)
+        return value[0], rate[0]
+
+    def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:
+        """Which watched conditions hold from now on; what passes 0 just now counts as passed."""
+        value, rate = self.rates(at)
+        width = self.width(at)
+        moving = np.abs(rate) * self.span > 1e-3 * width
+        soon = crossed | (np.abs(value) <= np.abs(rate) * SHORT * self.span)
+        near = moving & (np.abs(value) <= width) & soon
+        return np.where(near, rate < 0, np.where(value == 0, at.truth, value < 0))
+
+    def settle(
+        self,
+        at: Point,
+        fired: list[int] | None = None,
+        modes: np.ndarray | None = None,
+        due: np.ndarray | None = None,
+        crossed: np.ndarray | None = None,
+    ) -> tuple[Point, bool]:
+        """Let everything happen that happens now; return the point after it, and whether anything did.
+
+        Parameters
+        ----------
+        at : Point
+            Just before.
+        fired : list of int
+            Guards whose condition becomes true by the clock.
+        modes : array
+            Modes that hold by the clock from now on.
+        due : array of bool
+            Watched conditions that change now whatever their values.
+        crossed : array of bool
+            Watched conditions that were found to change now.
+
+        Raises
+        ------
+        Cycling
+            If that does not come to an end.
+        """
+        fires, changed = list(fired or []), False
+        after = at.modes if modes is None else modes
+        moved: list[int] = []
+        none = np.zeros(len(self.watched), dtype=bool)
+        due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
+        for _ in range(ROUNDS):
+            now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
+            flips = self.is_switch & (now != at.truth)
+            fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
+            if not flips.any() and not fires and after is at.modes:
+                return replace(at, truth=now), changed
+            moved = [*self.watched[flips].tolist(), *fires]
+            after = after.copy()
+            after[self.watched[flips]] = now[flips]
+            x = self._jump(at, fires, after)
+            y = algebraic(self.compiled, np.concatenate([x, at.z]), self.p, at.time, after)
+            at = Point(at.time, x, y[len(x) :], after, now)
+            fires, changed = [], True
+        raise Cycling(moved)
+
+    def _jump(self, at: Point, fires: list[int], modes: np.ndarray) -> np.ndarray:
+        """Return the states after jumps computed from the values before; discrete variables change in `modes`."""
+        x = at.x.copy()
+        for guard in fires:
+            call, places = self.guards.jump(guard)
+            for (is_state, place), value in zip(places, call(at.x, at.z, self.p, at.time, at.modes)[0], strict=True):
+                (x if is_state else modes)[place] = value
+        return x
+
+
+def start(compiled: CompiledModel, p: np.ndarray, time: float, later: float, initial: str) -> Point:
+    """Find consistent values at the start, and the modes that fit them.
+
+    Parameters
+    ----------
+    compiled, p
+        The model and its parameter values.
+    time, later : float
+        Start time, and a time before the first break.
+    initial : "fixed" or "guesses"
+        See `initialize`.
+
+    Raises
+    ------
+    InitializationError
+        If no values are found, or none whose modes fit them.
+    """
+    guards = compiled.guards
+    head = compiled.modes_at(p, later)[0].copy()
+    for _ in range(ROUNDS):
+        x, z, modes = initialize(compiled, p, time, head, initial)
+        found = guards.start(x, z, p, time, modes)[0]
+        new = head.copy()
+        own = np.setdiff1d(np.arange(guards.n_modes), [k for k in guards.timed if k < guards.n_switches])
+        new[own] = found[own]
+        if np.allclose(new, head, rtol=1e-9, atol=1e-12):
+            return Point(time, x, z, modes, _first_truth(compiled, x, z, p, time, modes))
+        previous, head = head, new
+    wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
+    raise InitializationError(
+        f"no modes fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        + places_text(compiled, wrong)
+        + "\nGive start values at which it is clear which of them hold, or use smooth=True."
+    )
+
+
+def _first_truth(
+    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> np.ndarray:
+    """Which watched conditions hold at the start; those that act at the start do not hold before."""
+    guards: Any = compiled.guards
+    if not guards.watched:
+        return np.zeros(0, dtype=bool)
+    value = guards.along(x[None], z[None], p, np.array([time]), modes)[0][0]
+    own = [guards.guards[k] for k in guards.watched]
+    inclusive = np.array([g.inclusive for g in own])
+    acts = np.array([g.at_start for g in own])
+    return ((value < 0) | ((value == 0) & inclusive)) & ~acts
+
+
+def places_text(compiled: CompiledModel, guards: list[int]) -> str:
+    """Say where guards are stated, a line each."""
+    origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
+    return "\n".join(f"  {origin}" for origin in list(origins)[:5])

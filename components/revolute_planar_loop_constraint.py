@@ -1,0 +1,51 @@
+"""RevolutePlanarLoopConstraint: a revolute joint that closes a planar loop."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import as_expr, dot, structural, variable
+from components.frame import TwoFrames
+from components.orientation import resolve1, resolve2, unit_vector
+from components.world import require_direction
+
+
+class RevolutePlanarLoopConstraint(TwoFrames):
+    """Holds the origins of both frames together in the plane across n, and nothing else.
+
+    Parameters
+    ----------
+    n : array of 3 floats
+        Axis of rotation, the same in frame_a and frame_b; any length but 0.
+
+    Notes
+    -----
+    For those who expect it from Modelica's library: a loop closed by a Revolute works as well. No branch: both frames
+    must be held by the rest of a mechanism that moves across n only. No force along n and no torque is transmitted.
+    """
+
+    n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
+    f_c: Any = variable("constraint forces across n, along the two directions of across()", unit="N", shape=(2,))
+
+    def check(self) -> None:
+        """Refuse an axis of length 0."""
+        require_direction(self, self.n, "n")
+
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Two directions across n and across each other, resolved in frame_a."""
+        n = unit_vector(self.n)
+        e_y = unit_vector(np.cross(n, np.eye(3)[np.argmin(np.abs(n))]))
+        return np.cross(e_y, n), e_y
+
+    def equations(self):
+        a, b = self.frame_a, self.frame_b
+        e_x, e_y = self.across()
+        r_rel_a = resolve2(a.R, b.r_0 - a.r_0)
+        yield dot(e_x, r_rel_a) == 0
+        yield dot(e_y, r_rel_a) == 0
+        yield a.f == as_expr(e_x) * self.f_c[0] + as_expr(e_y) * self.f_c[1]
+        yield b.f == -resolve2(b.R, resolve1(a.R, a.f))
+        yield a.t == (0, 0, 0)
+        yield b.t == (0, 0, 0)

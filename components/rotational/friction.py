@@ -1,0 +1,31 @@
+"""Friction: Coulomb friction with stiction."""
+
+from __future__ import annotations
+
+from acausal import Expr, Scalar, parameter
+from components.rotational.slipping import Slipping
+
+
+class Friction(Slipping):
+    """Coulomb friction with stiction, as in a brake or a bearing.
+
+    Parameters
+    ----------
+    tau_static : float
+        Greatest torque in N.m at which it sticks.
+    tau_sliding : float
+        Torque in N.m against sliding, at most `tau_static`.
+    """
+
+    tau_sliding: Scalar = parameter("torque against sliding", unit="N.m", minimum=0)
+    tau_static: Scalar = parameter(
+        "greatest torque of sticking", unit="N.m", minimum=0, default=lambda self: self.tau_sliding
+    )
+
+    def holding(self) -> Expr:
+        """Torque of stiction."""
+        return self.tau_static
+
+    def dragging(self) -> Expr:
+        """Torque of sliding."""
+        return self.tau_sliding

@@ -1,0 +1,60 @@
+"""Slider-crank of elastic or rigid bars, driven by a torque that is switched off at 0.7 s (beam paper, section 5.3)."""
+
+from __future__ import annotations
+
+import acausal as ac
+from acausal import Model, Scalar, chain, connect, effect, fixed, output, parameter, part, structural, time
+from components import Body, BodyRod, FlexibleBeam, Prismatic, Revolute, SubstructuredBeam, World
+from components.rotational import Torque
+
+D, A, J = 2770.0, 0.7854e-4, 4.909e-10  # density, area and second moment of area of both bars
+
+
+class SliderCrank(Model):
+    """Crank and rod in line along +x and at rest at the start, the slider far."""
+
+    stop_time = 1.6
+    crank: str = effect("elasticity of the crank", default="elastic", choices=("elastic", "rigid"))
+    rod: str = effect("elasticity of the rod", default="elastic", choices=("elastic", "rigid"))
+    crank_elements: int = structural("finite elements of the crank", default=3, minimum=1)
+    rod_elements: int = structural("finite elements of the rod, all volumes together", default=8, minimum=1)
+    rod_volumes: int = structural("volumes of the rod", default=1, minimum=1)
+    slider_mass: Scalar = parameter("mass of the slider", unit="kg", default=0, minimum=0)
+    gravity: Scalar = parameter("acceleration of gravity", unit="m/s2", default=0)
+    world, guide, slider = World(g=gravity), Prismatic(), Body(m=slider_mass)
+    bearing, pin, wrist = Revolute(use_axis_flange=True, phi=fixed(0), w=fixed(0)), Revolute(), Revolute()
+    drive = Torque(tau=ac.piecewise((0.01 * (1 - ac.exp(-time / 0.167)), time <= 0.7), 0))
+    crank_angle: Scalar = output("angle of the crank at the bearing", unit="rad")
+    slider_position: Scalar = output("distance of the slider from the bearing", unit="m")
+    rod_tip_deflection: Scalar = output("transverse displacement of the rod's end from its root tangent", unit="m")
+    rod_mid_deflection: Scalar = output("transverse distance of the rod's middle from its chord", unit="m")
+
+    @part
+    def crank_bar(self):
+        if self.crank == "rigid":
+            return BodyRod(r=(0.152, 0, 0), m=D * A * 0.152)
+        return FlexibleBeam(length=0.152, E=1e9, rho=D, A=A, J=J, elements=self.crank_elements)
+
+    @part
+    def rod_bar(self):
+        n, rest = divmod(self.rod_elements, self.rod_volumes)
+        if rest:
+            raise ac.DeclarationError("rod_elements is no multiple of rod_volumes; try rod_elements=8, rod_volumes=4.")
+        if self.rod == "rigid":
+            return BodyRod(r=(0.304, 0, 0), m=D * A * 0.304)
+        return SubstructuredBeam(length=0.304, E=5e7, rho=D, A=A, J=J, volumes=self.rod_volumes, elements_per_volume=n)
+
+    def connections(self):
+        yield connect(self.drive.flange, self.bearing.axis)
+        yield chain(self.world, self.bearing, self.crank_bar, self.pin, self.rod_bar, self.wrist, self.slider)
+        yield chain(self.world, self.guide, self.slider)
+
+    def equations(self):
+        yield self.crank_angle == self.bearing.phi
+        yield self.slider_position == self.guide.s
+        yield self.rod_tip_deflection == (0 if self.rod == "rigid" else self.rod_bar.node_deflection[-1, 1])
+        yield self.rod_mid_deflection == (0 if self.rod == "rigid" else self.rod_bar.middle_deflection)
+
+
+if __name__ == "__main__":
+    ac.simulate(SliderCrank(), stop_time=SliderCrank.stop_time).plot("slider_position", path="slider-crank.png")
