@@ -87,7 +87,7 @@ def rows_and_knowns(
         moved[free] += shake * compiled.nominal[free]
         M, C = _reduced(compiled, moved, z, p, t, modes, free, rows)
         used, surplus = _independent(M, C)
-    left = _left(compiled, np.vstack([M, C[used]]), free)
+    left = _left(compiled, np.vstack([M, C[used]]), _rank(M) + len(used), free)
     if left and refuse:
         raise InitializationError(missing_text(compiled, left))
     plan = compiled.reduced.plan
@@ -140,10 +140,10 @@ def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
     return used, surplus
 
 
-def _left(compiled: CompiledModel, rows: np.ndarray, free: np.ndarray) -> list[int]:
+def _left(compiled: CompiledModel, rows: np.ndarray, rank: int, free: np.ndarray) -> list[int]:
     """States that nothing determines: those along which what is left free moves most, guessed ones first."""
     _, _, V = svd(_unit(rows)) if len(rows) else (None, None, np.eye(len(free)))
-    null = V[_rank(rows) :]
+    null = V[rank:]
     if not len(null):
         return []
     flat, plan = compiled.reduced.flat, compiled.reduced.plan

@@ -126,7 +126,7 @@ def refuse_open_loops(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: 
         if worst > CLOSED:
             lines.append(
                 f"  {loop.a} and {loop.b} ({loop.where}) miss each other by {worst:.4g} m or rad; "
-                f"the loop goes through {', '.join(loop.parts)}"
+                + (f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop")
             )
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base

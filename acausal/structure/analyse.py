@@ -20,12 +20,13 @@ def _reduce(system: System) -> tuple[Extension, Constrained, Choice]:
     """Differentiate, project on what constrains the states, and match."""
     extension = pantelides(system)
     constrained = constrain(extension)
-    choice = choose_states(extension.system())
+    lower = extension.lower.difference(row for c in constrained.constraints for row in c.rows)
+    choice = choose_states(extension.system(), lower)
     if not choice.left:
         return extension, constrained, choice
     # Constraints that reach too few states: some state must follow from the others by a fixed choice.
     extension = pantelides(system)
-    choice = choose_states(extension.system(), constant=False)
+    choice = choose_states(extension.system(), extension.lower, constant=False)
     if choice.left:
         raise StructuralSingularity(over=(Part.of(choice.left, (v for e in choice.left for v in extension.rows[e])),))
     return extension, Constrained(), choice

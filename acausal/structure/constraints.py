@@ -97,7 +97,7 @@ def constrain(extension: Extension) -> Constrained:
     bases = list(extension.closures)
     while True:
         apart = {e for base in bases for e in extension.levels[base][:-1]}
-        choice = choose_states(extension.system(), apart)
+        choice = choose_states(extension.system(), extension.lower, apart)
         found = sorted({base_of[e] for e in choice.left if e != extension.levels[base_of[e]][-1]}.difference(bases))
         if not found:
             break

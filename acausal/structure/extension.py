@@ -46,12 +46,24 @@ class Extension:
         self.levels[base].append(len(self.rows) - 1)
 
     def close(self, base: int) -> None:
-        """Differentiate a closure until it holds a variable without derivative; there its substitute may enter."""
-        while all(v in self.declared or self.derivative[v] >= 0 for v in self.rows[self.levels[base][-1]]):
+        """Differentiate a closure until it holds a variable without derivative, or nothing new.
+
+        There its substitute may enter.
+        """
+        seen: set[int] = set()
+        while not seen.issuperset(row := self.rows[self.levels[base][-1]]):
+            if any(v not in self.declared and self.derivative[v] < 0 for v in row):
+                break
+            seen.update(row)
             self.differentiate(base)
         top = self.levels[base][-1]
         self.rows[top] = tuple(dict.fromkeys((*self.rows[top], *self.closures[base])))
         self.explicit[top] = self.monic[top] = frozenset()
+
+    @property
+    def lower(self) -> set[int]:
+        """Equations of which the derivative is in the system too."""
+        return {e for levels in self.levels for e in levels[:-1]}
 
     def add_variable(self, derivative: int = -1, preference: int = 0) -> int:
         """Append a variable."""

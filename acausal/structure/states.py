@@ -23,7 +23,9 @@ class Choice:
         return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
 
 
-def choose_states(system: System, apart: Collection[int] = (), constant: bool = True) -> Choice:
+def choose_states(
+    system: System, lower: Collection[int], apart: Collection[int] = (), constant: bool = True
+) -> Choice:
     """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
@@ -33,6 +35,8 @@ def choose_states(system: System, apart: Collection[int] = (), constant: bool = 
     ----------
     system : System
         The extended system.
+    lower : collection of int
+        Equations of which the derivative is in the system too: they hold no highest derivatives and define nothing.
     apart : collection of int
         Equations that are left out.
     constant : bool
@@ -41,7 +45,8 @@ def choose_states(system: System, apart: Collection[int] = (), constant: bool = 
 
     """
     derivative = system.derivative
-    highest = [() if e in apart else [v for v in row if derivative[v] < 0] for e, row in enumerate(system.rows)]
+    out = set(lower).union(apart)
+    highest = [() if e in out else [v for v in row if derivative[v] < 0] for e, row in enumerate(system.rows)]
     matching = maximum_matching(highest, system.n_variables)
     unmatched = [e for e, v in enumerate(matching.variable_of) if v < 0 and e not in apart]
     ties = [sorted(x) for x in system.explicit] if constant else system.rows
