@@ -22,6 +22,10 @@ from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
 
+# Size of algebraic unknowns in the error test of a method that cannot leave them out.
+UNSEEN = 1e10
+
+
 @dataclass(frozen=True)
 class Local:
     """Value and Jacobian of the model at one point.
@@ -171,12 +175,16 @@ class CompiledModel:
         """Function of parameters and time: modes of the switches and discrete variables, before anything is solved."""
         return self.guards.guess
 
-    def integrator(self, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool) -> Call:
-        """Return the IDAS integrator for a relative grid and options, built once.
+    def integrator(
+        self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool
+    ) -> Call:
+        """Return the integrator for a relative grid and options, built once.
 
-        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters.
+        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters; if it is
+        not IDAS, so are the sizes of the states.
         """
         key = (
+            plugin,
             grid,
             tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())),
             energy,
@@ -185,7 +193,9 @@ class CompiledModel:
         if key not in self.integrators:
             started = clock.perf_counter()
             dae = self._dae(energy, moves)
-            function = ca.integrator("simulate", "idas", dae, 0.0, list(grid), dict(options))
+            if plugin != "idas":
+                dae = _in_sizes(dae)
+            function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)
             self.seconds["integrators"] = self.seconds.get("integrators", 0.0) + clock.perf_counter() - started
         return self.integrators[key]
@@ -241,3 +251,12 @@ class CompiledModel:
     @cached_property
     def _settable(self) -> Settable:
         return Settable(self.reduced.flat)
+
+
+def _in_sizes(dae: dict[str, ca.SX]) -> dict[str, ca.SX]:
+    """Write a DAE in states over their sizes, which become parameters, and algebraic unknowns over a large number."""
+    x, z, size = ca.SX.sym("x", dae["x"].numel()), ca.SX.sym("z", dae["z"].numel()), ca.SX.sym("size", dae["x"].numel())
+    keys = [k for k in ("ode", "alg", "quad") if k in dae]
+    written = ca.substitute([dae[k] for k in keys], [dae["x"], dae["z"]], [size * x, UNSEEN * z])
+    scaled = {**dae, **dict(zip(keys, written, strict=True)), "x": x, "z": z, "p": ca.vertcat(dae["p"], size)}
+    return {**scaled, "ode": scaled["ode"] / size}

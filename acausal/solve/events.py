@@ -89,7 +89,7 @@ class Run:
         grid = self._grid(at.time, end)
         stretch = self._integrate(at, grid)
         if stretch is None:
-            return at if self.integrator.rescue() else self._shorter(at, grid)
+            return at if self.integrator.rescue(grid) else self._shorter(at, grid)
         if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3) and self.density < DENSEST:
             self.density *= 4
             return at

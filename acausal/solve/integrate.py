@@ -1,83 +1,39 @@
-"""Integration with IDAS: one call for each smooth segment, chunks where a run is long or fails."""
+"""Integration: one call for each smooth segment, chunks where a run is long or fails."""
 
 from __future__ import annotations
 
 import re
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.solve.initialize import algebraic
+from acausal.solve.methods import multistep, one_step
 from acausal.solve.projection import WORN, choose_projection, worn
+from acausal.solve.trace import Stretch, Trace
 
 CHUNKS = 25
 LOOKS = 100
-# Steps for all outputs together: before a run counts as long, and before a chunk or an output counts as hopeless.
-LONG, HOPELESS = 100_000, 2_000_000
+# Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
+# or an output counts as hopeless.
+SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
 Progress = Callable[[float, int], None]
-
-
-@dataclass
-class Trace:
-    """What was integrated: rows of states, algebraic unknowns, integrals of supplied and dissipated power, modes."""
-
-    times: list[np.ndarray] = field(default_factory=list)
-    x: list[np.ndarray] = field(default_factory=list)
-    z: list[np.ndarray] = field(default_factory=list)
-    energy: list[np.ndarray] = field(default_factory=list)
-    modes: list[np.ndarray] = field(default_factory=list)
-    steps: int = 0
-    factorisations: int = 0
-    residual_evaluations: int = 0
-    calls: int = 0
-    choices: int = 0
-    seconds: float = 0.0
-    before: np.ndarray = field(default_factory=lambda: np.zeros(2))
-
-    def put(self, call: int, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
-        """Put other values into the last row of a call, if there is one."""
-        if len(self.x) >= -call:
-            self.x[call][-1], self.z[call][-1] = x, z
-            self.modes[call] = np.vstack([self.modes[call][:-1], modes])
-
-    def spend(self, energy: np.ndarray) -> None:
-        """Add supplied and dissipated energy to all that follows, and to the last row."""
-        if self.energy:
-            self.energy[-1][-1] += energy
-        else:
-            self.before = self.before + energy
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """Rows of one call: times, states, algebraic unknowns, integrals of power since its start; modes and steps."""
-
-    times: np.ndarray
-    x: np.ndarray
-    z: np.ndarray
-    energy: np.ndarray
-    modes: np.ndarray
-    steps: int
-
-    def rows(self, first: int, last: int) -> Stretch:
-        """Return some of the rows, as if the call had begun at its start all the same."""
-        part = slice(first, last)
-        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How to integrate."""
+    """How to integrate; `fastest` is the size of the largest eigenvalue at the start in 1/s."""
 
     tolerance: float
     max_order: int
     energy: bool
     progress: Progress | None = None
     constraints: str = "auto"
+    method: str = "auto"
+    fastest: float = 0.0
 
 
 class Failure(Exception):
@@ -89,7 +45,7 @@ class Failure(Exception):
 
 
 class Integrator:
-    """IDAS on one model with one set of parameters.
+    """Integration of one model with one set of parameters.
 
     Parameters
     ----------
@@ -109,37 +65,7 @@ class Integrator:
         self.trace = Trace()
         self.complaint = ""
         self.moves, self.worn = settings.constraints == "projection", False
-
-    def options(self, max_steps: int) -> dict[str, Any]:
-        """Options of IDAS: order limit, algebraic variables out of the error test, weights from nominal values."""
-        tolerance = self.settings.tolerance
-        return {
-            "reltol": tolerance,
-            "abstolv": (tolerance * self.compiled.nominal).tolist(),
-            "max_multistep_order": self.settings.max_order,
-            "suppress_algebraic": True,
-            "max_num_steps": max_steps,
-            "disable_internal_warnings": True,
-            "quad_err_con": False,
-            # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps.
-            "nonlin_conv_coeff": 0.05,
-            "show_eval_warnings": False,
-        }
-
-    def begin(self, time: float, span: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray, careful: bool) -> dict:
-        """Options for the start, where IDAS takes all first derivatives as 0 unless it computes them itself.
-
-        The quick way lets it compute them, if any matter; the careful one starts with a step so short that they do not,
-        and with the linear solver that does not rely on its pivots.
-        """
-        nx = self.compiled.nx
-        rates = self.compiled.values(x, z, self.p, time, modes, 0.0)[0][:nx]
-        weights = self.settings.tolerance * (np.abs(x) + self.compiled.nominal[:nx])
-        steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
-        if not careful:
-            return {"linear_solver": "csparse", "calc_ic": steepest > 1}
-        start = {"linear_solver": "qr", "calc_ic": False}
-        return start | {"step0": 10.0 ** -np.ceil(np.log10(10 * steepest))} if steepest > 1 else start
+        self.rings = settings.method == "rosenbrock"
 
     def segment(
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
@@ -155,10 +81,11 @@ class Integrator:
             self.keep(self._solve_everywhere(times, z, modes))
             return self._last()
         n = len(times) - 1
-        if self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
+        if self._call(times, x, z, modes, self.patience(times), careful=False):
             return self._last()
-        if self.rescue() and self._call(times, x, z, modes, max(1000, LONG // n), careful=False):
+        if self.rescue(times) and self._call(times, x, z, modes, self.patience(times), careful=False):
             return self._last()
+        self.rings = self.settings.method == "rosenbrock"
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
@@ -168,10 +95,26 @@ class Integrator:
             self.report(part[-1])
         return x, z
 
-    def rescue(self) -> bool:
-        """Let the projection move where the chosen states became unfit; False if that changes nothing."""
+    def patience(self, times: np.ndarray) -> int:
+        """Steps for an output interval after which a first call is given up."""
+        n = len(times) - 1
+        return max(100, SHORT // n) if self._may_ring(times) else max(1000, LONG // n)
+
+    def _may_ring(self, times: np.ndarray) -> bool:
+        """Whether vibrations that outputs cannot show may cost more steps than the motion."""
+        longest = float(np.max(np.diff(times)))
+        return self.settings.method == "auto" and not self.rings and self.settings.fastest * longest > 2 * np.pi
+
+    def rescue(self, times: np.ndarray) -> bool:
+        """Change what made a first call fail; False if there is nothing to change.
+
+        The projection moves where the chosen states became unfit; where vibrations take the steps, the one-step method
+        damps them.
+        """
         moves = self.moves or (self.settings.constraints == "auto" and self.worn)
-        changed, self.moves = moves != self.moves, moves
+        rings = self.rings or ("mxstep" in self.complaint and self._may_ring(times))
+        changed = (moves, rings) != (self.moves, self.rings)
+        self.moves, self.rings = moves, rings
         return changed
 
     def _choose(
@@ -234,34 +177,30 @@ class Integrator:
         if not c.nx:
             return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
-        span = times[-1] - times[0]
+        span, n = times[-1] - times[0], len(times) - 1
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
-        options = self.options(max_steps) | self.begin(times[0], span, x, z, modes, careful)
-        call = c.integrator(grid, options, self.settings.energy, self.moves)
-        names = call.function.name_in()
-        given = {"x0": x, "z0": z, "p": np.concatenate([[times[0], span], self.hoisted, modes])}
-        for k, name in enumerate(names):
+        way = (one_step if self.rings else multistep)(self, times, x, z, modes, max_steps, careful)
+        call = c.integrator(way.plugin, grid, way.options, self.settings.energy, self.moves)
+        x_size, z_size = way.sizes
+        given = {"x0": x / x_size, "z0": z / z_size}
+        given["p"] = np.concatenate([[times[0], span], self.hoisted, modes, x_size if way.plugin != "idas" else []])
+        for k, name in enumerate(call.function.name_in()):
             if name in given:
                 call.inputs[k][:] = given[name]
         started = clock.perf_counter()
         done, self.complaint = call.attempt()
         trace.seconds += clock.perf_counter() - started
-        stats = call.stats
-        trace.calls += 1
-        trace.steps += stats.get("nsteps", 0)
-        trace.factorisations += stats.get("nlinsetups", 0)
-        trace.residual_evaluations += stats.get("nfevals", 0)
+        steps = trace.count(call.stats, way.plugin)
         if not done:
             self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
             return None
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
-        n = len(grid)
         energy = out["qf"].reshape(n, 2).copy() if self.settings.energy else np.zeros((n, 2))
-        states, algebraics = out["xf"].reshape(n, c.nx).copy(), out["zf"].reshape(n, c.nz).copy()
+        states, algebraics = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
         self.worn = n > 1 and self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
-        return Stretch(np.array(times[1:]), states, algebraics, energy, modes, stats.get("nsteps", 0))
+        return Stretch(np.array(times[1:]), states, algebraics, energy, modes, steps)
 
     def keep(self, stretch: Stretch) -> None:
         """Append rows to the trace; integrals of power go on from the last one."""

@@ -21,7 +21,7 @@ from acausal.solve.instant import Point, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
 from acausal.solve.order import eigenvalues_of, order_limit
 
-METHODS = ("idas",)
+METHODS = ("auto", "idas", "rosenbrock", "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
 
 
@@ -34,7 +34,7 @@ def simulate(
     intervals: int = 400,
     parameters: Mapping[str, Any] | None = None,
     initial: str = "fixed",
-    method: str = "idas",
+    method: str | None = None,
     constraints: str = "auto",
     max_order: int | None = None,
     energy: bool = False,
@@ -57,8 +57,11 @@ def simulate(
         Values by path, such as {"beam.E": 7e10}.
     initial : "fixed" or "guesses"
         Whether states without a condition at the start are refused or take their guesses.
-    method : "idas"
-        Integrator.
+    method : "auto", "idas", "rosenbrock" or "resolve"
+        "idas" is a multistep method whose error test sees every velocity; "resolve" is another name for it, and follows
+        every vibration. "rosenbrock" is a one-step method that damps vibrations too small to be seen in positions. "auto"
+        begins with the first, and takes the other where vibrations faster than the outputs take more steps than the
+        motion. Default: that of the model, or "auto".
     constraints : "auto", "states" or "projection"
         How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
         and again where the pivots fall; "projection" integrates all of them and projects. "auto" begins with states, and
@@ -82,9 +85,11 @@ def simulate(
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    _check(start_time, stop_time, tolerance, intervals, method, max_order)
-    if constraints not in CONSTRAINTS:
-        raise DeclarationError(f"constraints is {constraints!r}; it must be one of {', '.join(CONSTRAINTS)}.")
+    tree = model.tree if isinstance(model, CompiledModel) else model
+    method = method or getattr(tree, "method", "auto")
+    _check(start_time, stop_time, tolerance, intervals, max_order)
+    _choose("method", method, METHODS)
+    _choose("constraints", constraints, CONSTRAINTS)
     if isinstance(model, CompiledModel):
         compiled, p = model, model.parameter_values(parameters)
     else:
@@ -96,12 +101,11 @@ def simulate(
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
     at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), initial)
-    if max_order is None:
-        rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
-        max_order = order_limit(rates, stop_time - start_time)
-    integrator = Integrator(
-        compiled, p, Settings(tolerance, max_order, energy, progress, constraints), (start_time, stop_time)
-    )
+    rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
+    max_order = max_order or order_limit(rates, stop_time - start_time)
+    fastest = float(np.max(np.abs(rates), initial=0.0))
+    settings = Settings(tolerance, max_order, energy, progress, constraints, method, fastest)
+    integrator = Integrator(compiled, p, settings, (start_time, stop_time))
     run = Run(integrator, times, breaks)
     failure: BaseException | None = None
     try:
@@ -123,7 +127,12 @@ def simulate(
     return result
 
 
-def _check(start: float, stop: float, tolerance: float, intervals: int, method: str, order: int | None) -> None:
+def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:
+    if value not in choices:
+        raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(choices)}.")
+
+
+def _check(start: float, stop: float, tolerance: float, intervals: int, order: int | None) -> None:
     for name, value in (("start_time", start), ("stop_time", stop), ("tolerance", tolerance)):
         if isinstance(value, bool) or not isinstance(value, int | float | np.number):
             raise DeclarationError(f"{name} is {value!r}; it must be a number.")
@@ -133,8 +142,6 @@ def _check(start: float, stop: float, tolerance: float, intervals: int, method: 
         raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
     if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
         raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
-    if method not in METHODS:
-        raise DeclarationError(f"method is {method!r}; it must be one of {', '.join(METHODS)}.")
     if order is not None and order not in range(1, 6):
         raise DeclarationError(f"max_order is {order!r}; it must be a whole number from 1 to 5.")
 
@@ -165,7 +172,7 @@ def _stats(
         "integration_seconds": trace.seconds,
         "max_order": max_order,
         "tolerance": tolerance,
-        "method": "idas",
+        "method": " and ".join(trace.methods) or "none",
         "constraints": "projection" if run.moves else "states",
         "choices": trace.choices,
         "break_times": breaks,

@@ -1,0 +1,104 @@
+"""The two ways of integration: the multistep method that follows everything, the one-step method that damps.
+
+The one-step method (Rosenbrock, L-stable, order 5) sees rates only as far as they change coordinates: their size in the
+error test is that of the coordinate times the fastest eigenvalue. Vibrations too small to be seen in the coordinates are
+then damped instead of followed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.compiled_model import UNSEEN
+
+if TYPE_CHECKING:
+    from acausal.solve.integrate import Integrator
+
+
+@dataclass(frozen=True)
+class Way:
+    """Integrator, its options, and the sizes of states and algebraic unknowns that it sees as 1."""
+
+    plugin: str
+    options: dict[str, Any]
+    sizes: tuple[np.ndarray, float]
+
+
+def multistep(
+    run: Integrator,
+    times: np.ndarray,
+    x: np.ndarray,
+    z: np.ndarray,
+    modes: np.ndarray,
+    max_steps: int,
+    careful: bool,
+) -> Way:
+    """IDAS: order limit, algebraic unknowns out of the error test, weights from nominal values.
+
+    IDAS takes all first derivatives as 0 unless it computes them itself: the quick way lets it compute them, if any
+    matter; the careful one starts with a step so short that they do not, and with the linear solver that does not rely on
+    its pivots.
+    """
+    c, tolerance, span = run.compiled, run.settings.tolerance, times[-1] - times[0]
+    rates = c.values(x, z, run.p, times[0], modes, 0.0)[0][: c.nx]
+    weights = tolerance * (np.abs(x) + c.nominal[: c.nx])
+    steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
+    options = {
+        "reltol": tolerance,
+        "abstolv": (tolerance * c.nominal).tolist(),
+        "max_multistep_order": run.settings.max_order,
+        "suppress_algebraic": True,
+        "max_num_steps": max_steps,
+        "disable_internal_warnings": True,
+        "quad_err_con": False,
+        # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps.
+        "nonlin_conv_coeff": 0.05,
+        "show_eval_warnings": False,
+        "linear_solver": "qr" if careful else "csparse",
+        "calc_ic": steepest > 1 and not careful,
+    }
+    if careful and steepest > 1:
+        options["step0"] = 10.0 ** -np.ceil(np.log10(10 * steepest))
+    return Way("idas", options, (np.ones(c.nx), 1.0))
+
+
+def one_step(
+    run: Integrator,
+    times: np.ndarray,
+    x: np.ndarray,
+    z: np.ndarray,
+    modes: np.ndarray,
+    max_steps: int,
+    careful: bool,
+) -> Way:
+    """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
+    c, tolerance, fastest = run.compiled, run.settings.tolerance, run.settings.fastest
+    size = c.nominal[: c.nx].copy()
+    for coordinate, rate in rates_of(c):
+        size[rate] = max(size[rate], size[coordinate] * fastest)
+    options = {
+        "reltol": tolerance,
+        "abstol": tolerance,
+        "control_group_size": [len(times) - 1],
+        "quad_err_con": False,
+        "max_num_steps": max(1000, max_steps),
+        "show_eval_warnings": False,
+    }
+    if fastest > 0:
+        options["step0"] = min(1e-2, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
+    return Way("rosenbrock", options, (size, UNSEEN))
+
+
+def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
+    """Pairs (coordinate, rate) among the states."""
+    plan = compiled.reduced.plan
+    projected = {p.coordinate: p.state for p in plan.constrained.projections}
+    place = {v: k for k, v in enumerate(plan.states)}
+    pairs = [(p.state, p.rate) for p in plan.constrained.projections]
+    pairs += [(v, plan.system.derivative[v]) for v in plan.states]
+    found = ((v, projected.get(rate, rate)) for v, rate in pairs)
+    return [(place[v], place[rate]) for v, rate in found if rate in place]
