@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
+
+NEWTON = 2
 
 
 class Closing:
@@ -45,6 +49,7 @@ class Closing:
         self.size = len(multipliers)
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
+        self._settling: dict[int, Call] = {}
         column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
         r = reduced
         arguments = [r.x, r.flat.parameters, time.sx, r.modes]
@@ -70,6 +75,41 @@ class Closing:
         if self.size:
             projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
         return projected
+
+    def settle(
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
+    ) -> np.ndarray:
+        """Return algebraic unknowns for which all equations hold at every one of n times.
+
+        An integrator interpolates between its steps: the constraints then hold to its tolerance only.
+
+        Parameters
+        ----------
+        x, z : arrays, shapes (n, nx), (n, nz)
+            States, and algebraic unknowns nearly right.
+        p, modes : arrays
+            Parameters and constants of the segment.
+        t : array, shape (n,)
+            Times.
+        """
+        n = len(t)
+        if n not in self._settling:
+            self._settling[n] = Call(self._newton.map(n))
+        call = self._settling[n]
+        for _ in range(NEWTON):
+            z = call(x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n))[0].reshape(n, -1).copy()
+        return z
+
+    @cached_property
+    def _newton(self) -> ca.Function:
+        """One Newton step for the algebraic unknowns."""
+        r = self._reduced
+        arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
+        alg = ca.substitute(r.alg, initial.sx, 0)
+        both = ca.Function("alg", arguments, [ca.densify(alg), ca.jacobian(alg, r.z)])
+        symbols = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
+        value, J = both(*symbols)
+        return ca.Function("newton", symbols, [symbols[1] - ca.solve(J, value, "qr")])
 
     def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""

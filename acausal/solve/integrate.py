@@ -81,9 +81,9 @@ class Integrator:
             self.keep(self._solve_everywhere(times, z, modes))
             return self._last()
         n = len(times) - 1
-        if self._call(times, x, z, modes, self.patience(times), careful=False):
-            return self._last()
-        if self.rescue(times) and self._call(times, x, z, modes, self.patience(times), careful=False):
+        while not (done := self._call(times, x, z, modes, self.patience(times), careful=False)) and self.rescue(times):
+            pass
+        if done:
             return self._last()
         self.rings = self.settings.method == "rosenbrock"
         size = max(1, -(-n // CHUNKS))
@@ -200,6 +200,8 @@ class Integrator:
         self.worn = n > 1 and self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
+        if c.closing.size:
+            algebraics = c.closing.settle(states, algebraics, self.p, times[1:], modes)
         return Stretch(np.array(times[1:]), states, algebraics, energy, modes, steps)
 
     def keep(self, stretch: Stretch) -> None:
