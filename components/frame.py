@@ -53,6 +53,11 @@ class Frame(Connector):
         T_rel = other.R.T @ self.R.T.T
         yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == as_expr(np.zeros(3)), self.t
 
+    def loop_kind(self, undetermined: tuple[str, ...]) -> str:
+        """Planar: a force across the plane and the torques in it; spherical: the forces alone."""
+        kinds = [name.rpartition(".")[2][0] for name in undetermined]
+        return {"ftt": "planar loop", "fff": "spherical loop"}.get("".join(sorted(kinds)), "loop")
+
     def root_equations(self) -> Iterator[Any]:
         """Quaternion of a free frame."""
         yield self.R.T == from_quaternion(self.Q).T

@@ -13,7 +13,7 @@ import typer
 
 from acausal.cli.output import Files, Progress, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import brief, find_scene, place_in, read_settings, scenes
-from acausal.errors import AcausalError, DeclarationError, SimulationError
+from acausal.errors import AcausalError, DeclarationError, InitializationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import Result, check_writable, match
 
@@ -43,7 +43,8 @@ Json = Annotated[
     str | None, typer.Option("--json", metavar="FILE|-", help="Write a JSON document; - is standard output.")
 ]
 Initial = Annotated[
-    str, typer.Option("--initial", metavar="fixed|guesses", help="What to do with states that no condition fixes.")
+    str,
+    typer.Option("--initial", metavar="fixed|guesses|steady", help="What to do with states that no condition fixes."),
 ]
 
 
@@ -71,7 +72,13 @@ def simulate(
     ] = None,
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of a step.", metavar="R")] = 1e-6,
     intervals: Annotated[int, typer.Option(help="The result has N + 1 points.", metavar="N")] = 400,
-    method: Annotated[str, typer.Option(help="Integration method.", metavar="NAME")] = "idas",
+    method: Annotated[
+        str | None,
+        typer.Option(help="auto, idas, rosenbrock or resolve; the scene's own if not given.", metavar="NAME"),
+    ] = None,
+    constraints: Annotated[
+        str, typer.Option(help="How loops stay closed: auto, states or projection.", metavar="NAME")
+    ] = "auto",
     max_order: Annotated[
         int | None, typer.Option(help="Limit of the order; chosen if not given.", metavar="N", show_default=False)
     ] = None,
@@ -99,6 +106,7 @@ def simulate(
             "tolerance": tolerance,
             "intervals": intervals,
             "method": method,
+            "constraints": constraints,
             "max_order": max_order,
             "initial": initial,
             "energy": json is not None,
@@ -114,6 +122,7 @@ def check(scene: Scene, settings: Set = None, json: Json = None) -> None:
     """Compile a scene and tell what the compiler did: equations and unknowns, states, what was removed, seconds."""
     with _run(json) as standard_output:
         compiled = _compile(find_scene(scene), settings)
+        _look_at_start(compiled)
         typer.echo(compiled.summary())
         if json:
             write_json({"scene": scene, **compiled.report}, json, standard_output)
@@ -132,6 +141,19 @@ def linearize(scene: Scene, settings: Set = None, initial: Initial = "fixed", js
                 "eigenvalues": linear.eigenvalues.astype(complex)
             }
             write_json({"scene": scene, **document}, json, standard_output)
+
+
+def _look_at_start(compiled: CompiledModel) -> None:
+    """Let the ranks of loops be known, which need consistent positions."""
+    from acausal.solve.instant import start
+
+    if compiled.closing.size:
+        try:
+            start(compiled, compiled.parameter_values(None), 0.0, 0.0, "guesses")
+        except InitializationError as error:
+            typer.echo(
+                f"no consistent start was found, so ranks and independent states are not known: {error}", err=True
+            )
 
 
 @contextmanager

@@ -61,7 +61,9 @@ class Closing:
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._guessed = np.array([place for place, _ in found], dtype=int)
         following = ca.vertcat(ca.SX(0, 1), *[r.closing.following[k] for _, k in found])
-        self._following = Call(ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))]))
+        self._following = Call(
+            ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))])
+        )
         self._places = [states[p.state] for p in constrained.projections]
 
     def __call__(self, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -76,9 +78,7 @@ class Closing:
             projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
         return projected
 
-    def settle(
-        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
-    ) -> np.ndarray:
+    def settle(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """Return algebraic unknowns for which all equations hold at every one of n times.
 
         An integrator interpolates between its steps: the constraints then hold to its tolerance only.

@@ -21,7 +21,6 @@ from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
-
 # Size of algebraic unknowns in the error test of a method that cannot leave them out.
 UNSEEN = 1e10
 

@@ -29,7 +29,9 @@ def report(compiled: CompiledModel) -> dict[str, Any]:
         "jacobian_nonzeros": int(compiled.local.function.nnz_out(1)),
         "operations": int(compiled.local.function.n_instructions()),
         "structural_zeros": list(flat.structural_zeros),
+        "loops": _loops(compiled),
         "redundant_constraints": [str(o) for o in flat.redundant if o.kind.startswith("connection of")],
+        "independent_states": list(compiled.cache.get("independent", ())),
         "break_switches": len(flat.switches),
         "seconds": dict(compiled.seconds),
     }
@@ -51,11 +53,53 @@ def summary(compiled: CompiledModel) -> str:
         f"  algebraic     {_list(r['algebraic'])}",
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
-    if r["redundant_constraints"]:
-        lines.append(f"  redundant     {_list(r['redundant_constraints'])}")
+    lines += [f"  {loop['kind']:14}{_tell(loop)}" for loop in r["loops"]]
+    if r["independent_states"]:
+        lines.append(
+            f"  independent   {_list(r['independent_states'])}: the other states follow from the loops; chosen by the "
+            "pivots of their equations at the start, and again where these fall"
+        )
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
     return "\n".join(lines)
+
+
+def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
+    """What is known of each loop; what ranks tell only once a start was found."""
+    flat = compiled.reduced.flat
+    redundancy = compiled.cache.get("redundancy")
+    found = []
+    for number, loop in enumerate(flat.loops):
+        own = [compiled.closing.closures[k] for k, c in enumerate(flat.closures) if c.loop == number]
+        by_rank = len(set(own).intersection(redundancy.dropped)) if redundancy else 0
+        found.append(
+            {
+                "kind": loop.kind,
+                "closed_by": [loop.a, loop.b],
+                "where": loop.where,
+                "parts": list(loop.parts),
+                "constraints": loop.constraints,
+                "redundant": loop.dropped + by_rank,
+                "redundant_by_rank": by_rank,
+                "undetermined": list(loop.undetermined),
+                "singular_start": bool(redundancy and redundancy.singular),
+            }
+        )
+    return found
+
+
+def _tell(loop: dict[str, Any]) -> str:
+    a, b = loop["closed_by"]
+    left = loop["constraints"] - loop["redundant"]
+    text = f"through {_list(loop['parts'])}, closed where {a} meets {b} ({loop['where']}): "
+    text += f"{loop['redundant']} of its {loop['constraints']} constraints redundant and dropped, {left} kept"
+    if loop["redundant_by_rank"]:
+        text += f"; {loop['redundant_by_rank']} of them found by rank at the start, their cut forces are 0"
+    if loop["undetermined"]:
+        text += f"; undetermined and set to 0: {_list(loop['undetermined'])}"
+    if loop["singular_start"]:
+        text += "; the start is a singular position: all constraints are kept, the velocity chooses the way on"
+    return text
 
 
 def _list(names: list[str]) -> str:

@@ -95,7 +95,7 @@ class Assembly:
             if k not in done.solved and (k < self.size or k in present or k in chained)
         ]
         place = {k: n for n, k in enumerate(unknowns)}
-        defines = self._defines(place, values)
+        defines = self._defines(place, values, set(rows))
         declared_at = [k for k in self.declared if k in place]
         declared = ca.substitute([column([self.declared[k] for k in declared_at])], [was], [becomes])[0]
         attributes = self._attributes(done, unknowns, place)
@@ -159,15 +159,15 @@ class Assembly:
             rank[k] += 5 * DECLARED
         return rank
 
-    def _defines(self, place: dict[int, int], values: list[Linear]) -> dict[int, int]:
-        """Residual -> the declared unknown that is its left-hand side, by its own name or by that of an alias."""
+    def _defines(self, place: dict[int, int], values: list[Linear], rows: set[int]) -> dict[int, int]:
+        """Residual that remains -> the declared unknown on its left-hand side, by its own name or by that of an alias."""
         own: dict[int, int] = {}
         alias: dict[int, int] = {}
         row = 0
         for lhs, _ in self.raw.equations.sides:
             for k, entry in enumerate(scalars(ca.vec(ca.densify(lhs)))):
                 index = self.raw.index.get(entry.element_hash(), -1)
-                if index not in self.declared:
+                if index not in self.declared or row + k not in rows:
                     continue
                 if index in place:
                     own[row + k] = place[index]

@@ -59,7 +59,8 @@ def _loop(raw: Said, redundant: set[int], values: list[Linear], cut: Cut) -> Loo
     undetermined = tuple(flows[k][0] for k in found if k >= 0 and flows[k][1] and values[k] == (0.0, ()))
     parts = tuple(part._path for part in cut.loop if _moves(part))
     ends = cut.statement
-    return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), len(dropped), undetermined)
+    kind = ends.a.loop_kind(undetermined)
+    return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), len(dropped), undetermined, kind)
 
 
 def _moves(part: Any) -> bool:

@@ -60,6 +60,8 @@ class Loop:
         Those that became 0 = 0.
     undetermined : tuple of str
         Flows that were left undetermined by them and are 0.
+    kind : str
+        What kind of loop it is.
     """
 
     a: str
@@ -69,6 +71,7 @@ class Loop:
     constraints: int
     dropped: int
     undetermined: tuple[str, ...]
+    kind: str
 
 
 @dataclass(frozen=True)

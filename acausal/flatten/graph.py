@@ -60,7 +60,7 @@ def build_graph(components: list[Component]) -> Graph:
                 )
     _refuse_doubles(connects)
     connectors = [c for c in components if isinstance(c, Connector)]
-    cuts, chosen = spanning_tree(connectors, [(c, where) for _, c, where in connects], branches, roots)
+    cuts, chosen = spanning_tree(connectors, connects, branches, roots)
     cut_ids = {id(cut.statement) for cut in cuts}
     same = UnionFind(connectors)
     for _, statement, _ in connects:

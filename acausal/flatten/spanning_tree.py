@@ -33,9 +33,15 @@ class Cut:
 
 
 class _Tree:
-    """Breadth first from the roots; what a branch ties together is reached at once, so that no branch is cut."""
+    """Breadth first from the roots; what a branch ties together is reached at once, so that no branch is cut.
 
-    def __init__(self, nodes: list[Connector], connects: Iterable[Connect], branches: Iterable[Branch]) -> None:
+    What is connected inside of a part is reached with the part, so that loops are cut between parts.
+    """
+
+    def __init__(
+        self, nodes: list[Connector], connects: Iterable[Connect], branches: Iterable[Branch], inner: set[int]
+    ) -> None:
+        self.inner = inner
         self.links: dict[int, list[tuple[Connector, Connect | None]]] = {id(n): [] for n in nodes}
         for b in branches:
             self.links[id(b.a)].append((b.b, None))
@@ -57,7 +63,12 @@ class _Tree:
             here = stack.pop()
             self.queue.append(here)
             for there, statement in self.links[id(here)]:
-                if statement is None and there not in here._parents:
+                if id(statement) in self.inner and id(there) not in self.reached:
+                    self.used.add(id(statement))
+                    self.reached.add(id(there))
+                    self.parent[id(there)] = here
+                    stack.append(there)
+                elif statement is None and there not in here._parents:
                     if id(there) in self.reached:
                         raise ConnectError(
                             f"{here._path} and {there._path} are tied to each other, or to roots, in two ways without a "
@@ -95,7 +106,10 @@ class _Tree:
 
 
 def spanning_tree(
-    connectors: list[Connector], connects: list[tuple[Connect, str]], branches: list[Branch], roots: list[Root]
+    connectors: list[Connector],
+    connects: list[tuple[Component, Connect, str]],
+    branches: list[Branch],
+    roots: list[Root],
 ) -> tuple[list[Cut], list[Connector]]:
     """Span the over-determined connectors from the roots; branches are never cut.
 
@@ -107,7 +121,8 @@ def spanning_tree(
         The potential roots that were needed.
     """
     nodes = [c for c in connectors if type(c).residual is not Connector.residual]
-    tree = _Tree(nodes, [c for c, _ in connects], branches)
+    inner = {id(c) for owner, c, _ in connects if owner._path}
+    tree = _Tree(nodes, [c for _, c, _ in connects], branches, inner)
     for r in roots:
         if r.priority is None:
             tree.enter(r.connector)
@@ -125,7 +140,7 @@ def spanning_tree(
             f"{_owner_of(lost[0])}: {lost[0]._path} has no connection to a root such as the World, nor to a body that "
             f"could move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
-    closing = [(c, where) for c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
+    closing = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
     return [Cut(c, where, tree.loop(c)) for c, where in closing], chosen
 
 

@@ -167,6 +167,10 @@ class Connector(Component):
         """
         yield from ()
 
+    def loop_kind(self, undetermined: tuple[str, ...]) -> str:
+        """Name a loop by the flows that its redundant equations leave undetermined, for reports."""
+        return "loop"
+
     def root_equations(self) -> Iterator[Any]:
         """Yield the equations of a chosen potential root.
 

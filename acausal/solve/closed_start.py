@@ -123,7 +123,7 @@ def _reduced(
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
     """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
-    basis = [v for v in svd(_unit(M), full_matrices=False)[2][: _rank(M)]] if M.size else []
+    basis = list(svd(_unit(M), full_matrices=False)[2][: _rank(M)]) if M.size else []
     used, surplus = [], []
     for k in range(len(C)):
         size = np.linalg.norm(C[k])

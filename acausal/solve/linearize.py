@@ -15,6 +15,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.solve.instant import start
 from acausal.solve.order import state_matrix
+from acausal.solve.tangent import tangent
 from acausal.symbols import scalars
 
 
@@ -112,13 +113,14 @@ def linearize(
     gx = M[nx : nx + nz, :nx]
     zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))
     h = M[nx + nz :]
+    N, chosen = tangent(compiled, x, p, time, modes)
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(
-        A=A,
-        B=M[:nx, nx + nz :] + M[:nx, nx : nx + nz] @ zu,
-        C=h[:, :nx] + h[:, nx : nx + nz] @ zx,
+        A=(A @ N)[chosen],
+        B=(M[:nx, nx + nz :] + M[:nx, nx : nx + nz] @ zu)[chosen],
+        C=(h[:, :nx] + h[:, nx : nx + nz] @ zx) @ N,
         D=h[:, nx + nz :] + h[:, nx : nx + nz] @ zu,
-        states=compiled.states,
+        states=tuple(compiled.states[k] for k in chosen),
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
     )

@@ -15,9 +15,11 @@ from scipy.sparse import diags
 from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
+from acausal.solve.tangent import tangent
 
 FAST = 30.0
-DENSE = 64
+# States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
+DENSE, LOOPED = 64, 400
 SLOW = 6
 POWERS = 4
 WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
@@ -29,8 +31,9 @@ def eigenvalues_of(
     """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one."""
     nx, nz = compiled.nx, compiled.nz
     J = compiled.at(x, z, p, t, modes, 0.0).jacobian[: nx + nz]
-    if nx <= DENSE:
-        return np.linalg.eigvals(state_matrix(J, nx))
+    if nx <= (LOOPED if compiled.closing.size else DENSE):
+        N, chosen = tangent(compiled, x, p, t, modes)
+        return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()
     inner = splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
     to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]

@@ -143,6 +143,13 @@ def switches_of(compiled: CompiledModel) -> slice:
     return slice(first, first + len(compiled.closing.closures))
 
 
+def independent(compiled: CompiledModel, modes: np.ndarray) -> tuple[str, ...]:
+    """Names of the states that do not follow from others."""
+    entries = compiled.closing.entries
+    follow = {int(k) for k, d in zip(entries[1], modes[len(modes) - entries.shape[1] :], strict=True) if d != 0}
+    return tuple(name for k, name in enumerate(compiled.states) if k not in follow)
+
+
 def _stiffness(
     compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
 ) -> np.ndarray:

@@ -7,8 +7,8 @@ from heapq import heapify, heappop, heappush
 
 from scipy.sparse.csgraph import connected_components
 
-from acausal.structure.incidence import Rows, sparse
 from acausal.structure.block import Block
+from acausal.structure.incidence import Rows, sparse
 
 
 def block_triangular(rows: Rows, pairs: Iterable[tuple[int, int]]) -> tuple[Block, ...]:

@@ -48,4 +48,4 @@ class Plan:
     residuals: tuple[int, ...]
     assigned: tuple[tuple[int, int], ...]
     observed: tuple[tuple[int, int], ...]
-    constrained: Constrained = Constrained()
+    constrained: Constrained

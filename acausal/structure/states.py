@@ -23,9 +23,7 @@ class Choice:
         return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
 
 
-def choose_states(
-    system: System, lower: Collection[int], apart: Collection[int] = (), constant: bool = True
-) -> Choice:
+def choose_states(system: System, lower: Collection[int], apart: Collection[int] = (), constant: bool = True) -> Choice:
     """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice

@@ -661,6 +661,7 @@ DIMENSIONLESS = {
     ("Frame", "Q"),
     ("Spherical", "Q"),
     ("Friction", "mode"),
+    ("Slipping", "mode"),
     ("Clutch", "mode"),
     ("Clutch", "f_normalized"),
     ("Clutch", "peak"),

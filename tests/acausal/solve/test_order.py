@@ -39,7 +39,7 @@ def test_estimate_of_a_large_system() -> None:
     p, modes = compiled.parameter_values(None), np.zeros(0)
     from acausal.solve.initialize import initialize
 
-    x, z = initialize(compiled, p, 0.0, modes, "fixed")
+    x, z, modes = initialize(compiled, p, 0.0, modes, "fixed")
     exact = np.abs(
         np.linalg.eigvals(
             state_matrix(compiled.at(x, z, p, 0.0, modes, 0.0).jacobian[: compiled.nx + compiled.nz], compiled.nx)

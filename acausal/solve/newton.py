@@ -1,0 +1,128 @@
+"""Damped Newton iteration on the initial system, and the homotopy for where it alone fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.sparse.linalg import splu
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.solve.words import lost_text
+
+ITERATIONS = 60
+CONVERGED = 1e-8
+ROUNDING = 1e-13
+CONSISTENT = 1e-7
+SHORTEST = 1e-4
+
+
+@dataclass(frozen=True)
+class InitialSystem:
+    """Which conditions complete the equations at the start.
+
+    Parameters
+    ----------
+    rows : array of int
+        Rows of (alg, conditions) that are solved, as many as unknowns.
+    surplus : array of int
+        Rows that must then hold by themselves.
+    known : array of int
+        States that are not solved for: they take their guesses, or follow from a condition at once.
+    direct : tuple of (int, int)
+        (row, state) of linear conditions that hold one state and nothing else.
+    """
+
+    rows: np.ndarray
+    surplus: np.ndarray
+    known: np.ndarray
+    direct: tuple[tuple[int, int], ...] = ()
+
+
+def follow(
+    compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> np.ndarray | None:
+    """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
+    rows = system.rows + compiled.nx
+    first = compiled.values(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)[0][rows].copy()
+    s, step = 0.0, 0.1
+    while s < 1:
+        target = min(1.0, s + step)
+        try:
+            y = newton(compiled, system, y, p, time, modes, 1.0, (1 - target) * first)
+            s, step = target, 1.5 * step
+        except InitializationError:
+            step /= 3
+            if step < SHORTEST:
+                return None
+    return y
+
+
+def newton(
+    compiled: CompiledModel,
+    system: InitialSystem,
+    y: np.ndarray,
+    p: np.ndarray,
+    time: float,
+    modes: np.ndarray,
+    flag: float,
+    offset: np.ndarray | float = 0.0,
+) -> np.ndarray:
+    """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
+    nx, rows = compiled.nx, system.rows + compiled.nx
+    free = np.setdiff1d(np.arange(len(y)), system.known)
+    if not free.size:
+        return y
+    scale = compiled.nominal[free]
+    plain = _is_range(rows) and _is_range(free)
+
+    def residual(at: np.ndarray) -> np.ndarray:
+        return compiled.values(at[:nx], at[nx:], p, time, modes, flag)[0][rows] - offset
+
+    value = residual(y)
+    for _ in range(ITERATIONS):
+        J = compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian
+        block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
+        solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD")
+        step = -solve(value)
+        damping = 1.0
+        while True:
+            trial = y.copy()
+            trial[free] += damping * step
+            value = residual(trial)
+            if np.all(np.isfinite(value)):
+                simplified = solve(value)
+                if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
+                    break
+            damping /= 2
+            if damping < 1e-6:
+                raise InitializationError(lost_text(compiled, residual(y), system.rows, system.surplus, time))
+        y = trial
+        change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
+        if change <= CONVERGED:
+            y[free] -= simplified if change > ROUNDING else 0.0
+            if np.max(np.abs(value), initial=0.0) > CONSISTENT * (
+                1 + np.max(np.abs(y)) * float(np.max(np.abs(J.data)))
+            ):
+                break
+            return y
+    raise InitializationError(lost_text(compiled, value, system.rows, system.surplus, time))
+
+
+def _is_range(indices: np.ndarray) -> bool:
+    return bool(np.all(np.diff(indices) == 1))
+
+
+def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
+    try:
+        return splu(
+            J.tocsc(), permc_spec=order, diag_pivot_thresh=0.01, options={"SymmetricMode": order == "NATURAL"}
+        ).solve
+    except RuntimeError:
+        pass
+    # Singular here: the step of least norm, if there is one, leads on.
+    dense = J.toarray()
+    return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]
