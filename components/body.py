@@ -76,8 +76,12 @@ class Body(Component):
         yield self.z_a == z
 
     def initial_equations(self):
-        if self.angles_fixed and is_root(self.frame_a):
-            yield quaternion_of(axes_rotations(self.sequence_start, self.angles_start)) == self.frame_a.Q
+        if is_root(self.frame_a):
+            Q = self.frame_a.Q
+            if self.angles_fixed:
+                yield quaternion_of(axes_rotations(self.sequence_start, self.angles_start)) == Q
+            else:
+                yield Q @ Q == 1
 
     def stored_energy(self):
         """Kinetic and potential energy."""

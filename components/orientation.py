@@ -90,9 +90,12 @@ def null_rotation() -> RelativeOrientation:
 
 
 def from_quaternion(Q: Any) -> RelativeOrientation:
-    """Orientation that a quaternion Q = (vector part, scalar part) of length 1 describes, with w = G(Q) der(Q)."""
+    """Orientation that a quaternion Q = (vector part, scalar part) describes, with w = G(Q) der(Q).
+
+    Dividing by its square keeps T a rotation where rounding or an iteration changes the length of Q from 1.
+    """
     e, s = Q[:3], Q[3]
-    T = 2 * (outer_product(e, e) - s * skew(e)) + (2 * s * s - 1) * np.eye(3)
+    T = (2 * (outer_product(e, e) - s * skew(e)) + (s * s - e @ e) * np.eye(3)) / (Q @ Q)
     dQ = der(Q)
     return RelativeOrientation(T, 2 * (s * dQ[:3] - dQ[3] * e - cross(e, dQ[:3])))
 

@@ -61,3 +61,5 @@ class Spherical(TwoFrames):
     def initial_equations(self):
         if self.angles_fixed:
             yield self.Q_start == self.Q
+        else:
+            yield self.Q @ self.Q == 1

@@ -88,13 +88,13 @@ def collect_initial(components: list[Component]) -> Equations:
 def _close(cut: Cut, graph: Graph, found: Equations) -> None:
     """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across."""
     a, b = cut.statement.a, cut.statement.b
-    balance = next(s for s in graph.balances if {a, b} <= {c for c, _ in s})
-    side = next(set(group) for group in graph.same if a in group)
+    balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
+    side = next(group for group in graph.same if a in group)
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
-            flows = [getattr(c, name).sx * sign for c, sign in balance if c in side]
-            setattr(sent, name, Expr(sum(flows[1:], flows[0])))
+            flows = [getattr(c, name) * sign for c, sign in balance if c in side]
+            setattr(sent, name, sum(flows[1:], flows[0]))
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
     for statement, dual in sent.residual(b):
         row = sum(r.numel() for r in found.residuals)

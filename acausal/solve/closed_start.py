@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import qr, svd
 from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.solve.closing import CLOSED, close, refuse_open_loops
 from acausal.solve.projection import choose_projection, find_redundancy, switches_of
+from acausal.solve.rank import null_space, pivots, rank, row_space
 from acausal.solve.words import missing_text
-
-RANK = 1e-9
 
 
 def closed_guess(
@@ -87,7 +85,7 @@ def rows_and_knowns(
         moved[free] += shake * compiled.nominal[free]
         M, C = _reduced(compiled, moved, z, p, t, modes, free, rows)
         used, surplus = _independent(M, C)
-    left = _left(compiled, np.vstack([M, C[used]]), _rank(M) + len(used), free)
+    left = _left(compiled, np.vstack([M, C[used]]), rank(M) + len(used), free)
     if left and refuse:
         raise InitializationError(missing_text(compiled, left))
     plan = compiled.reduced.plan
@@ -123,7 +121,7 @@ def _reduced(
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
     """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
-    basis = list(svd(_unit(M), full_matrices=False)[2][: _rank(M)]) if M.size else []
+    basis = list(row_space(M))
     used, surplus = [], []
     for k in range(len(C)):
         size = np.linalg.norm(C[k])
@@ -140,24 +138,14 @@ def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
     return used, surplus
 
 
-def _left(compiled: CompiledModel, rows: np.ndarray, rank: int, free: np.ndarray) -> list[int]:
+def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.ndarray) -> list[int]:
     """States that nothing determines: those along which what is left free moves most, guessed ones first."""
-    _, _, V = svd(_unit(rows)) if len(rows) else (None, None, np.eye(len(free)))
-    null = V[rank:]
+    null = null_space(rows, independent)
     if not len(null):
         return []
     flat, plan = compiled.reduced.flat, compiled.reduced.plan
     of = {q.state: q.coordinate for q in plan.constrained.projections}
     guessed = [bool(flat.guessed[of.get(v, v)]) if of.get(v, v) < len(flat.guessed) else False for v in plan.states]
     weight = np.where(np.array(guessed)[free], 10.0, 1.0)
-    order = qr(null * weight, mode="r", pivoting=True)[1][: len(null)]
+    order = pivots(null * weight)[: len(null)]
     return sorted(int(free[k]) for k in order)
-
-
-def _unit(rows: np.ndarray) -> np.ndarray:
-    size = np.linalg.norm(rows, axis=1, keepdims=True)
-    return rows / np.where(size > 0, size, 1.0)
-
-
-def _rank(rows: np.ndarray) -> int:
-    return int(np.sum(svd(_unit(rows), compute_uv=False) > RANK * max(rows.shape))) if rows.size else 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy.optimize import least_squares
 
@@ -92,8 +94,9 @@ def _solve(
         if smallest <= CLOSED:
             break
         start = x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
-        options = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
-        u = least_squares(lambda u: evaluate(u)[0], start, jac=lambda u: evaluate(u)[1], **options).x
+        options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
+        options["jac"] = lambda u: evaluate(u)[1]
+        u = least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
             best, smallest = u, left

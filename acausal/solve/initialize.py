@@ -88,6 +88,7 @@ def _ranked(
         others += range(-nx, 0)
     chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed")
     equations, used, surplus, known = chosen
+    y[nx + compiled.closing.multipliers] = 0.0
     # Derivatives that cannot vanish beside what is given do not matter.
     demanded = [row for row in surplus if row >= 0]
     rows = np.array([*equations, *used], int)

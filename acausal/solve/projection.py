@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import qr, svd
+from scipy.linalg import svd
 from scipy.optimize import linear_sum_assignment
 
 from acausal.compiler import CompiledModel
 from acausal.solve.closing import close, levels
 from acausal.solve.order import state_matrix
+from acausal.solve.rank import null_space, pivots, rank, scaled
 
-RANK = 1e-8
 MOTION = 1e-2
 WORN, SPARED = 0.05, 0.3
 
@@ -29,12 +29,6 @@ class Redundancy:
     singular: bool
 
 
-def scaled(J: np.ndarray) -> np.ndarray:
-    """Rows of length 1; rows that vanish stay."""
-    size = np.linalg.norm(J, axis=1, keepdims=True)
-    return J / np.where(size > 0, size, 1.0)
-
-
 def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
     c = compiled.closing
@@ -44,28 +38,23 @@ def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: fl
         return scaled(c(at, p, t, modes)[1][rows])
 
     here = jacobian(x)
-    if _rank(here) == len(rows):
+    if rank(here) == len(rows):
         return Redundancy((), False)
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
     for seed in range(3):
         moved = _moved(compiled, x, here, free, seed, p, t, modes)
         there = jacobian(moved) if moved is not None else here
-        if _rank(there) > _rank(best):
+        if rank(there) > rank(best):
             best, singular = there, True
-    if _rank(best) == len(rows):
+    if rank(best) == len(rows):
         return Redundancy((), True)
     # Those that cannot be dropped come first.
     weight = np.ones(len(rows))
     droppable = {c.closures[k] for k, dual in enumerate(compiled.reduced.flat.closures) if not dual.dual.is_constant()}
     weight[[k for k in range(len(rows)) if k not in droppable]] = 1e3
-    order = qr((weight[:, None] * best).T, mode="r", pivoting=True)[1]
-    return Redundancy(tuple(sorted(order[_rank(best) :].tolist())), singular)
-
-
-def _rank(J: np.ndarray) -> int:
-    sizes = svd(J, compute_uv=False)
-    return int(np.sum(sizes > RANK * max(J.shape)))
+    order = pivots((weight[:, None] * best).T)
+    return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
 
 
 def _moved(
@@ -79,8 +68,7 @@ def _moved(
     modes: np.ndarray,
 ) -> np.ndarray | None:
     """Return another consistent position near by, along what the constraints leave free."""
-    _, sizes, V = svd(J[:, free])
-    null = V[np.sum(sizes > RANK * max(J.shape)) :]
+    null = null_space(J[:, free])
     if not len(null):
         return None
     direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
@@ -161,7 +149,7 @@ def _stiffness(
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
     rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
     columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
-    J = compiled.at(x, z, p, t, modes, 0.0).jacobian.toarray()[np.ix_(rows, columns)]
+    J = compiled.at(x, z, p, t, modes, 0.0).jacobian.toarray()[rows][:, columns]
     try:
         A = state_matrix(J, nx)
     except np.linalg.LinAlgError:
@@ -181,8 +169,8 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
     selection = np.zeros_like(D)
     for rows, columns in levels(compiled):
         active = [r for r in rows if on[r]]
-        block = D[np.ix_(active, columns)]
-        order = qr(block, mode="r", pivoting=True)[1][: len(active)]
+        block = D[active][:, columns]
+        order = pivots(block)[: len(active)]
         size = np.abs(block[:, order])
         pairs = linear_sum_assignment(-np.log(np.maximum(size, 1e-300)))
         for r, k in zip(*pairs, strict=True):

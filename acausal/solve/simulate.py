@@ -86,7 +86,7 @@ def simulate(
         If the integration fails; its `result` holds what was computed.
     """
     tree = model.tree if isinstance(model, CompiledModel) else model
-    method = method or getattr(tree, "method", "auto")
+    method = str(method or getattr(tree, "method", "auto"))
     _check(start_time, stop_time, tolerance, intervals, max_order)
     _choose("method", method, METHODS)
     _choose("constraints", constraints, CONSTRAINTS)

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import qr, svd
 
 from acausal.compiler import CompiledModel
-
-RANK = 1e-9
+from acausal.solve.rank import null_space, pivots
 
 
 def tangent(
@@ -26,10 +24,8 @@ def tangent(
     if not compiled.closing.size:
         return np.eye(nx), np.arange(nx)
     J = compiled.closing(x, p, t, modes)[1]
-    size = np.linalg.norm(J, axis=1, keepdims=True)
-    _, sizes, V = svd(J / np.where(size > 0, size, 1.0))
-    null = V[int(np.sum(sizes > RANK * nx)) :]
+    null = null_space(J)
     # Whatever no constraint holds stays a state of its own, before all others.
     weight = np.where(np.any(J != 0, axis=0), 1.0, 10.0)
-    chosen = np.sort(qr(null * weight, mode="r", pivoting=True)[1][: len(null)])
+    chosen = np.sort(pivots(null * weight)[: len(null)])
     return np.linalg.solve(null[:, chosen], null).T, chosen

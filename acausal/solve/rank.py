@@ -1,0 +1,47 @@
+"""Ranks, null spaces and pivots of small matrices, each row counted as of length 1."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.linalg import qr, svd
+
+RANK = 1e-9
+
+
+def scaled(rows: np.ndarray) -> np.ndarray:
+    """Rows of length 1; rows that vanish stay."""
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    return rows / np.where(size > 0, size, 1.0)
+
+
+def rank(rows: np.ndarray) -> int:
+    """Number of independent rows."""
+    return int(np.sum(svd(scaled(rows), compute_uv=False) > RANK * max(rows.shape))) if rows.size else 0
+
+
+def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
+    """Orthonormal rows that span what all given rows map to 0.
+
+    Parameters
+    ----------
+    rows : array, shape (m, n)
+        The rows.
+    independent : int, optional
+        Their rank, if it is known better.
+    """
+    if not rows.size:
+        return np.eye(rows.shape[1])
+    return svd(scaled(rows))[2][rank(rows) if independent is None else independent :]
+
+
+def row_space(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal rows that span the given ones."""
+    return svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
+
+
+def pivots(matrix: np.ndarray) -> np.ndarray:
+    """Columns in the order in which a QR factorisation with column pivoting takes them."""
+    factors: Any = qr(matrix, mode="r", pivoting=True)
+    return np.asarray(factors[1], dtype=int)
