@@ -145,7 +145,7 @@ def accuracy_table(costs: Iterable[Cost]) -> Table:
 
 def main() -> None:
     """Print the tables."""
-    console = Console(width=135)
+    console = Console(width=140)
     exact, source = geometrically_exact()
     costs: list[Cost] = []
     for options in RODS:

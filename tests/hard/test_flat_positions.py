@@ -1,0 +1,134 @@
+"""Parallelograms through and from their flat position, where the constraints lose rank and the velocity alone decides."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import acausal as ac
+from acausal import Model, chain, fixed, guess, structural
+from components import BodyRod, Fixed, Revolute, World
+from models import NFourBar
+from tests.hard.measure import single_coordinate, within
+from tests.reference import n_four_bar
+
+
+class Parallelogram(Model):
+    """Crank and rocker of 1 m, coupler and ground of 2 m, uniform rods of 1 kg for each metre, flat at the start."""
+
+    gravity: float = structural("acceleration of gravity", default=9.81)
+    angle: float = structural("angle of crank and rocker at the start", default=0.0)
+    rates: tuple[float, float] = structural("speeds of crank and rocker at the start", default=(1.0, 1.0))
+    given: bool = structural("whether the rocker's speed is given too", default=True)
+    world, far = World(g=gravity), Fixed(r=(2, 0, 0))
+    crank, rocker, coupler = BodyRod(r=(1, 0, 0), m=1), BodyRod(r=(1, 0, 0), m=1), BodyRod(r=(2, 0, 0), m=2)
+    pin2 = Revolute()
+
+    @ac.part
+    def pin1(self):
+        """Pin between crank and coupler."""
+        return Revolute(phi=guess(-self.angle))
+
+    @ac.part
+    def foot1(self):
+        """Bearing of the crank."""
+        return Revolute(phi=fixed(self.angle), w=fixed(self.rates[0]))
+
+    @ac.part
+    def foot2(self):
+        """Bearing of the rocker."""
+        rate = {"w": fixed(self.rates[1])} if self.given else {}
+        return Revolute(phi=guess(self.angle), **rate)
+
+    def connections(self):
+        yield chain(self.world, self.foot1, self.crank, self.pin1, self.coupler, self.pin2, self.rocker.frame_b)
+        yield chain(self.far, self.foot2, self.rocker)
+
+
+def swing(times: np.ndarray, angle: float, rate: float, gravity: float = 9.81) -> np.ndarray:
+    """Angle from the x axis of the parallelogram, whose coupler only shifts: (2/3 + 2) th'' = -(1 + 2) g cos th."""
+
+    def derivative(_: float, state: np.ndarray) -> list[float]:
+        return [state[1], -gravity * np.cos(state[0]) * 3 / (2 / 3 + 2)]
+
+    return solve_ivp(derivative, (0, times[-1]), [angle, rate], "DOP853", times, rtol=1e-12, atol=1e-13).y[0]
+
+
+@pytest.mark.parametrize("angle", [0.0, np.pi])
+@pytest.mark.parametrize("rate", [2.0, -1.0, 8.0])
+@pytest.mark.parametrize("gravity", [0.0, 9.81])
+def test_parallelogram_from_its_flat_position(angle, rate, gravity):
+    """Equal speeds choose the branch on which the rods stay parallel; at 8 rad/s it turns through flat again and again."""
+    model = Parallelogram(angle=angle, rates=(rate, rate), gravity=gravity)
+    result = ac.simulate(model, stop_time=4.0, tolerance=1e-8, intervals=100)
+    expected = swing(result.time, angle, rate, gravity)
+    within("crank, rad", np.abs(result["foot1.phi"] - expected).max(), 1e-3)
+    # The loop's gape, 1e-8, counts as its root in the angle between the branches where they meet.
+    within("rocker less crank, rad", np.abs(result["foot2.phi"] - result["foot1.phi"]).max(), 1e-4)
+
+
+# tan(psi / 2) = -3 tan(phi / 2): the rods cross; from the cosine rule with the sides 1 and 2.
+RATIO = -3.0
+
+
+def crossed(phi: float | np.ndarray) -> float | np.ndarray:
+    """Angle of the rocker of the antiparallelogram, continuous over whole turns."""
+    return phi + 2 * np.arctan2((RATIO - 1) * np.sin(phi / 2) * np.cos(phi / 2), np.cos(phi / 2) ** 2 + RATIO * np.sin(phi / 2) ** 2)
+
+
+def crossed_inertia(phi: float) -> float:
+    """Twice the kinetic energy of the antiparallelogram at crank speed 1."""
+    step = 1e-5
+    slope = float(crossed(phi + step) - crossed(phi - step)) / (2 * step)
+
+    def coupler(at: float) -> complex:
+        return 2 + np.exp(1j * crossed(at)) - np.exp(1j * at)
+
+    centre = (1j * np.exp(1j * phi) + 1j * slope * np.exp(1j * crossed(phi))) / 2
+    turn = np.angle(coupler(phi + step) / coupler(phi - step)) / (2 * step)
+    return 1 / 3 + slope**2 / 3 + 2 * abs(centre) ** 2 + 2 * 4 / 12 * turn**2
+
+
+def test_the_closed_form_of_the_antiparallelogram_closes():
+    phi = np.linspace(-2, 2, 41)
+    np.testing.assert_allclose(abs(2 + np.exp(1j * crossed(phi)) - np.exp(1j * phi)), 2, atol=1e-12)
+    assert crossed_inertia(0.3) > 0
+
+
+@pytest.mark.parametrize("rate", [1.0, -2.0])
+def test_antiparallelogram_from_its_flat_position(rate):
+    """Speeds in the ratio of the crossed branch choose that one."""
+    model = Parallelogram(rates=(rate, RATIO * rate), gravity=0.0)
+    result = ac.simulate(model, stop_time=6.0, tolerance=1e-8, intervals=100)
+    expected = single_coordinate(crossed_inertia, result.time, 0.0, rate)
+    within("crank, rad", np.abs(result["foot1.phi"] - expected).max(), 1e-3)
+    within("rocker, rad", np.abs(result["foot2.phi"] - crossed(result["foot1.phi"])).max(), 1e-3)
+
+
+def test_one_speed_does_not_choose_a_branch():
+    with pytest.raises(ac.InitializationError, match=r"1 freedom open[\s\S]*w=fixed"):
+        ac.simulate(Parallelogram(given=False), stop_time=1.0)
+
+
+class Many(NFourBar):
+    """The scene, flat at the start."""
+
+    @ac.parts
+    def foot(self):
+        """All speeds are equal: the rods stay parallel."""
+        start = -np.pi / 2
+        return [Revolute(phi=fixed(start), w=fixed(-1)), *(Revolute(phi=guess(start), w=fixed(-1)) for _ in range(self.N))]
+
+
+@pytest.mark.parametrize("N", [1, 3])
+def test_n_four_bar_from_its_flat_position(N):
+    result = ac.simulate(Many(N=N), stop_time=3.0, tolerance=1e-8, intervals=60)
+    inertia, moment = n_four_bar.inertia_and_moment(N)
+
+    def derivative(_: float, state: np.ndarray) -> list[float]:
+        return [state[1], -moment / inertia * 9.81 * np.cos(state[0])]
+
+    th = solve_ivp(derivative, (0, 3.0), [0.0, -1.0], "DOP853", result.time, rtol=1e-12, atol=1e-13).y[0]
+    for k in range(N + 1):
+        within(f"upright {k}, rad", np.abs(result[f"foot[{k}].phi"] + np.pi / 2 - th).max(), 1e-3)
