@@ -36,8 +36,14 @@ class Search:
 
 
 def maximum_matching(rows: Rows, n_variables: int) -> Matching:
-    """Match as many equations as possible (Hopcroft & Karp 1973, of scipy)."""
-    variable_of = maximum_bipartite_matching(sparse(rows, n_variables), perm_type="column")
+    """Match as many equations as possible (Hopcroft & Karp 1973, of scipy).
+
+    Short equations come first: in the given order the search of scipy can take exponentially long.
+    """
+    order = np.argsort([len(row) for row in rows], kind="stable")
+    found = maximum_bipartite_matching(sparse([rows[k] for k in order], n_variables), perm_type="column")
+    variable_of = np.empty(len(rows), dtype=int)
+    variable_of[order] = found
     equation_of = np.full(n_variables, -1)
     matched = np.flatnonzero(variable_of >= 0)
     equation_of[variable_of[matched]] = matched
