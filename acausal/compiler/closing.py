@@ -92,13 +92,27 @@ class Closing:
         t : array, shape (n,)
             Times.
         """
+        for _ in range(NEWTON):
+            settled = self._settle(x, z, p, t, modes)
+            if settled is None:
+                # Singular at some time: the others need not suffer.
+                rows = range(len(t)) if len(t) > 1 else ()
+                return np.array([self.settle(x[k][None], z[k][None], p, t[k][None], modes)[0] for k in rows] or z)
+            z = settled
+        return z
+
+    def _settle(
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
+    ) -> np.ndarray | None:
         n = len(t)
         if n not in self._settling:
             self._settling[n] = Call(self._newton.map(n))
         call = self._settling[n]
-        for _ in range(NEWTON):
-            z = call(x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n))[0].reshape(n, -1).copy()
-        return z
+        for array, value in zip(call.inputs, (x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n)), strict=True):
+            array[:] = value
+        done, _ = call.attempt()
+        found = call.outputs[0].reshape(n, -1).copy()
+        return found if done and np.all(np.isfinite(found)) else None
 
     @cached_property
     def _newton(self) -> ca.Function:

@@ -11,12 +11,13 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.solve.initialize import algebraic
-from acausal.solve.methods import multistep, one_step
+from acausal.solve.methods import multistep, one_step, rounding
 from acausal.solve.projection import WORN, choose_projection, worn
 from acausal.solve.trace import Stretch, Trace
 
 CHUNKS = 25
-LOOKS = 100
+# Looks at the projection after a call cost about the cube of the number of constraints each.
+WORK = 2e7
 # Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
 # or an output counts as hopeless.
 SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
@@ -66,6 +67,7 @@ class Integrator:
         self.complaint = ""
         self.moves, self.worn = settings.constraints == "projection", False
         self.rings = settings.method == "rosenbrock"
+        self._floor: np.ndarray | None = None
 
     def segment(
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
@@ -94,6 +96,14 @@ class Integrator:
             x, z = self._last()
             self.report(part[-1])
         return x, z
+
+    def rounding(self, x: np.ndarray, z: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
+        """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
+        if self._floor is None:
+            near = self.settings.tolerance < 1e-8 and self.compiled.nz
+            c = self.compiled
+            self._floor = rounding(c, x, z, self.p, time, modes) if near else np.zeros(c.nx + c.nz)
+        return self._floor
 
     def patience(self, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""
@@ -135,7 +145,8 @@ class Integrator:
         c = self.compiled
         if not c.closing.size or self.moves:
             return False
-        some = np.unique(np.linspace(0, len(times) - 1, min(len(times), LOOKS)).astype(int))
+        looks = int(np.clip(WORK / c.closing.size**3, 8, 100))
+        some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
         return any(worn(c, x[k], self.p, float(times[k]), modes) < WORN for k in some)
 
     def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:

@@ -18,6 +18,9 @@ from acausal.compiler.compiled_model import UNSEEN
 if TYPE_CHECKING:
     from acausal.solve.integrate import Integrator
 
+# Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may leave.
+ROUNDING = 1e-14
+
 
 @dataclass(frozen=True)
 class Way:
@@ -49,7 +52,7 @@ def multistep(
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
     options = {
         "reltol": tolerance,
-        "abstolv": (tolerance * c.nominal).tolist(),
+        "abstolv": np.maximum(tolerance * c.nominal, run.rounding(x, z, times[0], modes)).tolist(),
         "max_multistep_order": run.settings.max_order,
         "suppress_algebraic": True,
         "max_num_steps": max_steps,
@@ -91,6 +94,24 @@ def one_step(
     if fastest > 0:
         options["step0"] = min(1e-2, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
     return Way("rosenbrock", options, (size, UNSEEN))
+
+
+def rounding(
+    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> np.ndarray:
+    """Errors of states (0) and algebraic unknowns that rounding of the equations causes, as powers of ten.
+
+    A Newton iteration cannot get nearer than |g_z^-1| (|g_x| |x| + |g_z| |z|) times the relative rounding error.
+    """
+    nx = compiled.nx
+    J = np.abs(g := compiled.at(x, z, p, t, modes, 0.0).jacobian[nx : nx + compiled.nz].toarray())
+    sizes = J @ np.abs(np.concatenate([x, z]))
+    try:
+        reach = np.abs(np.linalg.inv(g[:, nx:])) @ sizes
+    except np.linalg.LinAlgError:
+        reach = np.zeros(compiled.nz)
+    floor = 10.0 ** np.ceil(np.log10(np.maximum(ROUNDING * reach, 1e-300)))
+    return np.concatenate([np.zeros(nx), np.where(np.isfinite(floor), floor, 0.0)])
 
 
 def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
