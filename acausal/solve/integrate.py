@@ -20,6 +20,7 @@ CHUNKS = 25
 WORK = 2e7
 # Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
 # or an output counts as hopeless.
+LOOSER, LOOSEST = (1e2, 1e4), 1e-4
 SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
 Progress = Callable[[float, int], None]
 
@@ -68,6 +69,7 @@ class Integrator:
         self.moves, self.worn = settings.constraints == "projection", False
         self.rings = settings.method == "rosenbrock"
         self._floor: np.ndarray | None = None
+        self.tolerance = settings.tolerance
 
     def segment(
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
@@ -118,11 +120,12 @@ class Integrator:
     def rescue(self, times: np.ndarray) -> bool:
         """Change what made a first call fail; False if there is nothing to change.
 
-        The projection moves where the chosen states became unfit; where vibrations take the steps, the one-step method
-        damps them.
+        The projection moves where the chosen states became unfit. The one-step method damps vibrations that take the
+        steps, and, without a Newton iteration, gets past positions where the equations are singular.
         """
         moves = self.moves or (self.settings.constraints == "auto" and self.worn)
-        rings = self.rings or ("mxstep" in self.complaint and self._may_ring(times))
+        stuck = self.settings.method == "auto" and moves == self.moves and "corrector" in self.complaint
+        rings = self.rings or stuck or ("mxstep" in self.complaint and self._may_ring(times))
         changed = (moves, rings) != (self.moves, self.rings)
         self.moves, self.rings = moves, rings
         return changed
@@ -161,9 +164,20 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, HOPELESS):
+            if not self._call(times[k : k + 2], x, z, modes, HOPELESS) and not self._loosely(times[k : k + 2], x, z, modes):
                 raise self.failure(times[k], times[k + 1])
             x, z = self._last()
+
+    def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> bool:
+        """Pass a nearly singular position with longer steps: short ones cannot, whatever the rounding."""
+        for factor in LOOSER:
+            self.tolerance = min(factor * self.settings.tolerance, LOOSEST)
+            done = self._call(times, x, z, modes, HOPELESS)
+            self.tolerance = self.settings.tolerance
+            if done:
+                self.trace.loosened.append(float(times[0]))
+                return True
+        return False
 
     def _call(
         self,

@@ -46,7 +46,7 @@ def multistep(
     matter; the careful one starts with a step so short that they do not, and with the linear solver that does not rely on
     its pivots.
     """
-    c, tolerance, span = run.compiled, run.settings.tolerance, times[-1] - times[0]
+    c, tolerance, span = run.compiled, run.tolerance, times[-1] - times[0]
     rates = c.values(x, z, run.p, times[0], modes, 0.0)[0][: c.nx]
     weights = tolerance * (np.abs(x) + c.nominal[: c.nx])
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
@@ -79,7 +79,7 @@ def one_step(
     careful: bool,
 ) -> Way:
     """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
-    c, tolerance, fastest = run.compiled, run.settings.tolerance, run.settings.fastest
+    c, tolerance, fastest = run.compiled, run.tolerance, run.settings.fastest
     size = c.nominal[: c.nx].copy()
     for coordinate, rate in rates_of(c):
         size[rate] = max(size[rate], size[coordinate] * fastest)

@@ -175,6 +175,7 @@ def _stats(
         "method": " and ".join(trace.methods) or "none",
         "constraints": "projection" if run.moves else "states",
         "choices": trace.choices,
+        "loosened_at": trace.loosened,
         "break_times": breaks,
     }
 

@@ -24,6 +24,7 @@ class Trace:
     seconds: float = 0.0
     before: np.ndarray = field(default_factory=lambda: np.zeros(2))
     methods: dict[str, int] = field(default_factory=dict)
+    loosened: list[float] = field(default_factory=list)
 
     def count(self, stats: dict, plugin: str) -> int:
         """Add the counts of a call, and return its steps."""
