@@ -14,6 +14,7 @@ class FreeVibration(Model):
     """Cantilever of aluminium, 2 m long, of square section, released with the deflection tip."""
 
     stop_time = 1.0
+    method = "resolve"  # its vibrations are what is looked at: follow them, do not damp them
     formulation: str = structural("kind of beam", default="fem", choices=("fem", "substructured"))
     elements: int = structural("elements of the finite-element beam", default=10, minimum=1)
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)

@@ -109,7 +109,7 @@ def simulate(
             "constraints": constraints,
             "max_order": max_order,
             "initial": initial,
-            "energy": json is not None,
+            "energy": True,
         }
         result = _rescue(lambda show: ac.simulate(compiled, **options, progress=show), files, chosen, quiet)
         files.write(result, chosen)

@@ -89,7 +89,8 @@ def summary(result: Result) -> str:
         f"{result.title}: {time[0]:g} s to {time[-1]:g} s, {time.size} points",
         f"  compiled in {stats['compile_seconds']:.3g} s, solved in {stats['solve_seconds']:.3g} s",
         f"  {stats['states']} states, {stats['algebraic']} algebraic unknowns; {stats['steps']} steps, "
-        f"{stats['factorisations']} factorisations, order at most {stats['max_order']}",
+        f"{stats['factorisations']} factorisations; {_method(stats)}",
+        *_events(stats),
     ]
     series = result.series()
     if not series:
@@ -102,6 +103,32 @@ def summary(result: Result) -> str:
     if len(series) > FINAL_VALUES:
         lines.append(f"    ... ({len(series)} in all)")
     return "\n".join(lines)
+
+
+def _method(stats: dict) -> str:
+    text = f"method {stats['method']}, order at most {stats['max_order']}"
+    if stats["choices"]:
+        kind = "states chosen by pivots" if stats["constraints"] == "states" else "projection"
+        text += f"; loops closed by {kind}"
+    return text
+
+
+def _events(stats: dict) -> list[str]:
+    """Return what happened on the way, and where the energy went."""
+    lines = []
+    if stats["break_times"]:
+        lines.append(f"  breaks at {', '.join(f'{t:g}' for t in stats['break_times'][:FINAL_VALUES])} s")
+    if stats["events"]:
+        lines.append(f"  {stats['events']} events, the first at {stats['event_times'][0]:g} s")
+    if stats["loosened_at"]:
+        times = ", ".join(f"{t:g}" for t in stats["loosened_at"][:FINAL_VALUES])
+        lines.append(f"  nearly singular positions were passed with a larger tolerance after {times} s")
+    if stats.get("energy_supplied") or stats.get("energy_stored_change"):
+        lines.append(
+            f"  energy: supplied {stats['energy_supplied']:.6g} J, stored {stats['energy_stored_change']:.6g} J more, "
+            f"dissipated {stats['energy_dissipated']:.3g} J, by the method itself {stats['energy_method']:.3g} J"
+        )
+    return lines
 
 
 def modes_table(eigenvalues: np.ndarray) -> str:

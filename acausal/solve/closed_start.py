@@ -30,7 +30,7 @@ def closed_guess(
     """
     closed, mismatch = close(compiled, x, held, p, t, modes)
     if not mismatch <= CLOSED:
-        refuse_open_loops(compiled, closed, p, t, modes)
+        refuse_open_loops(compiled, closed, held, p, t, modes)
     redundancy = find_redundancy(compiled, closed, p, t, modes)
     compiled.cache["redundancy"] = redundancy
     modes = modes.copy()

@@ -117,27 +117,34 @@ def _polish(evaluate, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
     return u
 
 
-def refuse_open_loops(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> None:
+def refuse_open_loops(
+    compiled: CompiledModel, x: np.ndarray, held: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> None:
     """Raise InitializationError with the mismatch of every loop that does not close."""
     c, flat = compiled.closing, compiled.reduced.flat
     value, _ = c(x, p, t, modes)
     lines = []
     for number, loop in enumerate(flat.loops):
-        own = [k for k, closure in enumerate(flat.closures) if closure.loop == number]
-        off = [value[c.rows[c.closures[k]][0]] for k in own]
-        worst = float(np.max(np.abs(off), initial=0.0))
-        if worst > CLOSED:
-            lines.append(
-                f"  {loop.a} and {loop.b} ({loop.where}) miss each other by {worst:.4g} m or rad; "
-                + (f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop")
-            )
+        own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.closures) if closure.loop == number]
+        levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
+        apart = [float(np.max(np.abs(value[rows]), initial=0.0)) if rows else 0.0 for rows in levels_of]
+        how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
+        for text, worst in zip(how, apart, strict=True):
+            if worst > CLOSED:
+                through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
+                lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
+                break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
         if k not in c.closures and np.max(np.abs(value[list(rows)])) > CLOSED:
             lines.append(f"  {flat.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
-    if lines:
+    given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
+    if given:
+        lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
+    if lines and np.max(np.abs(value)) > CLOSED:
         raise InitializationError(
             f"these loops cannot close at t = {t:g} s, whatever their joints do:\n"
             + "\n".join(lines)
-            + "\nCheck lengths and fixed start values, or give better guesses of the joints' positions (guess(...))."
+            + "\nCheck lengths, free one of the fixed start values (guess(...) instead of fixed(...)), or give better "
+            "guesses of the joints' positions."
         )

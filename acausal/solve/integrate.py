@@ -164,7 +164,9 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, HOPELESS) and not self._loosely(times[k : k + 2], x, z, modes):
+            if not self._call(times[k : k + 2], x, z, modes, HOPELESS) and not self._loosely(
+                times[k : k + 2], x, z, modes
+            ):
                 raise self.failure(times[k], times[k + 1])
             x, z = self._last()
 

@@ -13,8 +13,29 @@ OUTPUTS = {
     "simple-pendulum": ["x", "y"],
     "pendulum": ["swing_angle", "tip_deflection", "tip_x", "tip_y", "mid_deflection"],
     "free-vibration": ["tip_deflection"],
+    "slider-crank": ["crank_angle", "slider_position", "rod_tip_deflection", "rod_mid_deflection"],
+    "n-four-bar": ["b0_x", "b0_y"],
+    "squeezer": ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"],
+    "bricard": ["x", "y", "z"],
+    "governor": ["s", "rod_angle", "shaft_angle"],
+    "car-axis": ["xl", "yl", "xr", "yr"],
+    "four-bar": ["j1_phi", "j1_w"],
+    "four-bar-spatial": ["j1_phi", "j1_w"],
 }
-STOP_TIMES = {"spin-up": 20, "simple-pendulum": 10, "pendulum": 1, "free-vibration": 1}
+STOP_TIMES = {
+    "spin-up": 20,
+    "simple-pendulum": 10,
+    "pendulum": 1,
+    "free-vibration": 1,
+    "slider-crank": 1.6,
+    "n-four-bar": 10,
+    "squeezer": 0.03,
+    "bricard": 10,
+    "governor": 10,
+    "car-axis": 3,
+    "four-bar": 5,
+    "four-bar-spatial": 5,
+}
 
 
 def run(*arguments):
@@ -65,6 +86,32 @@ def test_check_and_linearize(scene):
     assert len(linear["eigenvalues"]) == len(states)
     assert all(len(pair) == 2 for pair in linear["eigenvalues"])
     assert linear["frequencies_hz"] == sorted(linear["frequencies_hz"])
+
+
+def test_check_tells_what_became_of_a_planar_loop():
+    done = run("check", "four-bar", "--json", "-")
+    text, document = done.stderr, json.loads(done.stdout)
+    (loop,) = document["loops"]
+    assert (loop["kind"], loop["constraints"], loop["redundant"], loop["redundant_by_rank"]) == ("planar loop", 6, 3, 0)
+    joints = ["j1", "j2", "j3", "j4"]
+    assert sorted(loop["parts"]) == joints
+    assert sorted(name.rpartition(".")[2] for name in loop["undetermined"]) == ["f[2]", "t[0]", "t[1]"]
+    assert len(document["independent_states"]) == 2
+    assert "planar loop" in text
+    assert "3 of its 6 constraints redundant and dropped, 3 kept" in text
+    assert "chosen by the pivots" in text
+    assert all(name in text for name in (*joints, *loop["undetermined"], *document["independent_states"]))
+
+
+def test_check_finds_what_only_ranks_tell():
+    (loop,) = json.loads(run("check", "bricard", "--json", "-").stdout)["loops"]
+    assert (loop["kind"], loop["redundant"], loop["redundant_by_rank"]) == ("loop", 1, 1)
+    assert sorted(loop["parts"]) == [f"joint[{k}]" for k in range(6)]
+
+
+def test_linearize_has_a_state_for_each_freedom():
+    linear = json.loads(run("linearize", "four-bar", "--json", "-").stdout)
+    assert len(linear["states"]) == len(linear["eigenvalues"]) == 2
 
 
 def test_json_of_spin_up_holds_the_energies():

@@ -1,7 +1,8 @@
 """Benchmark: the slider-crank compiled from general components, next to Exudyn and to equations derived by hand.
 
-    python -m tests.benchmarks.slider_crank
+    OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.slider_crank
 
+The variable keeps other processes on the same cores from slowing small matrices down.
 Three tables in one run: accuracy against time; size and time over the number of elements; how closed loops stay closed
 (`loop_closing`). Times are the best of three. Errors are the largest of 401 points, in parts of the range.
 Exudyn is optional: pip install ".[benchmark]".
@@ -27,7 +28,8 @@ from tests.benchmarks.slider_crank_methods import CONVERGED, INTERVALS, STOP, si
 TOLERANCES, STEPS = (1e-4, 1e-5, 1e-6), (2e-3, 2e-4)
 RODS: tuple[dict[str, int], ...] = ({}, {"rod_volumes": 4})
 REPEATS = 3
-FINE = {"crank_elements": 12, "rod_elements": 32, "rod_volumes": 16}
+# Agrees with the converged run of Exudyn within 4e-5 (slider) and 3e-3 (mid deflection).
+FINE = {"crank_elements": 6, "rod_elements": 32, "rod_volumes": 8}
 Curves = tuple[np.ndarray, np.ndarray]
 
 
@@ -86,8 +88,8 @@ def geometrically_exact() -> tuple[Curves, str]:
         fine = slider_crank_exudyn.CONVERGED
         what = f"Exudyn, {fine['crank_elements']} + {fine['rod_elements']} elements, step {fine['step']:g} s"
         return (run.slider, run.middle), what
-    result = ac.simulate(SliderCrank(**FINE), stop_time=STOP, tolerance=1e-7, intervals=INTERVALS, method="rosenbrock")
-    return curves_of(result), f"compiled, {FINE}, tolerance 1e-7"
+    result = ac.simulate(SliderCrank(**FINE), stop_time=STOP, tolerance=1e-6, intervals=INTERVALS, method="rosenbrock")
+    return curves_of(result), f"compiled, {FINE}, tolerance 1e-6"
 
 
 def compiled_costs(

@@ -60,9 +60,9 @@ def build(crank_elements: int, rod_elements: int) -> Mechanism:
 
     def beam(section: Section, elements: int, x: float, root: list[bool], tip: list[bool]) -> dict[str, Any]:
         element = Cable2D(
-            physicsMassPerLength=section.rho * section.A,
-            physicsBendingStiffness=section.E * section.J,
-            physicsAxialStiffness=section.E * section.A,
+            massPerLength=section.rho * section.A,
+            bendingStiffness=section.E * section.J,
+            axialStiffness=section.E * section.A,
         )
         ends, held = (
             ([x, 0, 0], [x + section.length, 0, 0]),

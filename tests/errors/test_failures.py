@@ -80,7 +80,7 @@ def test_status_and_table_of_a_failure(file, tmp_path):
         (["spin-up", "--intervals", "0"], "it must be a whole number of at least 1"),
         (["spin-up", "--max-order", "9"], "it must be a whole number from 1 to 5"),
         (["spin-up", "--method", "rk4"], "it must be one of auto, idas, rosenbrock, resolve"),
-        (["spin-up", "--initial", "guess"], 'it must be one of fixed, guesses, steady'),
+        (["spin-up", "--initial", "guess"], "it must be one of fixed, guesses, steady"),
         (["spin-up", "--csv", "/nowhere/x.csv"], "there is no directory /nowhere"),
         (["OWN:Unbalanced"], "Nothing determines `x`"),
     ],

@@ -54,10 +54,10 @@ def test_full_turns_with_a_rod_hardly_longer_than_the_crank(tolerance):
     phi, w, ref = result["bearing.phi"], result["bearing.w"], reference(LONGER)
     x = np.cos(phi) + np.sqrt(LONGER**2 - np.sin(phi) ** 2)
     energy = np.array([ref.energy(a, b) for a, b in zip(phi, w, strict=True)])
-    # 1,000 times the tolerance, what oscillating bodies lose, in each of 14 passes.
+    # 1,000 times the tolerance, what oscillating bodies lose, on entering and on leaving each of 14 passes; w counts twice.
     within("turns of the crank, missing from 6", 6 - phi[-1] / (2 * np.pi), 0)
     within("slider against closed form, m", np.abs(result["guide.s"] - x).max(), 1e-10)
-    within("energy, relative", np.abs(energy / energy[0] - 1).max(), 2 * 14 * 1000 * tolerance)
+    within("energy, relative", np.abs(energy / energy[0] - 1).max(), 4 * 14 * 1000 * tolerance)
     steep = [(k + 0.5) * np.pi for k in range(20)]
     late = travel_time(lambda q: 2 * ref.energy(q, 1.0), energy[0], 0.0, phi[-1], steep) - 10
     within("time of the last position, s", abs(late), 10 * 14 * 1000 * tolerance)

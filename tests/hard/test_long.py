@@ -8,9 +8,10 @@ import pytest
 import acausal as ac
 from acausal import Model, fixed, structural
 from components import Body, World
-from models import Bricard, NFourBar, SimplePendulum
+from components.rotational import Damper
+from models import Bricard, FourBar, NFourBar, SimplePendulum
 from tests.hard.measure import within
-from tests.reference import bricard, free_body, n_four_bar, pendulum
+from tests.reference import bricard, four_bar, free_body, n_four_bar, pendulum
 
 
 @pytest.mark.parametrize(("tolerance", "bound"), [(1e-8, 1e-1), (1e-10, 1e-3)])
@@ -23,22 +24,52 @@ def test_pendulum_for_1000_s(tolerance, bound):
     within("length, m", np.abs(np.hypot(result["x"], result["y"]) - 1).max(), 1e-12)
 
 
-def test_parallelogram_for_1000_s():
-    """A pendulum with a redundant loop, which swings through its flat position."""
-    result = ac.simulate(NFourBar(N=1), stop_time=1000.0, tolerance=1e-8, intervals=2000, energy=True)
-    one, two, pin = (result[f"{name}.phi"] for name in ("foot[0]", "foot[1]", "pin[0]"))
-    gap = 1j * np.exp(1j * one) + np.exp(1j * (one + pin)) - 1 - 1j * np.exp(1j * two)
+class Undamped(FourBar):
+    """The four-bar without its damper: it swings for ever."""
+
+    damper = Damper(d=0)
+
+
+def test_four_bar_for_1000_s():
+    """A redundant loop; its energy is what the reference says in the angle of the crank."""
+    result = ac.simulate(Undamped(), stop_time=1000.0, tolerance=1e-8, intervals=2000)
+    reference = four_bar.FourBar(damping=0.0)
+    pairs = list(zip(result["j1_phi"], result["j1_w"], strict=True))[::10]
+    energy = np.array([reference.energy(*pair) for pair in pairs])
+    exchanged = max(reference.energy(phi, 0.0) for phi in np.linspace(0, 2 * np.pi, 100)) - energy[0]
+    within("energy, of what is exchanged", np.abs(energy - energy[0]).max() / abs(exchanged), 1000 * 1e-8 * 1000)
+    crank = 0.4 * np.exp(1j * result["j1.phi"])
+    coupler = (0.1 + 1.1j) * np.exp(1j * (result["j1.phi"] + result["j2.phi"]))
+    gap = crank + coupler + 0.15 - 1j - (0.65 + 0.1j) * np.exp(1j * result["j3.phi"])
     within("closing gap, m", np.abs(gap).max(), 1e-10)
-    rate, angle = result["foot[0].w"], one + np.pi / 2
-    inertia, moment = n_four_bar.inertia_and_moment(1)
+
+
+CLOSE = pytest.mark.xfail(strict=True, reason="a step that ends too close to the flat position fails")
+
+
+@pytest.mark.parametrize(
+    ("N", "stop", "tolerance"),
+    [(1, 10.0, 1e-6), (1, 10.0, 1e-8), (2, 100.0, 1e-8), pytest.param(1, 10.0, 1e-10, marks=CLOSE)],
+)
+def test_n_four_bar_through_its_flat_position(N, stop, tolerance):
+    """It turns over, at 8 rad/s through flat twice a turn, and slowly, at 1 rad/s, over the top."""
+    result = ac.simulate(NFourBar(N=N), stop_time=stop, tolerance=tolerance, intervals=200)
+    feet = np.array([result[f"foot[{k}].phi"] for k in range(N + 1)])
+    rate, angle = result["foot[0].w"], feet[0] + np.pi / 2
+    inertia, moment = n_four_bar.inertia_and_moment(N)
     energy = inertia * rate**2 / 2 + moment * 9.81 * np.sin(angle)
-    within("energy, of 39 J exchanged", np.abs(energy - energy[0]).max() / 39.2, 1e-2)
+    within("energy, of what is exchanged", np.abs(energy / energy[0] - 1).max() / 2, 1000 * tolerance * stop)
+    # All uprights stay parallel: it leaves its flat position on the branch on which it came.
+    within("uprights out of parallel, rad", np.abs(np.sin(feet - feet[0])).max(), 1e-6)
+    assert feet[0, -1] < -2 * np.pi
 
 
 class Top(Model):
     """A rigid body that turns freely, without gravity."""
 
-    principal: tuple[float, float, float] = structural("principal moments of inertia", default=(1.0, 2.0, 3.0), shape=(3,))
+    principal: tuple[float, float, float] = structural(
+        "principal moments of inertia", default=(1.0, 2.0, 3.0), shape=(3,)
+    )
     spin: tuple[float, float, float] = structural("angular velocity at the start", default=(0.0, 0.0, 1.0), shape=(3,))
     world = World(gravity=None)
 
@@ -46,7 +77,12 @@ class Top(Model):
     def body(self):
         """The body."""
         return Body(
-            m=1, I=np.diag(self.principal), angles_fixed=True, r_0=fixed((0, 0, 0)), v_0=fixed((0, 0, 0)), w_a=fixed(self.spin)
+            m=1,
+            I=np.diag(self.principal),
+            angles_fixed=True,
+            r_0=fixed((0, 0, 0)),
+            v_0=fixed((0, 0, 0)),
+            w_a=fixed(self.spin),
         )
 
 
@@ -84,18 +120,19 @@ def test_1000_turns_of_a_symmetric_top():
     expected = np.column_stack([np.cos(angle), -np.sin(angle), np.full(len(angle), 2 * np.pi)])
     # 500 turns of the angular velocity: its phase.
     rate = -expected[:, 1]
-    within("angular velocity, rad/s", np.abs(np.abs(result["body.w_a"][:, 1]) - np.abs(rate)).max(), 1000 * tolerance * 1000)
+    within(
+        "angular velocity, rad/s",
+        np.abs(np.abs(result["body.w_a"][:, 1]) - np.abs(rate)).max(),
+        1000 * tolerance * 1000,
+    )
 
 
 def test_unstable_axis_for_many_tumbles():
-    """Turns over again and again; against the closed form by elliptic functions."""
-    spin = (0.0, 0.0, 0.0)
+    """It turns over again and again; against the closed form by elliptic functions."""
     principal, w1, w3 = (1.0, 2.0, 3.0), 1.0, 0.6
     result = ac.simulate(Top(principal=principal, spin=(w1, 0.0, w3)), stop_time=200.0, tolerance=1e-10, intervals=400)
     expected = free_body.torque_free_rate(principal, w1, w3, result.time)
-    found = result["body.w_a"]
-    assert spin is not None
-    within("angular velocity, rad/s", np.abs(found - expected).max(), 1e-4)
+    within("angular velocity, rad/s", np.abs(result["body.w_a"] - expected).max(), 1e-4)
 
 
 @pytest.mark.slow
@@ -104,28 +141,24 @@ def test_10000_turns(principal):
     spun(principal, (0.1, 0.2, 2 * np.pi), 10_000, 1e-9)
 
 
-@pytest.mark.parametrize("stop", [100.0])
-def test_bricard_for_100_s(stop):
-    """One freedom: at equal positions the energy returns, and the mechanism comes back to its start at rest."""
-    result = ac.simulate(Bricard(), stop_time=stop, tolerance=1e-8, intervals=2000, energy=True)
+def test_bricard_for_100_s():
+    """10 swings: one freedom and no loss, so that it comes back to its start at rest again and again."""
+    result = ac.simulate(Bricard(), stop_time=100.0, tolerance=1e-8, intervals=2000)
     loop = bricard.loop()
-    q = np.array([result[f"joint[{k}].phi"] for k in range(6)]).T
-    v = np.array([result[f"joint[{k}].w"] for k in range(6)]).T
-    states = np.hstack([q, v])
-    energy = np.array([loop.energy(state) for state in states[::10]])
-    within("closing gap, m or 1", max(loop.gap(state) for state in states[::10]), 1e-10)
-    within("energy, of 29 J exchanged", np.abs(energy - energy[0]).max() / 29, 1000 * 1e-8 * stop)
-    # It never rises above the height at which it starts at rest, and comes near it once in each swing.
-    height = np.array([result[n] for n in ("x", "y", "z")]).T - [1, -1, 0]
-    back = np.linalg.norm(height, axis=1)
-    returns = np.flatnonzero((back[1:-1] < back[:-2]) & (back[1:-1] <= back[2:]) & (back[1:-1] < 0.05))
-    assert len(returns) >= 8, len(returns)
+    states = np.column_stack([result[f"joint[{k}].{name}"] for name in ("phi", "w") for k in range(6)])[::10]
+    energy = np.array([loop.energy(state) for state in states])
+    within("closing gap, m or 1", max(loop.gap(state) for state in states), 1e-10)
+    within("energy, of 29 J exchanged", np.abs(energy - energy[0]).max() / 29, 1000 * 1e-8 * 100)
+    point = np.array([result[n] for n in ("x", "y", "z")]).T
+    away = np.linalg.norm(point - [1, -1, 0], axis=1)
+    least = (away[1:-1] < away[:-2]) & (away[1:-1] <= away[2:]) & (away[1:-1] < 0.05)
+    at = result.time[1:-1][least]
+    # Published: 2.69e-4 m from the start at 10 s. Outputs are 0.05 s apart.
+    within("first return less a tenth of the tenth, s", abs(at[at > 5][0] - at[at > 95][0] / 10), 0.05)
 
 
-def test_bricard_returns():
-    """Over one whole swing it comes to rest at its start, as published: 2.69e-4 m from it at 10 s."""
-    result = ac.simulate(Bricard(), stop_time=100.0, tolerance=1e-9, intervals=100)
-    # Rest at the start and rest at the other end alternate: 10 s is close to a whole number of swings.
-    expected = bricard.point(result.time[:21])
-    found = np.array([result[n] for n in ("x", "y", "z")]).T[:21]
-    within("point over 20 s, m", np.abs(found - expected).max(), 1e-4)
+def test_bricard_against_its_reference():
+    result = ac.simulate(Bricard(), stop_time=20.0, tolerance=1e-9, intervals=20)
+    within(
+        "point, m", np.abs(np.array([result[n] for n in ("x", "y", "z")]).T - bricard.point(result.time)).max(), 1e-4
+    )

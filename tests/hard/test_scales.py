@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -95,16 +96,41 @@ class StiffPair(Model):
         yield chain(self.wall.flange, self.soft, self.one, self.join, self.two)
 
 
-@pytest.mark.parametrize(("c", "d"), [(1e9, 1e9), (1e9, 0.0), (0.0, 1e9)])
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
-def test_stiff_beside_soft(c, d, tolerance):
+STIFF = ((1e9, 1e9), (0.0, 1e9))
+
+
+def reduced(times: np.ndarray) -> np.ndarray:
+    """Angle of both rotors when they are one: J = 3."""
+    A = np.array([[0, 1], [-10 / 3, -0.1 / 3]])
+    return np.array([expm(A * t)[0, 0] for t in times])
+
+
+@pytest.mark.parametrize(("c", "d"), STIFF)
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+def test_stiff_and_damped_beside_soft(c, d, tolerance):
     result = ac.simulate(StiffPair(stiff=c, drag=d), stop_time=10.0, tolerance=tolerance, intervals=50)
-    A = np.array([[0, 1], [-10 / 3, -0.1 / 3]])  # joined rigidly: J = 3
-    expected = np.array([expm(A * t)[0, 0] for t in result.time])
-    # The joint yields by the torque of 2/3 of the spring over 1e9.
-    bound = 1000 * tolerance + 1e-8
-    within("first rotor, rad", np.abs(result["one.phi"] - expected).max(), bound)
-    within("second less first, rad", np.abs(result["two.phi"] - result["one.phi"]).max(), bound)
+    # The joint yields by at most the torque of the soft spring over 1e9.
+    within("first rotor, rad", np.abs(result["one.phi"] - reduced(result.time)).max(), 1000 * tolerance + 1e-8)
+    within("second less first, rad", np.abs(result["two.phi"] - result["one.phi"]).max(), tolerance + 1e-8)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-9])
+def test_stiff_and_undamped_beside_soft(tolerance):
+    """Vibrations at 4e4 rad/s allow no order above 2, which turns the phase by (w h)^2 / 3 with (w h)^3 = 9 / 2 tolerance."""
+    result = ac.simulate(StiffPair(stiff=1e9, drag=0.0), stop_time=10.0, tolerance=tolerance, intervals=50)
+    bound = np.sqrt(10 / 3) * 10 / 3 * (4.5 * tolerance) ** (2 / 3)
+    within("first rotor, rad", np.abs(result["one.phi"] - reduced(result.time)).max(), bound)
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(
+    strict=True,
+    raises=ac.SimulationError,
+    reason="below 1e-8 the rounding of angles of 1 rad, times 1e9, is more than the tolerance allows",
+)
+@pytest.mark.parametrize(("c", "d"), STIFF)
+def test_stiff_and_damped_below_rounding(c, d):
+    ac.simulate(StiffPair(stiff=c, drag=d), stop_time=10.0, tolerance=1e-9, intervals=50)
 
 
 class StiffLine(Model):
@@ -165,7 +191,7 @@ def test_error_falls_with_tolerance(case):
     errors = [case(tolerance) for tolerance in TOLERANCES]
     for tolerance, error in zip(TOLERANCES, errors, strict=True):
         within(f"{case.__name__} at {tolerance:g}", error, max(1000 * tolerance, 1e-8))
-    for coarse, fine in zip(errors[1:], errors[2:], strict=False):
+    for coarse, fine in pairwise(errors[1:]):
         assert fine < coarse / 3 or fine < 1e-8
 
 
@@ -215,5 +241,5 @@ def test_mass_of_zero_that_must_move_is_refused():
         def connections(self):
             yield chain(self.world, self.hinge, self.body)
 
-    with pytest.raises(ac.AcausalError, match="hinge|body"):
+    with pytest.raises(ac.AcausalError, match=r"hinge|body"):
         ac.simulate(Empty(), stop_time=1.0)

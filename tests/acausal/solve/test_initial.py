@@ -90,6 +90,19 @@ def test_too_far_a_slider_is_refused_with_the_mismatch_and_the_joints() -> None:
     assert all(name in str(error.value) for name in ("bearing", "pin", "wrist", "slider"))
 
 
+def test_one_start_value_too_many_is_told_with_what_could_be_freed() -> None:
+    with pytest.raises(ac.InitializationError, match="miss each other") as error:
+        ac.simulate(Crank(bearing=Revolute(phi=fixed(1.0))), stop_time=0.1)
+    assert "`bearing.phi`, `slider.s`" in str(error.value)
+    with pytest.raises(ac.InitializationError, match=r"move apart at [\d.]+ m/s or rad/s"):
+        ac.simulate(Crank(bearing=Revolute(w=fixed(1.0))), stop_time=0.1)
+
+
+def test_velocity_that_nobody_gives_is_asked_for() -> None:
+    with pytest.raises(ac.InitializationError, match=r"1 freedom open.*\n.*\n  \w+: Revolute\(w=fixed"):
+        ac.simulate(Crank(slider=Prismatic(s=fixed(0.35))), stop_time=0.1)
+
+
 class Linkage(Model):
     """Spatial four-bar with two sphericals: a crank, a rocker, and a coupler that can spin about itself."""
 
