@@ -1,0 +1,166 @@
+"""How constraints are kept: states chosen by pivots, projection, and equations of one's own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model, Scalar, chain, connect, der, fixed, guess, output, variable
+from components import BodyRod, FixedTranslation, Prismatic, Revolute, World
+from models import Bricard, FourBar
+from tests.reference import bricard
+
+
+@pytest.mark.parametrize("constraints", ["states", "projection", "auto"])
+def test_bricard_by_every_way(constraints: str) -> None:
+    result = ac.simulate(Bricard(), stop_time=4, tolerance=1e-8, intervals=100, constraints=constraints)
+    expected = bricard.point(result.time)
+    found = np.column_stack([result[name] for name in "xyz"])
+    assert np.abs(found - expected).max() < 1e-5
+    kept = "projection" if constraints == "auto" else constraints
+    assert result.stats["constraints"] == kept
+
+
+def test_new_choices_of_states_leave_results_continuous() -> None:
+    result = ac.simulate(Bricard(), stop_time=8, tolerance=1e-8, intervals=800, constraints="states")
+    assert result.stats["choices"] == result.stats["calls"] > 2
+    angles = result["joint[0].phi"]
+    rates = result["joint[0].w"]
+    trapezium = np.diff(result.time) * (rates[1:] + rates[:-1]) / 2
+    assert np.abs(np.diff(angles) - trapezium).max() < 1e-5
+
+
+def test_where_states_last_one_call_is_enough() -> None:
+    stats = ac.simulate(FourBar(), stop_time=5, tolerance=1e-8).stats
+    assert (stats["constraints"], stats["calls"], stats["choices"]) == ("states", 1, 1)
+
+
+class Pendulum(Model):
+    """Point mass on a bar, in Cartesian coordinates with the length as an equation: index 3."""
+
+    x: Scalar = variable("horizontal position", unit="m", start=1.0, fixed=True)
+    y: Scalar = variable("vertical position", unit="m", start=0.0)
+    u: Scalar = variable("der(x)", unit="m/s")
+    v: Scalar = variable("der(y)", unit="m/s", start=0.0, fixed=True)
+    pull: Scalar = variable("force of the bar over its length and the mass", unit="1/s2")
+    y_out: Scalar = output("vertical position", unit="m")
+
+    def equations(self):
+        yield der(self.x) == self.u
+        yield der(self.y) == self.v
+        yield der(self.u) == -self.pull * self.x
+        yield der(self.v) == -self.pull * self.y - 9.81
+        yield self.x**2 + self.y**2 == 1
+        yield self.y_out == self.y
+
+
+@pytest.mark.parametrize("constraints", ["states", "projection", "auto"])
+def test_pendulum_in_cartesian_coordinates(constraints: str) -> None:
+    """No choice of x or y as state lasts for a swing; after two periods the mass is back."""
+    period = 2.367841947576237
+    result = ac.simulate(Pendulum(), stop_time=2 * period, tolerance=1e-9, intervals=200, constraints=constraints)
+    assert np.abs(result["x"] ** 2 + result["y"] ** 2 - 1).max() < 1e-12
+    assert result["x"][-1] == pytest.approx(1, abs=1e-5)
+    assert result["y"][[0, 50, 100]] == pytest.approx([0, -1, 0], abs=1e-1)
+    assert result["x"][100] == pytest.approx(1, abs=1e-5)
+
+
+def test_length_that_changes_in_time() -> None:
+    """A constraint that moves: the mass at the end of a bar that is pulled in keeps its angular momentum."""
+
+    class Pulled(Model):
+        x: Scalar = variable("position", start=1.0, fixed=True)
+        y: Scalar = variable("position", start=0.0)
+        u: Scalar = variable("der(x)")
+        v: Scalar = variable("der(y)", start=2.0, fixed=True)
+        pull: Scalar = variable("force over length")
+
+        def equations(self):
+            yield der(self.x) == self.u
+            yield der(self.y) == self.v
+            yield der(self.u) == -self.pull * self.x
+            yield der(self.v) == -self.pull * self.y
+            yield self.x**2 + self.y**2 == (1 - 0.3 * ac.time) ** 2
+
+    result = ac.simulate(Pulled(), stop_time=2, tolerance=1e-9)
+    momentum = result["x"] * result["v"] - result["y"] * result["u"]
+    assert momentum == pytest.approx(2, abs=1e-6)
+    assert np.hypot(result["x"], result["y"]) == pytest.approx(1 - 0.3 * result.time, abs=1e-12)
+
+
+class Tilted(Model):
+    """Parallelogram in an inclined plane: nothing folds away, three constraints are redundant by rank."""
+
+    tilt: Any = (1.0, 1.0, 1.0)
+    world = World(g=9.81)
+    n = np.array([1.0, 1.0, 1.0]) / np.sqrt(3)
+    e = np.array([1.0, -1.0, 0.0]) / np.sqrt(2)
+    f = np.cross(n, e)
+    j1 = Revolute(n=n, phi=fixed(0.3), w=fixed(0.5))
+    j2, j3, j4 = (Revolute(n=(1, 1, 1)) for _ in range(3))
+    left, right = BodyRod(r=f, m=1), BodyRod(r=f, m=1)
+    top, ground = BodyRod(r=2 * e, m=2), FixedTranslation(r=2 * e)
+
+    def connections(self):
+        yield chain(self.world, self.j1, self.left, self.j2, self.top, self.j3, self.right.frame_b)
+        yield chain(self.world, self.ground, self.j4, self.right)
+
+
+def test_planar_loop_in_an_inclined_plane() -> None:
+    compiled = ac.compile(Tilted())
+    result = ac.simulate(compiled, stop_time=3, tolerance=1e-9)
+    (loop,) = compiled.report["loops"]
+    assert (loop["constraints"], loop["redundant"], loop["redundant_by_rank"]) == (6, 3, 3)
+    # All points of the coupler translate: th'' = -g_f (2 m/2 + M) / (2 m/3 + M) sin(...), from the energy.
+    n, e = Tilted.n, Tilted.e
+    phi, w = result["j1.phi"], result["j1.w"]
+    up = np.array([0, 1.0, 0])
+    along, across = up @ np.cross(n, e), up @ e
+    height = np.cos(phi) * along - np.sin(phi) * across
+    energy = (2 / 3 + 2) * w**2 / 2 + (1 + 2) * 9.81 * height
+    assert energy == pytest.approx(energy[0], abs=1e-6)
+    assert np.ptp(phi) > 0.5
+
+
+def test_redundant_slider_beside_a_slider() -> None:
+    """Two parallel guides hold one body: five of six constraints are redundant."""
+
+    class Guided(Model):
+        world = World(g=9.81, n=(1, 0, 0))
+        first, second = Prismatic(s=fixed(0), v=fixed(0)), Prismatic()
+        body = BodyRod(r=(0, 1, 0), m=2)
+        base = FixedTranslation(r=(0, 1, 0))
+
+        def connections(self):
+            yield chain(self.world, self.first, self.body, self.second.frame_b)
+            yield chain(self.world, self.base, self.second)
+
+    result = ac.simulate(Guided(), stop_time=1, tolerance=1e-9)
+    assert result["first.s"] == pytest.approx(9.81 * result.time**2 / 2, abs=1e-7)
+    assert result["second.s"] == pytest.approx(result["first.s"], abs=1e-12)
+
+
+def test_flat_parallelogram_keeps_all_constraints_and_goes_where_the_velocity_points() -> None:
+    class Flat(Model):
+        world = World(gravity=None)
+        j1 = Revolute(phi=fixed(0), w=fixed(1.0))
+        j2, j3 = Revolute(w=guess(-1.0)), Revolute(w=guess(1.0))
+        j4 = Revolute(w=guess(1.0))
+        left, top, right = BodyRod(r=(1, 0, 0), m=1), BodyRod(r=(2, 0, 0), m=1), BodyRod(r=(1, 0, 0), m=1)
+        ground = FixedTranslation(r=(2, 0, 0))
+
+        def connections(self):
+            yield chain(self.world, self.j1, self.left, self.j2, self.top, self.j3, self.right.frame_b)
+            yield chain(self.world, self.ground, self.j4)
+            yield connect(self.j4.frame_b, self.right.frame_a)
+
+    compiled = ac.compile(Flat())
+    result = ac.simulate(compiled, stop_time=2, tolerance=1e-8, initial="guesses")
+    (loop,) = compiled.report["loops"]
+    assert loop["singular_start"]
+    assert loop["redundant_by_rank"] == 0
+    assert result["j1.phi"] == pytest.approx(result.time, abs=1e-3)
+    assert result["j4.phi"] == pytest.approx(result.time, abs=1e-3)
