@@ -11,7 +11,8 @@ from acausal.compiler.call import Call
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
 
-NEWTON = 2
+# Relative change of a Newton step after which the next one would change rounding only.
+SETTLED = 1e-6
 
 
 class Closing:
@@ -50,6 +51,7 @@ class Closing:
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
         self._settling: dict[int, Call] = {}
+        self._many: dict[int, Call] = {}
         column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
         r = reduced
         arguments = [r.x, r.flat.parameters, time.sx, r.modes]
@@ -70,6 +72,32 @@ class Closing:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
         value, J = self._call(x, p, t, modes)
         return value.copy(), J.reshape(len(x), self.size).T.copy()
+
+    def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        """Jacobian of the constraints by the coordinates that each holds at its level, at n points.
+
+        Parameters
+        ----------
+        x : array, shape (n, nx)
+            States.
+        p, modes : arrays
+            Parameters and constants of the segment.
+        t : array, shape (n,)
+            Times.
+
+        Returns
+        -------
+        array, shape (n, size, nx)
+        """
+        n, nx = x.shape
+        if n not in self._many:
+            self._many[n] = Call(self.function.map(n))
+        _, J = self._many[n](x.ravel(), np.tile(p, n), t, np.tile(modes, n))
+        full = J.reshape(n, nx, self.size).transpose(0, 2, 1)
+        found = np.zeros_like(full)
+        rows, columns = self.entries
+        found[:, rows, columns] = full[:, rows, columns]
+        return found
 
     def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
         """Return the states with every coordinate where the constraints have it."""
@@ -92,13 +120,17 @@ class Closing:
         t : array, shape (n,)
             Times.
         """
-        for _ in range(NEWTON):
+        change = np.inf
+        while change > SETTLED:
             settled = self._settle(x, z, p, t, modes)
             if settled is None:
                 # Singular at some time: the others need not suffer.
                 rows = range(len(t)) if len(t) > 1 else ()
                 return np.array([self.settle(x[k][None], z[k][None], p, t[k][None], modes)[0] for k in rows] or z)
+            before, change = change, float(np.max(np.abs(settled - z) / (1 + np.abs(z)), initial=0.0))
             z = settled
+            if not change < before:
+                break
         return z
 
     def _settle(
@@ -123,7 +155,7 @@ class Closing:
         both = ca.Function("alg", arguments, [ca.densify(alg), ca.jacobian(alg, r.z)])
         symbols = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
         value, J = both(*symbols)
-        return ca.Function("newton", symbols, [symbols[1] - ca.solve(J, value, "qr")])
+        return ca.Function("newton", symbols, [symbols[1] - ca.solve(J, value, "csparse")])
 
     def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""

@@ -150,7 +150,7 @@ class Integrator:
             return False
         looks = int(np.clip(WORK / c.closing.size**3, 8, 100))
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
-        return any(worn(c, x[k], self.p, float(times[k]), modes) < WORN for k in some)
+        return bool(np.any(worn(c, x[some], self.p, times[some], modes) < WORN))
 
     def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:
         """Go from output to output where there is nothing to integrate."""

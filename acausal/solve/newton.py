@@ -118,9 +118,7 @@ def _is_range(indices: np.ndarray) -> bool:
 
 def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
     try:
-        return splu(
-            J.tocsc(), permc_spec=order, diag_pivot_thresh=0.01, options={"SymmetricMode": order == "NATURAL"}
-        ).solve
+        return splu(J.tocsc(), permc_spec=order).solve
     except RuntimeError:
         pass
     # Singular here: the step of least norm, if there is one, leads on.

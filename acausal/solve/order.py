@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.sparse import diags
+from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
@@ -65,9 +65,10 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
 
 def state_matrix(J: Any, nx: int) -> np.ndarray:
     """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
-    J = J.toarray() if hasattr(J, "toarray") else np.asarray(J)
+    J = csc_matrix(J)
     f, g = J[:nx], J[nx:]
-    return f[:, :nx] - f[:, nx:] @ np.linalg.solve(g[:, nx:], g[:, :nx]) if len(g) else f[:, :nx]
+    own = f[:, :nx].toarray()
+    return own - f[:, nx:] @ splu(g[:, nx:].tocsc()).solve(g[:, :nx].toarray()) if g.shape[0] else own
 
 
 def order_limit(values: np.ndarray, duration: float) -> int:

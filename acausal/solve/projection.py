@@ -78,15 +78,6 @@ def _moved(
     return moved if mismatch < 1e-10 else None
 
 
-def held(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
-    """Jacobian of the constraints by the coordinates that each holds at its level."""
-    c = compiled.closing
-    entries = tuple(c.entries)
-    J = np.zeros((c.size, compiled.nx))
-    J[entries] = c(x, p, t, modes)[1][entries]
-    return J
-
-
 def choose_projection(
     compiled: CompiledModel,
     x: np.ndarray,
@@ -112,7 +103,7 @@ def choose_projection(
     on = np.ones(c.size, dtype=bool)
     for k, constraint in enumerate(c.closures):
         on[list(c.rows[constraint])] = modes[switches_of(compiled)][k] > 0
-    J = held(compiled, x, p, t, modes) * on[:, None]
+    J = c.held(x[None], p, np.array([t]), modes)[0] * on[:, None]
     stiffness = np.zeros(compiled.nx) if z is None else _stiffness(compiled, x, z, p, t, modes)
     weights = _spared(J, stiffness)
     D = J * weights
@@ -149,10 +140,10 @@ def _stiffness(
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
     rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
     columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
-    J = compiled.at(x, z, p, t, modes, 0.0).jacobian.toarray()[rows][:, columns]
+    J = compiled.at(x, z, p, t, modes, 0.0).jacobian[rows][:, columns]
     try:
         A = state_matrix(J, nx)
-    except np.linalg.LinAlgError:
+    except RuntimeError:
         return np.zeros(nx)
     place = {v: k for k, v in enumerate(plan.states)}
     of = {q.coordinate: place[q.state] for q in plan.constrained.projections}
@@ -185,23 +176,35 @@ def _spared(J: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """
     for exponent in range(1, 13):
         weights = 1 / (1 + stiffness / 10.0**exponent)
-        if _transversality(J, J * weights) >= SPARED:
+        if float(_transversality(J, J * weights)) >= SPARED:
             return weights
     return np.ones(len(stiffness))
 
 
-def _transversality(J: np.ndarray, D: np.ndarray) -> float:
-    """Cosine of the largest angle between the row spaces of J and D: 1 is best, 0 is singular."""
+def _transversality(J: np.ndarray, D: np.ndarray) -> np.ndarray:
+    """Cosine of the largest angle between the row spaces of J, shape (..., m, n), and D: 1 is best, 0 is singular."""
     on = np.linalg.norm(D, axis=1) > 0
     if not on.any():
-        return 1.0
-    bases = [np.linalg.qr(scaled(A[on]).T)[0] for A in (J, D)]
-    return float(svd(bases[0].T @ bases[1], compute_uv=False)[-1])
+        return np.ones(J.shape[:-2])
+    held_by, chosen = (np.linalg.qr(np.swapaxes(A[..., on, :], -1, -2))[0] for A in (J, D))
+    return np.linalg.svd(np.swapaxes(held_by, -1, -2) @ chosen, compute_uv=False)[..., -1]
 
 
-def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> float:
-    """How well the projection of a segment still suits a position: 1 is best, 0 is singular."""
+def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    """How well the projection of a segment still suits each of n positions: 1 is best, 0 is singular.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    x : array, shape (n, nx)
+        States.
+    p, modes : arrays
+        Parameters and constants of the segment.
+    t : array, shape (n,)
+        Times.
+    """
     c = compiled.closing
     D = np.zeros((c.size, compiled.nx))
     D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
-    return _transversality(held(compiled, x, p, t, modes), D)
+    return _transversality(c.held(x, p, t, modes)[:, :, c.states], D[:, c.states])
