@@ -48,10 +48,11 @@ class Frame(Connector):
         yield self.R.w, self.z
 
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
-        """Equal position, and a relative rotation matrix whose off-diagonal entries vanish."""
+        """Equal position, and a rotation vector n tan(angle / 2) of one frame from the other, which only no turn has as 0."""
         yield self.r_0 == other.r_0, resolve1(self.R, self.f)
-        T_rel = other.R.T @ self.R.T.T
-        yield (T_rel[1, 2], T_rel[2, 0], T_rel[0, 1]) == as_expr(np.zeros(3)), self.t
+        T = other.R.T @ self.R.T.T
+        turn = as_expr((T[1, 2] - T[2, 1], T[2, 0] - T[0, 2], T[0, 1] - T[1, 0])) / (1 + T[0, 0] + T[1, 1] + T[2, 2])
+        yield turn == as_expr(np.zeros(3)), self.t
 
     def loop_kind(self, undetermined: tuple[str, ...]) -> str:
         """Planar: a force across the plane and the torques in it; spherical: the forces alone."""

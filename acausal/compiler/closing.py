@@ -66,6 +66,10 @@ class Closing:
         self._following = Call(
             ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))])
         )
+        same = [
+            (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic
+        ]
+        self._kept = np.array(same, dtype=int).reshape(-1, 2).T
         self._places = [states[p.state] for p in constrained.projections]
 
     def __call__(self, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -161,4 +165,5 @@ class Closing:
         """Return the algebraic unknowns with all those in place that follow from the states."""
         z = z.copy()
         z[self._guessed] = self._following(x, p, t, modes)[0]
+        z[self._kept[0]] = x[self._kept[1]]
         return z

@@ -73,6 +73,11 @@ class Settable:
                     f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
                 )
             entry = float(array[at])
+            if name in flat.weighing and entry != values[index[name]]:
+                raise DeclarationError(
+                    f"`{name}` sets nominal values, which are fixed when compiled. "
+                    f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
+                )
             if name in index:
                 values[index[name]] = entry
             elif entry != 0:

@@ -188,7 +188,9 @@ class Assembly:
         arrays = self.raw.arrays
         start = [s for a in arrays for s in scalars(ca.vec(ca.densify(a.start.sx)))]
         guessed = [a.guessed or a.fixed for a in arrays for _ in range(a.expr.sx.numel())]
-        nominal = self._numbers(column([ca.vec(a.nominal.sx) for a in arrays]))
+        weights = column([ca.vec(a.nominal.sx) for a in arrays])
+        inside = {s.element_hash() for s in ca.symvar(weights)}
+        nominal = self._numbers(weights)
         select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
         for k in self._jumping():
             select[k] = ALWAYS
@@ -210,6 +212,11 @@ class Assembly:
             "start": column([start[k] for k in unknowns]),
             "guessed": np.array([guessed[k] for k in unknowns], dtype=bool),
             "nominal": nominal[unknowns],
+            "weighing": tuple(
+                name
+                for name, s in zip(self.raw.build.parameters.names, scalars(self.parameters), strict=True)
+                if s.element_hash() in inside
+            ),
             "preference": tuple(select[k] for k in unknowns),
         }
 

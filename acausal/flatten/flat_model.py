@@ -108,6 +108,8 @@ class FlatModel:
         Removed symbols and what they are, in remaining unknowns.
     energies : mapping of str to casadi.SX
         Stored energy, dissipated and supplied power of the whole model, in original symbols.
+    weighing : tuple of str
+        Parameters that nominal values depend on.
     limits, bound, structural_zeros
         Bounds of parameters, parameters that follow others, and entries that were exactly 0.
     redundant : tuple of Origin
@@ -140,6 +142,7 @@ class FlatModel:
     initial: tuple[Initial, ...]
     eliminated: tuple[ca.SX, ca.SX]
     energies: Mapping[str, ca.SX]
+    weighing: tuple[str, ...]
     limits: tuple[Any, ...]
     bound: Mapping[str, str]
     structural_zeros: tuple[str, ...]

@@ -8,9 +8,14 @@ from scipy.sparse.linalg import splu
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.solve.closing import CLOSED, close, refuse_open_loops
+from acausal.solve.methods import rates_of
 from acausal.solve.projection import choose_projection, find_redundancy, switches_of
-from acausal.solve.rank import null_space, pivots, rank, row_space
+from acausal.solve.rank import RANK, null_space, pivots, rank, row_space
 from acausal.solve.words import missing_text
+
+
+# Way out of a singular position: its square is the error of what is left out.
+AWAY = 1e-4
 
 
 def closed_guess(
@@ -111,12 +116,16 @@ def _reduced(
     free: np.ndarray,
     rows: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobians of the multipliers and of some rows by the free states, algebraic unknowns eliminated."""
+    """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = compiled.nx, compiled.nz
+    M = compiled.closing(x, p, t, modes)[1][:, free]
     J = compiled.at(x, z, p, t, modes, 1.0).jacobian.tocsc()
-    right = J[nx : nx + nz][:, free].toarray()
-    dz = -splu(J[nx : nx + nz, nx:].tocsc()).solve(right) if nz else right
-    return dz[compiled.closing.multipliers], J[rows][:, free].toarray() + J[rows][:, nx:] @ dz
+    inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
+    try:
+        dz = -splu(inner).solve(right) if nz else right
+    except RuntimeError:
+        dz = -np.linalg.lstsq(inner.toarray(), right, rcond=RANK)[0]
+    return M, J[rows][:, free].toarray() + J[rows][:, nx:] @ dz
 
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
@@ -149,3 +158,28 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
     weight = np.where(np.array(guessed)[free], 10.0, 1.0)
     order = pivots(null * weight)[: len(null)]
     return sorted(int(free[k]) for k in order)
+
+
+def leave_singular(
+    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> tuple[float, np.ndarray]:
+    """Go on from a singular position along the velocity, so short a way that accelerations do not matter.
+
+    Returns
+    -------
+    t, x
+        A moment later.
+    """
+    pairs = np.array(rates_of(compiled), dtype=int).reshape(-1, 2)
+    moving = np.isin(pairs[:, 0], compiled.closing.states)
+    coordinates, rates = pairs[moving].T
+    speed = float(np.max(np.abs(x[rates]), initial=0.0))
+    if not speed:
+        raise InitializationError(
+            f"the start at t = {t:g} s is a singular position at rest: nothing tells on which branch the loops go on. "
+            "Give a velocity, for instance w=fixed(...) of a joint, or start beside it."
+        )
+    later = AWAY / speed
+    moved = x.copy()
+    moved[coordinates] += later * x[rates]
+    return t + later, close(compiled, moved, np.empty(0, int), p, t + later, modes)[0]

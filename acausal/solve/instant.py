@@ -9,7 +9,9 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.solve.closed_start import leave_singular
 from acausal.solve.initialize import algebraic, initialize
+from acausal.solve.projection import choose_projection
 
 ROUNDS = 20
 SHORT = 1e-8  # of the run: what changes sign within that time does so now
@@ -184,3 +186,16 @@ def places_text(compiled: CompiledModel, guards: list[int]) -> str:
     """Say where guards are stated, a line each."""
     origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
     return "\n".join(f"  {origin}" for origin in list(origins)[:5])
+
+
+def go_on(compiled: CompiledModel, p: np.ndarray, at: Point) -> Point:
+    """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
+    redundancy = compiled.cache.get("redundancy")
+    if not compiled.closing.size or not redundancy.singular:
+        return at
+    time, x = leave_singular(compiled, at.x, at.z, p, at.time, at.modes)
+    modes = choose_projection(compiled, x, None, p, time, at.modes)
+    z = compiled.closing.guess(x, at.z, p, time, modes)
+    z[compiled.closing.multipliers] = 0.0
+    y = algebraic(compiled, np.concatenate([x, z]), p, time, modes)
+    return replace(at, time=time, x=x, z=y[compiled.nx :], modes=modes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from acausal.solve.projection import WORN, choose_projection, worn
 from acausal.solve.trace import Stretch, Trace
 
 CHUNKS = 25
+# Times in a call at which at least the choice of states is looked at.
+FINE = 60
 # Looks at the projection after a call cost about the cube of the number of constraints each.
 WORK = 2e7
 # Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
@@ -164,11 +166,27 @@ class Integrator:
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
-            if not self._call(times[k : k + 2], x, z, modes, HOPELESS) and not self._loosely(
-                times[k : k + 2], x, z, modes
-            ):
-                raise self.failure(times[k], times[k + 1])
+            here = times[k : k + 2]
+            stretch = self._stride(here, x, z, modes)
+            if stretch is not None:
+                self.keep(stretch)
+            elif not self._loosely(here, x, z, modes):
+                raise self.failure(*here)
             x, z = self._last()
+
+    def _stride(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, halvings: int = 6
+    ) -> Stretch | None:
+        """Go to the next output, with new choices of states on the way where one does not last."""
+        stretch = self.attempt(times, x, z, modes, HOPELESS, careful=True)
+        if stretch is not None or not self.worn or not halvings:
+            return stretch
+        middle = (times[0] + times[1]) / 2
+        first = self._stride(np.array([times[0], middle]), x, z, modes, halvings - 1)
+        if first is None:
+            return None
+        last = self._stride(np.array([middle, times[1]]), first.x[-1], first.z[-1], modes, halvings - 1)
+        return last and replace(last, energy=last.energy + first.energy[-1])
 
     def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> bool:
         """Pass a nearly singular position with longer steps: short ones cannot, whatever the rounding."""
@@ -204,6 +222,8 @@ class Integrator:
         if not c.nx:
             return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
+        parts = -(-FINE // (len(times) - 1)) if c.closing.size and not self.moves else 1
+        times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span, n = times[-1] - times[0], len(times) - 1
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         way = (one_step if self.rings else multistep)(self, times, x, z, modes, max_steps, careful)
@@ -224,12 +244,13 @@ class Integrator:
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         energy = out["qf"].reshape(n, 2).copy() if self.settings.energy else np.zeros((n, 2))
         states, algebraics = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
-        self.worn = n > 1 and self._is_worn(times[1:], states, modes)
+        self.worn = self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
-        if c.closing.size:
-            algebraics = c.closing.settle(states, algebraics, self.p, times[1:], modes)
-        return Stretch(np.array(times[1:]), states, algebraics, energy, modes, steps)
+        found = Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts)
+        if not c.closing.size:
+            return found
+        return replace(found, z=c.closing.settle(found.x, found.z, self.p, found.times, modes))
 
     def keep(self, stretch: Stretch) -> None:
         """Append rows to the trace; integrals of power go on from the last one."""

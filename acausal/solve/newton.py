@@ -119,8 +119,8 @@ def _is_range(indices: np.ndarray) -> bool:
 def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
     try:
         return splu(J.tocsc(), permc_spec=order).solve
-    except RuntimeError:
+    except (RuntimeError, ValueError):
         pass
-    # Singular here: the step of least norm, if there is one, leads on.
+    # Singular here, or with rows to spare: the step of least norm, if there is one, leads on.
     dense = J.toarray()
     return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]

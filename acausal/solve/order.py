@@ -67,8 +67,8 @@ def state_matrix(J: Any, nx: int) -> np.ndarray:
     """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
     J = csc_matrix(J)
     f, g = J[:nx], J[nx:]
-    own = f[:, :nx].toarray()
-    return own - f[:, nx:] @ splu(g[:, nx:].tocsc()).solve(g[:, :nx].toarray()) if g.shape[0] else own
+    own, right = f[:, :nx].toarray(), g[:, :nx].toarray()
+    return own - f[:, nx:] @ splu(g[:, nx:].tocsc()).solve(right) if g.shape[0] else own
 
 
 def order_limit(values: np.ndarray, duration: float) -> int:

@@ -17,7 +17,7 @@ from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
 from acausal.result import Result
 from acausal.solve.events import Chattering, Run
-from acausal.solve.instant import Point, start
+from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
 from acausal.solve.order import eigenvalues_of, order_limit
 
@@ -101,6 +101,7 @@ def simulate(
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
     at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), initial)
+    first, at = at, go_on(compiled, p, at)
     rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
     max_order = max_order or order_limit(rates, stop_time - start_time)
     fastest = float(np.max(np.abs(rates), initial=0.0))
@@ -116,7 +117,7 @@ def simulate(
     stats = _stats(compiled, integrator, tolerance, max_order, breaks)
     stats |= {"events": len(run.events), "event_times": run.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
-    result = _result(compiled, integrator.trace, p, run.first or at, times, stats, energy)
+    result = _result(compiled, integrator.trace, p, (run.first or at) if at is first else first, times, stats, energy)
     if isinstance(failure, Failure):
         raise SimulationError(_failure_text(compiled, integrator, p, failure), result)
     if isinstance(failure, Chattering):
@@ -173,7 +174,7 @@ def _stats(
         "max_order": max_order,
         "tolerance": tolerance,
         "method": " and ".join(trace.methods) or "none",
-        "constraints": "projection" if run.moves else "states",
+        "constraints": "none" if not compiled.closing.size else "projection" if run.moves else "states",
         "choices": trace.choices,
         "loosened_at": trace.loosened,
         "break_times": breaks,

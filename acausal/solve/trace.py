@@ -66,3 +66,8 @@ class Stretch:
         """Return some of the rows, as if the call had begun at its start all the same."""
         part = slice(first, last)
         return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)
+
+    def every(self, parts: int) -> Stretch:
+        """Return one row in so many, the last one of each."""
+        part = slice(parts - 1, None, parts)
+        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)

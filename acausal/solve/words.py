@@ -65,10 +65,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         if row < 0:
             lines.append(f"  der({compiled.states[row]}) = 0: off by {value[k]:.4g}")
         elif row < nz:
-            equation = plan.residuals[row]
-            while equation >= len(flat.origins):
-                equation = plan.differentiated[equation - len(flat.origins)]
-            lines.append(f"  {flat.origins[equation]}: off by {value[k]:.4g}")
+            lines.append(f"  {_equation(compiled, plan.residuals[row])}: off by {value[k]:.4g}")
         else:
             condition = flat.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
@@ -77,3 +74,15 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         lines += [f"  {flat.initial[row - nz].text} ({flat.initial[row - nz].origin})" for row in surplus[:5]]
     lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
     return "\n".join(lines)
+
+
+def _equation(compiled: CompiledModel, equation: int) -> str:
+    """Say where an equation of the extended system comes from."""
+    flat, plan = compiled.reduced.flat, compiled.reduced.plan
+    written, differentiated = len(flat.origins), len(plan.differentiated)
+    while written <= equation < written + differentiated:
+        equation = plan.differentiated[equation - written]
+    if equation < written:
+        return str(flat.origins[equation])
+    projection = plan.constrained.projections[(equation - written - differentiated) // 2]
+    return f"projection of `{compiled.reduced.names[projection.coordinate]}` on the constraints"

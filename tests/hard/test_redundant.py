@@ -99,9 +99,6 @@ def test_planar_loop_in_an_inclined_plane(constraints):
     within("closing gap, m", gap(result), 1e-7)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="conditions on speeds that cannot move end in an internal error, not in a message"
-)
 def test_inclined_by_hardly_more_than_rounding_is_no_planar_loop():
     """Axes apart by 1e-3 rad: the loop is spatial and has no freedom left; speeds of 1 and 0 contradict it."""
 

@@ -122,17 +122,6 @@ def test_stiff_and_undamped_beside_soft(tolerance):
     within("first rotor, rad", np.abs(result["one.phi"] - reduced(result.time)).max(), bound)
 
 
-@pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True,
-    raises=ac.SimulationError,
-    reason="below 1e-8 the rounding of angles of 1 rad, times 1e9, is more than the tolerance allows",
-)
-@pytest.mark.parametrize(("c", "d"), STIFF)
-def test_stiff_and_damped_below_rounding(c, d):
-    ac.simulate(StiffPair(stiff=c, drag=d), stop_time=10.0, tolerance=1e-9, intervals=50)
-
-
 class StiffLine(Model):
     """Masses on a guide: soft spring to the wall, spring-damper of 1e9 between them."""
 

@@ -41,8 +41,8 @@ def test_where_states_last_one_call_is_enough() -> None:
 class Pendulum(Model):
     """Point mass on a bar, in Cartesian coordinates with the length as an equation: index 3."""
 
-    x: Scalar = variable("horizontal position", unit="m", start=1.0, fixed=True)
-    y: Scalar = variable("vertical position", unit="m", start=0.0)
+    x: Scalar = variable("horizontal position", unit="m", start=1.0)
+    y: Scalar = variable("vertical position", unit="m", start=0.0, fixed=True)
     u: Scalar = variable("der(x)", unit="m/s")
     v: Scalar = variable("der(y)", unit="m/s", start=0.0, fixed=True)
     pull: Scalar = variable("force of the bar over its length and the mass", unit="1/s2")
@@ -64,7 +64,9 @@ def test_pendulum_in_cartesian_coordinates(constraints: str) -> None:
     result = ac.simulate(Pendulum(), stop_time=2 * period, tolerance=1e-9, intervals=200, constraints=constraints)
     assert np.abs(result["x"] ** 2 + result["y"] ** 2 - 1).max() < 1e-12
     assert result["x"][-1] == pytest.approx(1, abs=1e-5)
-    assert result["y"][[0, 50, 100]] == pytest.approx([0, -1, 0], abs=1e-1)
+    assert result["y"][[0, 50, 100]] == pytest.approx([0, 0, 0], abs=1e-5)
+    assert result["y"].min() == pytest.approx(-1, abs=1e-6)
+    assert result["x"][50] == pytest.approx(-1, abs=1e-5)
     assert result["x"][100] == pytest.approx(1, abs=1e-5)
 
 
@@ -72,8 +74,8 @@ def test_length_that_changes_in_time() -> None:
     """A constraint that moves: the mass at the end of a bar that is pulled in keeps its angular momentum."""
 
     class Pulled(Model):
-        x: Scalar = variable("position", start=1.0, fixed=True)
-        y: Scalar = variable("position", start=0.0)
+        x: Scalar = variable("position", start=1.0)
+        y: Scalar = variable("position", start=0.0, fixed=True)
         u: Scalar = variable("der(x)")
         v: Scalar = variable("der(y)", start=2.0, fixed=True)
         pull: Scalar = variable("force over length")
@@ -94,13 +96,13 @@ def test_length_that_changes_in_time() -> None:
 class Tilted(Model):
     """Parallelogram in an inclined plane: nothing folds away, three constraints are redundant by rank."""
 
-    tilt: Any = (1.0, 1.0, 1.0)
     world = World(g=9.81)
     n = np.array([1.0, 1.0, 1.0]) / np.sqrt(3)
     e = np.array([1.0, -1.0, 0.0]) / np.sqrt(2)
     f = np.cross(n, e)
-    j1 = Revolute(n=n, phi=fixed(0.3), w=fixed(0.5))
-    j2, j3, j4 = (Revolute(n=(1, 1, 1)) for _ in range(3))
+    j1 = Revolute(n=n, phi=fixed(-2.0), w=fixed(1.5))
+    j2 = Revolute(n=(1, 1, 1), phi=guess(2.0))
+    j3, j4 = Revolute(n=(1, 1, 1), phi=guess(-2.0)), Revolute(n=(1, 1, 1), phi=guess(-2.0))
     left, right = BodyRod(r=f, m=1), BodyRod(r=f, m=1)
     top, ground = BodyRod(r=2 * e, m=2), FixedTranslation(r=2 * e)
 
@@ -114,14 +116,14 @@ def test_planar_loop_in_an_inclined_plane() -> None:
     result = ac.simulate(compiled, stop_time=3, tolerance=1e-9)
     (loop,) = compiled.report["loops"]
     assert (loop["constraints"], loop["redundant"], loop["redundant_by_rank"]) == (6, 3, 3)
-    # All points of the coupler translate: th'' = -g_f (2 m/2 + M) / (2 m/3 + M) sin(...), from the energy.
+    # Two bars turn, the coupler moves with their ends.
     n, e = Tilted.n, Tilted.e
     phi, w = result["j1.phi"], result["j1.w"]
     up = np.array([0, 1.0, 0])
     along, across = up @ np.cross(n, e), up @ e
     height = np.cos(phi) * along - np.sin(phi) * across
     energy = (2 / 3 + 2) * w**2 / 2 + (1 + 2) * 9.81 * height
-    assert energy == pytest.approx(energy[0], abs=1e-6)
+    assert energy == pytest.approx(energy[0], abs=1e-5)
     assert np.ptp(phi) > 0.5
 
 
