@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import casadi as ca
+
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.flatten.flat_model import FlatClosure
+from acausal.symbols import scalars
 
 SHOWN = 12
 
@@ -70,8 +74,8 @@ def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
     redundancy = compiled.cache.get("redundancy")
     found = []
     for number, loop in enumerate(flat.loops):
-        own = [compiled.closing.closures[k] for k, c in enumerate(flat.closures) if c.loop == number]
-        by_rank = len(set(own).intersection(redundancy.dropped)) if redundancy else 0
+        dropped = [c for k, c in enumerate(flat.closures) if c.loop == number and _is_dropped(compiled, k)]
+        by_rank = len(dropped)
         found.append(
             {
                 "kind": loop.kind,
@@ -81,11 +85,25 @@ def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
                 "constraints": loop.constraints,
                 "redundant": loop.dropped + by_rank,
                 "redundant_by_rank": by_rank,
-                "undetermined": list(loop.undetermined),
+                "undetermined": [*loop.undetermined, *_flows(compiled, dropped)],
                 "singular_start": bool(redundancy and redundancy.singular),
             }
         )
     return found
+
+
+def _is_dropped(compiled: CompiledModel, closure: int) -> bool:
+    redundancy = compiled.cache.get("redundancy")
+    return bool(redundancy) and compiled.closing.closures[closure] in redundancy.dropped
+
+
+def _flows(compiled: CompiledModel, closures: list[FlatClosure]) -> list[str]:
+    """Names of the flows that work on closures."""
+    flat = compiled.reduced.flat
+    flows = {s.element_hash() for c in closures for s in ca.symvar(c.dual)}
+    moving = {flat.unknowns[k].element_hash() for k in flat.declared}
+    names = zip(flat.names, scalars(flat.unknowns), strict=True)
+    return [name for name, s in names if s.element_hash() in flows - moving]
 
 
 def _tell(loop: dict[str, Any]) -> str:
@@ -94,9 +112,9 @@ def _tell(loop: dict[str, Any]) -> str:
     text = f"through {_list(loop['parts'])}, closed where {a} meets {b} ({loop['where']}): "
     text += f"{loop['redundant']} of its {loop['constraints']} constraints redundant and dropped, {left} kept"
     if loop["redundant_by_rank"]:
-        text += f"; {loop['redundant_by_rank']} of them found by rank at the start, their cut forces are 0"
+        text += f"; {loop['redundant_by_rank']} of them found by rank at the start"
     if loop["undetermined"]:
-        text += f"; undetermined and set to 0: {_list(loop['undetermined'])}"
+        text += f"; undetermined, and set to 0 or the work of them is: {_list(loop['undetermined'])}"
     if loop["singular_start"]:
         text += "; the start is a singular position: all constraints are kept, the velocity chooses the way on"
     return text

@@ -13,7 +13,6 @@ from acausal.solve.projection import choose_projection, find_redundancy, switche
 from acausal.solve.rank import RANK, null_space, pivots, rank, row_space
 from acausal.solve.words import missing_text
 
-
 # Way out of a singular position: its square is the error of what is left out.
 AWAY = 1e-4
 

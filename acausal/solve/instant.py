@@ -190,7 +190,7 @@ def places_text(compiled: CompiledModel, guards: list[int]) -> str:
 
 def go_on(compiled: CompiledModel, p: np.ndarray, at: Point) -> Point:
     """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
-    redundancy = compiled.cache.get("redundancy")
+    redundancy: Any = compiled.cache.get("redundancy")
     if not compiled.closing.size or not redundancy.singular:
         return at
     time, x = leave_singular(compiled, at.x, at.z, p, at.time, at.modes)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import svd
 from scipy.optimize import linear_sum_assignment
 
 from acausal.compiler import CompiledModel

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -51,12 +52,13 @@ def test_joints_follow_from_the_tip() -> None:
 
 @pytest.mark.parametrize("bend", [-1.0, 1.0])
 def test_guesses_choose_among_several_positions(bend: float) -> None:
-    model = DoublePendulum(first=Revolute(phi=guess(-0.4 - 0.8 * bend)), second=Revolute(phi=guess(1.6 * bend)))
+    make: Any = DoublePendulum
+    model = make(first=Revolute(phi=guess(-0.4 - 0.8 * bend)), second=Revolute(phi=guess(1.6 * bend)))
     result = ac.simulate(model, stop_time=0.01, intervals=1)
     assert np.sign(result["second.phi"][0]) == bend
 
 
-class Crank(Model):
+class SliderCrank(Model):
     """Rigid slider-crank of which the slider's position and velocity are given."""
 
     world = World(gravity=None)
@@ -69,13 +71,16 @@ class Crank(Model):
         yield connect(self.world.frame_b, self.slider.frame_a)
 
 
+Crank: Any = SliderCrank
+
+
 def test_loop_follows_from_the_slider() -> None:
     result = ac.simulate(Crank(), stop_time=0.01, intervals=1)
 
     def position(phi: float) -> float:
         return 0.15 * np.cos(phi) + np.sqrt(0.3**2 - (0.15 * np.sin(phi)) ** 2)
 
-    phi = brentq(lambda phi: position(phi) - 0.35, 0.1, 3.0)
+    phi: Any = brentq(lambda phi: position(phi) - 0.35, 0.1, 3.0)
     assert result["bearing.phi"][0] == pytest.approx(phi, abs=1e-9)
     slope = (position(phi + 1e-6) - position(phi - 1e-6)) / 2e-6
     assert result["bearing.w"][0] == pytest.approx(-0.4 / slope, rel=1e-8)
