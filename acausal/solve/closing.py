@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 
-CLOSED = 1e-9
+CLOSED, ROUGH = 1e-9, 1e-6
 ATTEMPTS = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
 
 
@@ -58,9 +58,12 @@ def close(
         Largest residual.
     """
     x, mismatch = x.copy(), 0.0
-    for rows, columns in levels(compiled)[: 1 if positions else None]:
+    for depth, (rows, columns) in enumerate(levels(compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
         x, left = _solve(compiled, x, rows, free, p, t, modes)
+        if depth and CLOSED < left <= ROUGH * (1 + np.max(np.abs(x))):
+            # Near a singular position rates are known only as well as the root of the positions.
+            x, left = _solve(compiled, x, rows, columns, p, t, modes)
         mismatch = max(mismatch, left)
         if left > CLOSED:
             break
@@ -86,14 +89,16 @@ def _solve(
 
     value, _ = evaluate(x[free])
     left = float(np.max(np.abs(value), initial=0.0))
-    best, smallest = x[free], left
     if not free.size:
         return x, left
+    best, smallest = x[free], left if np.isfinite(left) else np.inf
     scale = compiled.nominal[free]
     for k, size in enumerate(ATTEMPTS):
         if smallest <= CLOSED:
             break
         start = x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
+        if not np.all(np.isfinite(evaluate(start)[0])):
+            continue
         options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
         options["jac"] = lambda u: evaluate(u)[1]
         u = least_squares(lambda u: evaluate(u)[0], start, **options).x

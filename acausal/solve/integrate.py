@@ -22,7 +22,7 @@ FINE = 60
 WORK = 2e7
 # Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
 # or an output counts as hopeless.
-LOOSER, LOOSEST = (1e2, 1e4), 1e-4
+LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
 SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
 Progress = Callable[[float, int], None]
 
@@ -189,13 +189,17 @@ class Integrator:
         return last and replace(last, energy=last.energy + first.energy[-1])
 
     def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> bool:
-        """Pass a nearly singular position with longer steps: short ones cannot, whatever the rounding."""
+        """Pass a nearly singular position: with the other method, then with longer steps, which short ones cannot replace."""
+        rings, auto = self.rings, self.settings.method == "auto"
         for factor in LOOSER:
-            self.tolerance = min(factor * self.settings.tolerance, LOOSEST)
-            done = self._call(times, x, z, modes, HOPELESS)
-            self.tolerance = self.settings.tolerance
+            self.tolerance = min(factor * self.settings.tolerance, max(LOOSEST, self.settings.tolerance))
+            for self.rings in (True, False) if auto else (rings,):
+                done = self._call(times, x, z, modes, HOPELESS)
+                if done:
+                    break
+            self.rings, self.tolerance = rings, self.settings.tolerance
             if done:
-                self.trace.loosened.append(float(times[0]))
+                self.trace.loosened += [float(times[0])] * (factor > 1)
                 return True
         return False
 

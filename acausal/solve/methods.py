@@ -58,8 +58,9 @@ def multistep(
         "max_num_steps": max_steps,
         "disable_internal_warnings": True,
         "quad_err_con": False,
-        # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps.
-        "nonlin_conv_coeff": 0.05,
+        # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular
+        # position of a loop they are enlarged.
+        "nonlin_conv_coeff": 0.005 if c.closing.size else 0.05,
         "show_eval_warnings": False,
         "linear_solver": "qr" if careful else "csparse",
         "calc_ic": steepest > 1 and not careful,

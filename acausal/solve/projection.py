@@ -17,6 +17,8 @@ from acausal.solve.order import state_matrix
 from acausal.solve.rank import null_space, pivots, rank, scaled
 
 MOTION = 1e-2
+# Positions where ranks are lost are known only as well as the root of how well loops close.
+NEARLY = 1e-5
 WORN, SPARED = 0.05, 0.3
 
 
@@ -37,17 +39,17 @@ def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: fl
         return scaled(c(at, p, t, modes)[1][rows])
 
     here = jacobian(x)
-    if rank(here) == len(rows):
+    if rank(here, NEARLY) == len(rows):
         return Redundancy((), False)
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
     for seed in range(3):
         moved = _moved(compiled, x, here, free, seed, p, t, modes)
         there = jacobian(moved) if moved is not None else here
-        if rank(there) > rank(best):
+        if rank(there, NEARLY) > rank(best, NEARLY):
             best, singular = there, True
     if rank(best) == len(rows):
-        return Redundancy((), True)
+        return Redundancy((), singular)
     # Those that cannot be dropped come first.
     weight = np.ones(len(rows))
     droppable = {c.closures[k] for k, dual in enumerate(compiled.reduced.flat.closures) if not dual.dual.is_constant()}

@@ -16,9 +16,9 @@ def scaled(rows: np.ndarray) -> np.ndarray:
     return rows / np.where(size > 0, size, 1.0)
 
 
-def rank(rows: np.ndarray) -> int:
+def rank(rows: np.ndarray, tolerance: float = RANK) -> int:
     """Number of independent rows."""
-    return int(np.sum(svd(scaled(rows), compute_uv=False) > RANK * max(rows.shape))) if rows.size else 0
+    return int(np.sum(svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
 
 
 def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:

@@ -46,7 +46,7 @@ class Parallelogram(Model):
         yield chain(self.far, self.foot2, self.rocker)
 
 
-FLAT = pytest.mark.xfail(strict=True, reason="the start in a position where constraints lose rank is not found yet")
+FLAT = pytest.mark.xfail(strict=True, reason="where branches cross, some of them cannot be followed through flat positions")
 
 
 def swing(times: np.ndarray, angle: float, rate: float, gravity: float = 9.81) -> np.ndarray:
@@ -58,8 +58,7 @@ def swing(times: np.ndarray, angle: float, rate: float, gravity: float = 9.81) -
     return solve_ivp(derivative, (0, times[-1]), [angle, rate], "DOP853", times, rtol=1e-12, atol=1e-13).y[0]
 
 
-@FLAT
-@pytest.mark.parametrize("angle", [0.0, np.pi])
+@pytest.mark.parametrize("angle", [0.0, pytest.param(np.pi, marks=FLAT)])
 @pytest.mark.parametrize("rate", [2.0, -1.0, 8.0])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_parallelogram_from_its_flat_position(angle, rate, gravity):
@@ -72,7 +71,7 @@ def test_parallelogram_from_its_flat_position(angle, rate, gravity):
     within("rocker less crank, rad", np.abs(result["foot2.phi"] - result["foot1.phi"]).max(), 1e-4)
 
 
-@pytest.mark.parametrize("angle", [0.1, 1e-2, pytest.param(1e-4, marks=FLAT)])
+@pytest.mark.parametrize("angle", [0.1, 1e-2, 1e-4])
 def test_parallelogram_from_near_its_flat_position(angle):
     """One speed is enough, since the pose tells the branch; it moves away through flat at once and comes back."""
     model = Parallelogram(angle=angle, rates=(-1.0, 0.0), given=False)
@@ -81,7 +80,6 @@ def test_parallelogram_from_near_its_flat_position(angle):
     within("rocker less crank, rad", np.abs(result["foot2.phi"] - result["foot1.phi"]).max(), 1e-4)
 
 
-@pytest.mark.xfail(strict=True, reason="a condition on a speed that the loop gives anyway ends in an internal error")
 def test_both_speeds_of_a_loop():
     """A condition too many that agrees with the others is taken."""
     model = Parallelogram(angle=0.5, rates=(1.0, 1.0))
@@ -129,7 +127,6 @@ def test_antiparallelogram_from_its_flat_position(rate):
     within("rocker, rad", np.abs(result["foot2.phi"] - crossed(result["foot1.phi"])).max(), 1e-3)
 
 
-@FLAT
 def test_one_speed_does_not_choose_a_branch():
     with pytest.raises(ac.InitializationError, match=r"1 freedom open[\s\S]*w=fixed"):
         ac.simulate(Parallelogram(given=False), stop_time=1.0)

@@ -63,9 +63,9 @@ def test_deflection_converges_with_elements() -> None:
 
 def test_resolve_follows_the_ringing() -> None:
     model = ac.compile(SliderCrank(rod="rigid"))
-    span: dict[str, Any] = {"stop_time": 0.8, "tolerance": 1e-5, "intervals": 80}
-    damped, resolved = ac.simulate(model, **span), ac.simulate(model, **span, method="resolve")
-    assert (damped.stats["method"], resolved.stats["method"]) == ("idas and rosenbrock", "idas")
+    span: dict[str, Any] = {"stop_time": 0.8, "tolerance": 1e-5, "intervals": 320}
+    damped, resolved = (ac.simulate(model, **span, method=m) for m in ("rosenbrock", "resolve"))
+    assert (damped.stats["method"], resolved.stats["method"]) == ("rosenbrock", "idas")
     assert resolved.stats["steps"] > 3 * damped.stats["steps"]
     assert np.abs(damped["slider_position"] - resolved["slider_position"]).max() < 1e-4 * RANGE
 
