@@ -22,6 +22,7 @@ FINE = 60
 WORK = 2e7
 # Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
 # or an output counts as hopeless.
+PATIENT = 20_000
 LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
 SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
 Progress = Callable[[float, int], None]
@@ -178,7 +179,9 @@ class Integrator:
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, halvings: int = 6
     ) -> Stretch | None:
         """Go to the next output, with new choices of states on the way where one does not last."""
-        stretch = self.attempt(times, x, z, modes, HOPELESS, careful=True)
+        # Loops that get stuck beside a singular position do so for ever.
+        most = LONG if self.compiled.closing.size else HOPELESS
+        stretch = self.attempt(times, x, z, modes, most, careful=True)
         if stretch is not None or not self.worn or not halvings:
             return stretch
         middle = (times[0] + times[1]) / 2
@@ -194,7 +197,7 @@ class Integrator:
         for factor in LOOSER:
             self.tolerance = min(factor * self.settings.tolerance, max(LOOSEST, self.settings.tolerance))
             for self.rings in (True, False) if auto else (rings,):
-                done = self._call(times, x, z, modes, HOPELESS)
+                done = self._call(times, x, z, modes, PATIENT)
                 if done:
                     break
             self.rings, self.tolerance = rings, self.settings.tolerance

@@ -46,7 +46,9 @@ class Parallelogram(Model):
         yield chain(self.far, self.foot2, self.rocker)
 
 
-FLAT = pytest.mark.xfail(strict=True, reason="where branches cross, some of them cannot be followed through flat positions")
+FLAT = pytest.mark.xfail(
+    strict=True, reason="where branches cross, some of them cannot be followed through flat positions"
+)
 
 
 def swing(times: np.ndarray, angle: float, rate: float, gravity: float = 9.81) -> np.ndarray:
