@@ -124,8 +124,8 @@ class Closing:
         t : array, shape (n,)
             Times.
         """
-        change = np.inf
-        while change > SETTLED:
+        before, change = np.inf, np.finfo(float).max
+        while SETTLED < change < before:
             settled = self._settle(x, z, p, t, modes)
             if settled is None:
                 # Singular at some time: the others need not suffer.
@@ -133,8 +133,6 @@ class Closing:
                 return np.array([self.settle(x[k][None], z[k][None], p, t[k][None], modes)[0] for k in rows] or z)
             before, change = change, float(np.max(np.abs(settled - z) / (1 + np.abs(z)), initial=0.0))
             z = settled
-            if not change < before:
-                break
         return z
 
     def _settle(

@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
+from acausal.errors import InitializationError
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.solve.instant import start
@@ -108,7 +109,13 @@ def linearize(
     values = Call(ca.Function("linear", compiled.arguments, [ca.densify(J)]))(x, z, p, time, modes, 0.0)[0]
     M = values.reshape(J.shape[::-1]).T
     nx, nz = compiled.nx, compiled.nz
-    A = state_matrix(M[: nx + nz, : nx + nz], nx)
+    try:
+        A = state_matrix(M[: nx + nz, : nx + nz], nx)
+    except RuntimeError:
+        raise InitializationError(
+            f"the model cannot be linearised at t = {time:g} s: its equations are singular there, as those of a loop that "
+            "lies flat. Start beside it."
+        ) from None
     gz, gu = M[nx : nx + nz, nx : nx + nz], M[nx : nx + nz, nx + nz :]
     gx = M[nx : nx + nz, :nx]
     zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))

@@ -28,7 +28,19 @@ WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
 def eigenvalues_of(
     compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
 ) -> np.ndarray:
-    """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one."""
+    """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one.
+
+    Where the equations are singular, there are none.
+    """
+    try:
+        return _eigenvalues(compiled, x, z, p, t, modes)
+    except RuntimeError:
+        return np.zeros(0, complex)
+
+
+def _eigenvalues(
+    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> np.ndarray:
     nx, nz = compiled.nx, compiled.nz
     J = compiled.at(x, z, p, t, modes, 0.0).jacobian[: nx + nz]
     if nx <= (LOOPED if compiled.closing.size else DENSE):

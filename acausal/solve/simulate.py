@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 import casadi as ca
 import numpy as np
@@ -118,14 +118,19 @@ def simulate(
     stats |= {"events": len(run.events), "event_times": run.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     result = _result(compiled, integrator.trace, p, (run.first or at) if at is first else first, times, stats, energy)
+    if failure is not None:
+        _raise(failure, result, integrator, p)
+    return result
+
+
+def _raise(failure: BaseException, result: Result, integrator: Integrator, p: np.ndarray) -> NoReturn:
+    """Raise what ended a run, with what was computed."""
     if isinstance(failure, Failure):
-        raise SimulationError(_failure_text(compiled, integrator, p, failure), result)
+        raise SimulationError(_failure_text(integrator.compiled, integrator, p, failure), result)
     if isinstance(failure, Chattering):
         raise SimulationError(str(failure), result)
-    if failure is not None:
-        failure.result = result  # type: ignore[attr-defined]
-        raise failure
-    return result
+    failure.result = result  # type: ignore[attr-defined]
+    raise failure
 
 
 def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:

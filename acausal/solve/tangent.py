@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.solve.methods import rates_of
 from acausal.solve.rank import null_space, pivots
 
 
@@ -18,14 +19,20 @@ def tangent(
     N : array, shape (nx, n)
         Changes of all states for a unit change of each independent one; all constraints hold along them.
     chosen : array of int, shape (n,)
-        The independent states, those along which the motion is largest.
+        The independent states, those along which the motion is largest, coordinates with their rates.
     """
     nx = compiled.nx
     if not compiled.closing.size:
         return np.eye(nx), np.arange(nx)
     J = compiled.closing(x, p, t, modes)[1]
     null = null_space(J)
-    # Whatever no constraint holds stays a state of its own, before all others.
-    weight = np.where(np.any(J != 0, axis=0), 1.0, 10.0)
-    chosen = np.sort(pivots(null * weight)[: len(null)])
+    rate_of = dict(rates_of(compiled))
+    # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
+    weight = np.where(np.any(J != 0, axis=0), 1.0, 100.0)
+    weight[[k for k in rate_of if weight[k] == 1.0]] = 10.0
+    order = pivots(null * weight)
+    first = [k for k in order[: len(null)] if k not in rate_of.values()]
+    paired = np.unique([*first, *(rate_of[k] for k in first if k in rate_of)])
+    fits = len(paired) == len(null) and np.linalg.matrix_rank(null[:, paired]) == len(null)
+    chosen = paired if fits else np.sort(order[: len(null)])
     return np.linalg.solve(null[:, chosen], null).T, chosen

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, der, fixed, guess, output, variable
+from acausal import Model, Scalar, chain, connect, der, fixed, guess, output, parts, variable
 from components import BodyRod, FixedTranslation, Prismatic, Revolute, World
-from models import Bricard, FourBar
-from tests.reference import bricard
+from models import Bricard, FourBar, NFourBar
+from tests.reference import bricard, n_four_bar
 
 
 @pytest.mark.parametrize("constraints", ["states", "projection", "auto"])
@@ -164,3 +164,26 @@ def test_flat_parallelogram_keeps_all_constraints_and_goes_where_the_velocity_po
     assert loop["redundant_by_rank"] == 0
     assert result["j1.phi"] == pytest.approx(result.time, abs=1e-3)
     assert result["j4.phi"] == pytest.approx(result.time, abs=1e-3)
+
+
+class Hanging(NFourBar):
+    """The parallelograms, hanging down."""
+
+    @parts
+    def foot(self):
+        """Joints on the ground, near the lower equilibrium."""
+        return [Revolute(phi=guess(np.pi + 0.1)) for _ in range(self.N + 1)]
+
+    @parts
+    def pin(self):
+        """Joints of the couplers, near it too."""
+        return [Revolute(phi=guess((-1) ** (k + 1) * np.pi)) for k in range(2 * self.N)]
+
+
+@pytest.mark.parametrize("N", [1, 3])
+def test_frequency_about_the_equilibrium_of_loops(N: int) -> None:
+    linear = ac.linearize(Hanging(N=N), initial="steady")
+    inertia, moment = n_four_bar.inertia_and_moment(N)
+    assert linear.frequencies_hz == pytest.approx([np.sqrt(moment * 9.81 / inertia) / (2 * np.pi)], rel=1e-6)
+    assert len(linear.states) == 2
+    assert linear.states[1] == linear.states[0].replace(".phi", ".w")
