@@ -65,9 +65,9 @@ class Guards:
         """Whether anything but break times of switches can happen."""
         return bool(self.watched or self.n_modes > self.n_switches or len(self.guards) > self.n_switches)
 
-    def _resolve(self, entries: list[ca.SX]) -> ca.SX:
+    def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = ca.vertcat(ca.SX(0, 1), *entries)
-        return ca.densify(ca.substitute(self.reduced.resolve(column), initial.sx, 0))
+        return ca.densify(ca.substitute(self.reduced.resolve(column, unprojected), initial.sx, 0))
 
     @cached_property
     def breaks(self) -> Call:
@@ -157,7 +157,7 @@ class Guards:
 
     def _place(self, guard: Guard, jump: Jump) -> tuple[tuple[bool, int], ca.SX]:
         """Where a jump goes in the states or modes, and what stands there afterwards."""
-        target, value = self._resolve([jump.target]), self._resolve([jump.value])
+        target, value = self._resolve([jump.target], unprojected=True), self._resolve([jump.value])
         if jump.discrete is not None:
             return (False, self.n_switches + jump.discrete), value
         x = self.reduced.x

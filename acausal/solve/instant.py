@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.solve.closed_start import leave_singular
+from acausal.solve.closing import CLOSED, close, refuse_open_loops
 from acausal.solve.initialize import algebraic, initialize
 from acausal.solve.projection import choose_projection
 
@@ -123,13 +124,24 @@ class Instants:
         raise Cycling(moved)
 
     def _jump(self, at: Point, fires: list[int], modes: np.ndarray) -> np.ndarray:
-        """Return the states after jumps computed from the values before; discrete variables change in `modes`."""
-        x = at.x.copy()
+        """Return the states after jumps computed from the values before; discrete variables change in `modes`.
+
+        In closed loops the other states follow, by the least change that keeps the loops closed.
+        """
+        c = self.compiled
+        x, jumped = c.closing.project(at.x, at.z, self.p, at.time, at.modes), []
         for guard in fires:
             call, places = self.guards.jump(guard)
             for (is_state, place), value in zip(places, call(at.x, at.z, self.p, at.time, at.modes)[0], strict=True):
                 (x if is_state else modes)[place] = value
-        return x
+                jumped += [place] * is_state
+        if not jumped or not c.closing.size:
+            return x
+        held = np.array(jumped, dtype=int)
+        closed, mismatch = close(c, x, held, self.p, at.time, modes)
+        if mismatch > CLOSED:
+            refuse_open_loops(c, closed, held, self.p, at.time, modes)
+        return closed
 
 
 def start(compiled: CompiledModel, p: np.ndarray, time: float, later: float, initial: str) -> Point:

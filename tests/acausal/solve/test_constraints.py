@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, der, fixed, guess, output, parts, variable
+from acausal import Model, Scalar, chain, connect, der, fixed, guess, output, parts, reinit, variable, when
 from components import BodyRod, FixedTranslation, Prismatic, Revolute, World
 from models import Bricard, FourBar, NFourBar
 from tests.reference import bricard, n_four_bar
@@ -187,3 +187,33 @@ def test_frequency_about_the_equilibrium_of_loops(N: int) -> None:
     assert linear.frequencies_hz == pytest.approx([np.sqrt(moment * 9.81 / inertia) / (2 * np.pi)], rel=1e-6)
     assert len(linear.states) == 2
     assert linear.states[1] == linear.states[0].replace(".phi", ".w")
+
+
+def test_impact_in_a_loop_takes_all_its_joints_along() -> None:
+    """The crank bounces back with half of its speed where the slider is at 0.41 m, and so do slider and rod."""
+
+    class Bouncing(Model):
+        world = World(gravity=None)
+        bearing = Revolute(phi=fixed(1.5), w=fixed(-5))
+        pin, wrist = Revolute(phi=guess(-2)), Revolute()
+        crank, rod = BodyRod(r=(0.15, 0, 0), m=1), BodyRod(r=(0.3, 0, 0), m=1)
+        guide = Prismatic(s=guess(0.3))
+
+        def connections(self):
+            yield chain(self.world, self.bearing, self.crank, self.pin, self.rod, self.wrist, self.guide.frame_b)
+            yield connect(self.world.frame_b, self.guide.frame_a)
+
+        def equations(self):
+            yield when(self.guide.s > 0.41, reinit(self.bearing.w, -0.5 * self.bearing.w))
+
+    result = ac.simulate(Bouncing(), stop_time=0.5, tolerance=1e-9, intervals=500, energy=True)
+    (event,) = result.stats["event_times"]
+    before, after = np.searchsorted(result.time, event) + np.array([-1, 0])
+    assert result["bearing.w"][after] == pytest.approx(-0.5 * result["bearing.w"][before], rel=5e-2)
+    assert result["guide.v"][after] == pytest.approx(-0.5 * result["guide.v"][before], rel=5e-2)
+    assert np.abs(result["rod.frame_a.r_0"] - result["pin.frame_b.r_0"]).max() < 1e-12
+    phi, w = result["bearing.phi"], result["bearing.w"]
+    slope = -0.15 * np.sin(phi) - 0.15**2 * np.sin(phi) * np.cos(phi) / np.sqrt(0.3**2 - (0.15 * np.sin(phi)) ** 2)
+    assert result["guide.v"] == pytest.approx(slope * w, abs=1e-9)
+    # Three quarters of the energy are gone.
+    assert result.stats["energy_dissipated"] == pytest.approx(-result.stats["energy_stored_change"], rel=1e-6)
