@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 DPI = 150
 LABEL = 36
+FLAT = 0.03  # of the largest range in an axes
 LEGEND_ROWS = 12
 LEGEND_LINES = 36
 
@@ -33,7 +34,7 @@ class Series:
 
 
 def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
-    """Draw scalars over time, one axes for each unit.
+    """Draw scalars over time, one axes for each unit; what would look flat beside the others has its own.
 
     Parameters
     ----------
@@ -54,17 +55,27 @@ def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
 
     if not series:
         raise DeclarationError("there is nothing to plot: the model has no outputs; name some variables.")
-    units = list(dict.fromkeys(s.unit for s in series))
-    figure = Figure(figsize=(8.0, 1.2 + 2.4 * len(units)), dpi=DPI, layout="tight")
+    groups = [group for unit in dict.fromkeys(s.unit for s in series) for group in _alike(series, unit)]
+    figure = Figure(figsize=(8.0, 1.2 + 2.4 * len(groups)), dpi=DPI, layout="tight")
     FigureCanvasAgg(figure)
-    column = figure.subplots(len(units), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, unit in zip(column, units, strict=True):
-        _fill(axes, time, [s for s in series if s.unit == unit], unit)
+    column = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, group in zip(column, groups, strict=True):
+        _fill(axes, time, group, group[0].unit)
     column[-1].set_xlabel("time [s]")
     if title:
         column[0].set_title(title)
     figure.align_ylabels()
     return figure
+
+
+def _alike(series: Sequence[Series], unit: str) -> list[list[Series]]:
+    """Split the series of a unit where the range of one is too small to be seen beside the others."""
+    own = [s for s in series if s.unit == unit]
+    spans = [float(np.ptp(s.values[np.isfinite(s.values)])) if np.any(np.isfinite(s.values)) else 0.0 for s in own]
+    most = max(spans)
+    small = [0 < span < FLAT * most for span in spans]
+    groups = [[s for s, flat in zip(own, small, strict=True) if flat is which] for which in (False, True)]
+    return [group for group in groups if group]
 
 
 def save(figure: Figure, path: str | Path) -> None:

@@ -32,7 +32,7 @@ def tangent(
     weight[[k for k in rate_of if weight[k] == 1.0]] = 10.0
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
-    paired = np.unique([*first, *(rate_of[k] for k in first if k in rate_of)])
-    fits = len(paired) == len(null) and np.linalg.matrix_rank(null[:, paired]) == len(null)
+    paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
+    fits = len(paired) == len(null) and (not len(null) or np.linalg.matrix_rank(null[:, paired]) == len(null))
     chosen = paired if fits else np.sort(order[: len(null)])
     return np.linalg.solve(null[:, chosen], null).T, chosen

@@ -9,7 +9,7 @@ import pytest
 from acausal.errors import DeclarationError, ExportError
 from acausal.result import check_picture, check_writable
 from acausal.result.files import whole
-from acausal.result.plots import draw
+from acausal.result.plots import Series, draw
 from tests.acausal.result.demo import TIME, demo
 
 PNG = b"\x89PNG"
@@ -124,3 +124,10 @@ def test_imports_are_late(code, absent):
     code = f"import sys; {code}; print([m for m in {absent} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_small_series_have_axes_of_their_own():
+    time = np.linspace(0, 1, 5)
+    large, small, still = Series("a", "m", time), Series("b", "m", 1e-3 * time), Series("c", "m", 0 * time)
+    figure = draw(time, [large, small, still])
+    assert [[line.get_label() for line in axes.lines] for axes in figure.axes] == [["a", "c"], ["b"]]
