@@ -11,7 +11,7 @@ from acausal.compiler.call import Call
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
 
-# Relative change of a Newton step after which the next one would change rounding only.
+# Change of the multipliers in a Newton step, after which the next one would change rounding only: the rest is linear.
 SETTLED = 1e-6
 
 
@@ -131,7 +131,8 @@ class Closing:
                 # Singular at some time: the others need not suffer.
                 rows = range(len(t)) if len(t) > 1 else ()
                 return np.array([self.settle(x[k][None], z[k][None], p, t[k][None], modes)[0] for k in rows] or z)
-            before, change = change, float(np.max(np.abs(settled - z) / (1 + np.abs(z)), initial=0.0))
+            moved = (settled - z)[:, self.multipliers]
+            before, change = change, float(np.max(np.abs(moved), initial=0.0))
             z = settled
         return z
 
