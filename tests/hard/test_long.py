@@ -69,9 +69,14 @@ def test_n_four_bar_through_its_flat_position(N, stop, tolerance):
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, raises=ac.SimulationError, reason="a step that ends too close to flat fails")
 def test_single_parallelogram_for_100_s():
-    ac.simulate(NFourBar(N=1), stop_time=100.0, tolerance=1e-8, intervals=400)
+    """Forty-odd passages through flat."""
+    result = ac.simulate(NFourBar(N=1), stop_time=100.0, tolerance=1e-8, intervals=400)
+    rate, angle = result["foot[0].w"], result["foot[0].phi"] + np.pi / 2
+    inertia, moment = n_four_bar.inertia_and_moment(1)
+    energy = inertia * rate**2 / 2 + moment * 9.81 * np.sin(angle)
+    print(result.stats["loosened_at"], result.stats["solve_seconds"])
+    within("energy, of what is exchanged", np.abs(energy / energy[0] - 1).max() / 2, 1000 * 1e-8 * 100)
 
 
 class Top(Model):
