@@ -16,6 +16,7 @@ from acausal.solve.words import lost_text
 ITERATIONS = 60
 CONVERGED = 1e-8
 ROUNDING = 1e-13
+TERMS = 1e3
 CONSISTENT = 1e-7
 SHORTEST = 1e-4
 
@@ -99,7 +100,10 @@ def newton(
                     break
             damping /= 2
             if damping < 1e-6:
-                raise InitializationError(lost_text(compiled, residual(y), system.rows, system.surplus, time))
+                here = residual(y)
+                if _is_rounding(here, J[rows], y):
+                    return y
+                raise InitializationError(lost_text(compiled, here, system.rows, system.surplus, time))
         y = trial
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= CONVERGED:
@@ -109,7 +113,15 @@ def newton(
             ):
                 break
             return y
-    raise InitializationError(lost_text(compiled, value, system.rows, system.surplus, time))
+    here = residual(y)
+    if _is_rounding(here, compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian[rows], y):
+        return y
+    raise InitializationError(lost_text(compiled, here, system.rows, system.surplus, time))
+
+
+def _is_rounding(value: np.ndarray, J: sparse.csc_matrix, y: np.ndarray) -> bool:
+    """Whether residuals are no larger than the rounding of their terms; stiff parts make unknowns follow it."""
+    return bool(np.all(np.abs(value) <= TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y) + 1)))
 
 
 def _is_range(indices: np.ndarray) -> bool:

@@ -78,3 +78,10 @@ def test_dead_centre_and_full_turns_of_the_rigid_mechanism() -> None:
     assert np.ptp(phi) > 2 * np.pi
     exact = r * np.cos(phi) + np.sqrt(length**2 - (r * np.sin(phi)) ** 2)
     assert result["slider_position"] == pytest.approx(exact, abs=1e-12)
+
+
+def test_many_elements_pass_the_break() -> None:
+    """Stiff elements: rounding of their forces moves accelerations more than a tolerance of initial values."""
+    stats = run(0.75, tolerance=1e-5, intervals=150, rod_elements=32).stats
+    assert stats["break_times"] == [0.7]
+    assert abs(stats["energy_method"]) < 1e-3 * stats["energy_supplied"]
