@@ -60,11 +60,6 @@ class Guards:
         ]
         self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
 
-    @property
-    def eventful(self) -> bool:
-        """Whether anything but break times of switches can happen."""
-        return bool(self.watched or self.n_modes > self.n_switches or len(self.guards) > self.n_switches)
-
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = ca.vertcat(ca.SX(0, 1), *entries)
         return ca.densify(ca.substitute(self.reduced.resolve(column, unprojected), initial.sx, 0))

@@ -160,7 +160,7 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
 
 
 def leave_singular(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+    compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
 ) -> tuple[float, np.ndarray]:
     """Go on from a singular position along the velocity, so short a way that accelerations do not matter.
 

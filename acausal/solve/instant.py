@@ -153,7 +153,7 @@ def start(compiled: CompiledModel, p: np.ndarray, time: float, later: float, ini
         The model and its parameter values.
     time, later : float
         Start time, and a time before the first break.
-    initial : "fixed" or "guesses"
+    initial : "fixed", "guesses" or "steady"
         See `initialize`.
 
     Raises
@@ -205,7 +205,7 @@ def go_on(compiled: CompiledModel, p: np.ndarray, at: Point) -> Point:
     redundancy: Any = compiled.cache.get("redundancy")
     if not compiled.closing.size or not redundancy.singular:
         return at
-    time, x = leave_singular(compiled, at.x, at.z, p, at.time, at.modes)
+    time, x = leave_singular(compiled, at.x, p, at.time, at.modes)
     modes = choose_projection(compiled, x, None, p, time, at.modes)
     z = compiled.closing.guess(x, at.z, p, time, modes)
     z[compiled.closing.multipliers] = 0.0

@@ -84,7 +84,7 @@ def linearize(
         The model.
     parameters : mapping of str to value, optional
         Values by path.
-    initial : "fixed" or "guesses"
+    initial : "fixed", "guesses" or "steady"
         See `simulate`.
     time : float
         Start time in s.

@@ -125,9 +125,16 @@ def switches_of(compiled: CompiledModel) -> slice:
 
 def independent(compiled: CompiledModel, modes: np.ndarray) -> tuple[str, ...]:
     """Names of the states that do not follow from others."""
-    entries = compiled.closing.entries
-    follow = {int(k) for k, d in zip(entries[1], modes[len(modes) - entries.shape[1] :], strict=True) if d != 0}
-    return tuple(name for k, name in enumerate(compiled.states) if k not in follow)
+    follows = np.any(_directions(compiled, modes) != 0, axis=0)
+    return tuple(name for name, other in zip(compiled.states, follows, strict=True) if not other)
+
+
+def _directions(compiled: CompiledModel, modes: np.ndarray) -> np.ndarray:
+    """D, shape (size, nx), from the constants of a segment."""
+    c = compiled.closing
+    D = np.zeros((c.size, compiled.nx))
+    D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
+    return D
 
 
 def _stiffness(
@@ -206,6 +213,4 @@ def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: np.ndarray, m
         Times.
     """
     c = compiled.closing
-    D = np.zeros((c.size, compiled.nx))
-    D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
-    return _transversality(c.held(x, p, t, modes)[:, :, c.states], D[:, c.states])
+    return _transversality(c.held(x, p, t, modes)[:, :, c.states], _directions(compiled, modes)[:, c.states])

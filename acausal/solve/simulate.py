@@ -55,8 +55,9 @@ def simulate(
         The result has intervals + 1 equidistant points.
     parameters : mapping of str to value, optional
         Values by path, such as {"beam.E": 7e10}.
-    initial : "fixed" or "guesses"
-        Whether states without a condition at the start are refused or take their guesses.
+    initial : "fixed", "guesses" or "steady"
+        Whether states without a condition at the start are refused, take their guesses, or take values at which all
+        derivatives vanish.
     method : "auto", "idas", "rosenbrock" or "resolve"
         "idas" is a multistep method whose error test sees every velocity; "resolve" is another name for it, and follows
         every vibration. "rosenbrock" is a one-step method that damps vibrations too small to be seen in positions. "auto"
