@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from acausal import Scalar, observed, parameter, sqrt, structural
+from acausal import Scalar, effect, observed, parameter, sqrt, structural
 from components.frame import TwoFrames
 from components.orientation import resolve2
 
@@ -30,6 +30,23 @@ class Beam(TwoFrames):
     nominal_rate : float
         Nominal value of der(q) over that of q in 1/s. A larger one, such as the rate of the slowest vibrations, lets the
         error test follow displacements rather than the velocities of ringing at high frequency.
+    adaptive : bool
+        True lets simulate(accuracy=...) choose the number of elements or volumes.
+    axial : "dynamic", "quasi_static" or "none"
+        Stretch with its vibrations; stretch that follows the axial force at once, without inertia of its own; or none.
+    bending : bool
+        False leaves a bar that stretches only.
+    rotary_inertia : bool
+        Inertia of the sections against their own rotation, rho J per length.
+    centrifugal, coriolis : bool
+        Forces on the deformation, and because of it, with the square of the angular velocity, and with the product of
+        angular velocity and rate of deformation; those of the straight beam always act.
+    geometric_stiffness : bool
+        Second-order shortening of the axis by its slope, by which axial forces stiffen the beam or let it buckle.
+    damping : bool
+        False leaves out alpha and beta.
+    weight : bool
+        False leaves out gravity.
     """
 
     length: Scalar = parameter("length", unit="m", positive=True)
@@ -49,6 +66,16 @@ class Beam(TwoFrames):
     beta: Scalar = parameter("damping in proportion to stiffness", unit="s", default=0, minimum=0)
     initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
     nominal_rate: Scalar = parameter("nominal value of der(q) over that of q", unit="1/s", default=1, positive=True)
+
+    adaptive: bool = structural("whether accuracy chooses the number of elements", default=False, choices=(True, False))
+    axial: str = effect("stretch", default="dynamic", choices=("dynamic", "quasi_static", "none"))
+    bending: bool = effect("bending in the xy plane", default=True)
+    rotary_inertia: bool = effect("inertia of the sections against rotation", default=False)
+    centrifugal: bool = effect("centrifugal forces of the deformation", default=True)
+    coriolis: bool = effect("Coriolis forces of the rates of deformation", default=True)
+    geometric_stiffness: bool = effect("second-order stiffness by axial forces", default=False)
+    damping: bool = effect("damping by alpha and beta", default=True)
+    weight: bool = effect("weight", default=True)
 
     middle_r_0: ClassVar[Any]
 

@@ -60,7 +60,7 @@ class FlexibleBeam(Beam):
     small against the length; a beam that turns faster than its first natural frequency needs SubstructuredBeam.
     """
 
-    elements: int = structural("number of finite elements", default=1, minimum=1)
+    elements: int = structural("number of finite elements", default=1, minimum=1, refine=lambda s: s.adaptive)
     world: World = outer(World)
     q: Any = variable(
         "free nodal coordinates (u, v, theta) of all nodes, resolved in the reference frame",

@@ -24,7 +24,7 @@ class SubstructuredBeam(Beam):
     Schiavo, Vigano, Ferretti 2006, section 3.4: the compatibility of the volumes is what connecting them means.
     """
 
-    volumes: int = structural("number of volumes", default=5, minimum=1)
+    volumes: int = structural("number of volumes", default=5, minimum=1, refine=lambda s: s.adaptive)
     elements_per_volume: int = structural("number of finite elements of a volume", default=1, minimum=1)
 
     @parts
@@ -45,6 +45,14 @@ class SubstructuredBeam(Beam):
                 beta=self.beta,
                 initial=self.initial,
                 nominal_rate=self.nominal_rate,
+                axial=self.axial,
+                bending=self.bending,
+                rotary_inertia=self.rotary_inertia,
+                centrifugal=self.centrifugal,
+                coriolis=self.coriolis,
+                geometric_stiffness=self.geometric_stiffness,
+                damping=self.damping,
+                weight=self.weight,
             )
             for _ in range(self.volumes)
         ]

@@ -48,6 +48,7 @@ def structural(
     choices: Sequence[Any] | None = None,
     minimum: float | None = None,
     shape: Shape = None,
+    refine: Callable[[Any], bool] | None = None,
 ) -> Any:
     """Declare a structural parameter: fixed when the model is compiled, a plain Python value in equations().
 
@@ -63,13 +64,36 @@ def structural(
         The least allowed value.
     shape : tuple of int, optional
         Shape of an array of numbers.
+    refine : callable, optional
+        Given for a number of elements, of which more bring the component nearer to its continuum: a function of the
+        component that tells whether simulate(accuracy=...) may choose it.
     """
-    return Structural(description, None, shape, default, choices=tuple(choices) if choices else None, minimum=minimum)
+    allowed = tuple(choices) if choices else None
+    return Structural(description, None, shape, default, choices=allowed, minimum=minimum, refine=refine)
 
 
-def effect(description: str, *, default: Any = True, choices: Sequence[Any] = (True, False)) -> Any:
-    """Declare a physical effect that can be switched: a structural parameter that the tool can list and price."""
-    return Structural(description, None, None, default, choices=tuple(choices), effect=True)
+def effect(
+    description: str,
+    *,
+    default: Any = True,
+    choices: Sequence[Any] = (True, False),
+    tries: Sequence[Any] | None = None,
+) -> Any:
+    """Declare a physical effect that can be switched: a structural parameter that the tool can list and price.
+
+    Parameters
+    ----------
+    description : str
+        What it is.
+    default : object
+        Value where none is given.
+    choices : sequence
+        The allowed values, the most complete first.
+    tries : sequence, optional
+        The choices that a study of effects tries beside the one in force, all if not given.
+    """
+    allowed, tried = tuple(choices), None if tries is None else tuple(tries)
+    return Structural(description, None, None, default, choices=allowed, effect=True, tries=tried)
 
 
 def parameter(

@@ -129,6 +129,8 @@ class Structural(Field):
     choices: tuple[Any, ...] | None = None
     minimum: float | None = None
     effect: bool = False
+    tries: tuple[Any, ...] | None = None
+    refine: Callable[[Any], bool] | None = None
 
 
 @dataclass(eq=False)
