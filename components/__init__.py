@@ -7,6 +7,7 @@ from components.body_cylinder import BodyCylinder
 from components.body_rod import BodyRod
 from components.body_shape import BodyShape
 from components.damper import Damper
+from components.driven_joint import DrivenJoint
 from components.fixed import Fixed
 from components.fixed_rotation import FixedRotation
 from components.flange import Flange, TwoFlanges
@@ -48,6 +49,7 @@ __all__ = [
     "BodyRod",
     "BodyShape",
     "Damper",
+    "DrivenJoint",
     "Fixed",
     "FixedRotation",
     "FixedTranslation",

@@ -32,6 +32,8 @@ class BeamMatrices:
         Integrals of S1' S1, S1' S2, S2' S2.
     K_axial, K_bending : arrays, shape (n, n)
         Integrals of S1'' S1' and S2'''' S2'' (first and second derivatives), factors EA/l and EJ/l^3.
+    G : array, shape (n, n)
+        Integral of S2'' S2' (first derivatives), factor 1/l.
     """
 
     s1: np.ndarray
@@ -43,6 +45,7 @@ class BeamMatrices:
     M22: np.ndarray
     K_axial: np.ndarray
     K_bending: np.ndarray
+    G: np.ndarray
 
 
 def _integral(polynomial: sp.Expr) -> float:
@@ -71,6 +74,7 @@ def element_matrices() -> BeamMatrices:
         M22=_matrix(ACROSS, ACROSS),
         K_axial=_matrix(ALONG, ALONG, 1),
         K_bending=_matrix(ACROSS, ACROSS, 2),
+        G=_matrix(ACROSS, ACROSS, 1),
     )
 
 
@@ -79,7 +83,7 @@ def beam_matrices(elements: int) -> BeamMatrices:
     """Assemble the integrals of a beam (equation 11): element j lies between nodes j and j + 1, its root at x = j."""
     one, n = element_matrices(), 3 * (elements + 1)
     vectors = {name: np.zeros(n) for name in ("s1", "s2", "x1", "x2")}
-    matrices = {name: np.zeros((n, n)) for name in ("M11", "M12", "M22", "K_axial", "K_bending")}
+    matrices = {name: np.zeros((n, n)) for name in ("M11", "M12", "M22", "K_axial", "K_bending", "G")}
     for j in range(elements):
         dofs = slice(3 * j, 3 * j + 6)
         for name, total in vectors.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,10 @@ class Inertia:
         Length in m and mass in kg of an element.
     U, Ud, Udd : Expr, shape (3 N + 3,)
         Nodal coordinates in m, and derivatives.
+    centrifugal, coriolis : bool
+        Whether U has a part in w x (w x u), where the straight beam always has one, and whether 2 w x du counts.
+    rest : Expr or float
+        What U is when the beam is straight.
     """
 
     matrices: BeamMatrices
@@ -38,6 +42,9 @@ class Inertia:
     U: Any
     Ud: Any
     Udd: Any
+    centrifugal: bool = True
+    coriolis: bool = True
+    rest: Any = 0.0
 
     @property
     def mass(self) -> Any:
@@ -67,40 +74,52 @@ class Inertia:
         nodal : Expr, shape (3 N + 3,)
             In N, conjugate to the nodal coordinates in m.
         """
-        b, l, mu, U, Ud, Udd = self.matrices, self.l, self.mu, self.U, self.Ud, self.Udd
-        P, Pd, Pdd = self.first(), self._moment(Ud), self._moment(Udd)
-        force = self.mass * a + cross(z, P) + cross(w, cross(w, P)) + 2 * cross(w, Pd) + Pdd
-        # Integrals of S1' u_x, S1' u_y, S2' u_x, S2' u_y.
-        x_1, y_1 = b.M11 @ U + l * b.x1, b.M12 @ U
-        x_2, y_2 = b.M12.T @ U + l * b.x2, b.M22 @ U
-        xx = mu * (self.elements**3 / 3 * l**2 + l * dot(b.x1, U) + dot(U, x_1))
-        yy, xy = mu * dot(U, y_2), mu * dot(U, x_2)
-        I = as_expr([[yy, -xy, 0.0], [-xy, xx, 0.0], [0.0, 0.0, xx + yy]])
-        xxd, yyd = mu * dot(Ud, x_1), mu * dot(Ud, y_2)
-        xyd, yxd = mu * dot(Ud, x_2), mu * dot(Ud, y_1)
-        coriolis = 2 * as_expr((w[0] * yyd - w[1] * yxd, w[1] * xxd - w[0] * xyd, w[2] * (xxd + yyd)))
+        b, mu, Ud, Udd = self.matrices, self.mu, self.Ud, self.Udd
+        P, Pdd, turning = self.first(), self._moment(Udd), self if self.centrifugal else self._straight()
+        x_1, y_1, x_2, y_2 = self._position()
+        c_1, d_1, c_2, d_2 = turning._position()
         relative = as_expr((0.0, 0.0, mu * (dot(x_2, Udd) - dot(y_1, Udd))))
-        moment = cross(P, a) + I @ z + cross(w, I @ w) + coriolis + relative
+        force = self.mass * a + cross(z, P) + cross(w, cross(w, turning.first())) + Pdd
+        moment = cross(P, a) + self._tensor() @ z + cross(w, turning._tensor() @ w) + relative
         wx, wy, wz = w
         nodal = mu * (
             a[0] * b.s1
             + a[1] * b.s2
-            + (wx * wy - z[2]) * y_1
-            - (wy**2 + wz**2) * x_1
-            + (wx * wy + z[2]) * x_2
-            - (wx**2 + wz**2) * y_2
-            + 2 * wz * (b.M12.T @ Ud - b.M12 @ Ud)
+            + z[2] * (x_2 - y_1)
+            + wx * wy * (c_2 + d_1)
+            - (wy**2 + wz**2) * c_1
+            - (wx**2 + wz**2) * d_2
             + (b.M11 + b.M22) @ Udd
         )
+        if self.coriolis:
+            xxd, yyd = mu * dot(Ud, x_1), mu * dot(Ud, y_2)
+            xyd, yxd = mu * dot(Ud, x_2), mu * dot(Ud, y_1)
+            force += 2 * cross(w, self._moment(Ud))
+            moment += 2 * as_expr((wx * yyd - wy * yxd, wy * xxd - wx * xyd, wz * (xxd + yyd)))
+            nodal += 2 * mu * wz * (b.M12.T @ Ud - b.M12 @ Ud)
         return force, moment, nodal
+
+    def _position(self) -> tuple[Any, Any, Any, Any]:
+        """Integrals of S1' u_x, S1' u_y, S2' u_x, S2' u_y."""
+        b, l, U = self.matrices, self.l, self.U
+        return b.M11 @ U + l * b.x1, b.M12 @ U, b.M12.T @ U + l * b.x2, b.M22 @ U
+
+    def _tensor(self) -> Any:
+        """Inertia tensor about the origin in kg.m2."""
+        b, l, mu, U = self.matrices, self.l, self.mu, self.U
+        x_1, _, x_2, y_2 = self._position()
+        xx = mu * (self.elements**3 / 3 * l**2 + l * dot(b.x1, U) + dot(U, x_1))
+        yy, xy = mu * dot(U, y_2), mu * dot(U, x_2)
+        return as_expr([[yy, -xy, 0.0], [-xy, xx, 0.0], [0.0, 0.0, xx + yy]])
+
+    def _straight(self) -> Inertia:
+        """The beam without displacements."""
+        return replace(self, U=as_expr(np.zeros(self.U.shape)) + self.rest)
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
-        b, l, mu, U, Ud = self.matrices, self.l, self.mu, self.U, self.Ud
-        x_1, x_2, y_1, y_2 = b.M11 @ U + l * b.x1, b.M12.T @ U + l * b.x2, b.M12 @ U, b.M22 @ U
-        xx = mu * (self.elements**3 / 3 * l**2 + l * dot(b.x1, U) + dot(U, x_1))
-        yy, xy = mu * dot(U, y_2), mu * dot(U, x_2)
-        I = as_expr([[yy, -xy, 0.0], [-xy, xx, 0.0], [0.0, 0.0, xx + yy]])
+        b, mu, Ud, I = self.matrices, self.mu, self.Ud, self._tensor()
+        _, y_1, x_2, _ = self._position()
         spin = mu * (dot(x_2, Ud) - dot(y_1, Ud))
         own = mu * dot(Ud, (b.M11 + b.M22) @ Ud)
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self._moment(Ud))
@@ -109,10 +128,9 @@ class Inertia:
     def element_forces(self, j: int, a: Any, z: Any, w: Any) -> tuple[Any, Any]:
         """Force and moment about the origin of the inertia of element j alone."""
         nodes = slice(3 * j, 3 * j + 6)
-        shift = np.array([j, 0, 0, j, 0, 0])
         # An element whose root lies at x = j l is one at the origin with both nodes moved by j l.
-        own = Inertia(
-            element_matrices(), 1, self.l, self.mu, self.U[nodes] + self.l * shift, self.Ud[nodes], self.Udd[nodes]
-        )
+        rest = self.l * np.array([j, 0, 0, j, 0, 0])
+        U, Ud, Udd = self.U[nodes] + rest, self.Ud[nodes], self.Udd[nodes]
+        own = replace(self, matrices=element_matrices(), elements=1, U=U, Ud=Ud, Udd=Udd, rest=rest)
         force, moment, _ = own.forces(a, z, w)
         return force, moment

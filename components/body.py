@@ -13,6 +13,7 @@ from acausal import (
     Vector3,
     cross,
     dot,
+    effect,
     is_root,
     outer,
     parameter,
@@ -39,6 +40,9 @@ class Body(Component):
         Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2.
     angles_start, sequence_start, angles_fixed
         Orientation of a freely moving body at the start: angles in rad about the axes of the sequence.
+    gyroscopic : bool
+        False leaves out the torque w x I w. Valid where w stays along a principal axis, or where that torque is small
+        against the others: in other motions the energy is no longer balanced, as a turning body does not precess.
 
     Notes
     -----
@@ -52,6 +56,7 @@ class Body(Component):
     angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    gyroscopic: bool = effect("gyroscopic torque w x I w")
     world: World = outer(World)
     frame_a: Frame = port(Frame, "coordinate system fixed to the body")
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
@@ -68,7 +73,8 @@ class Body(Component):
         g = resolve2(frame.R, self.world.acceleration(self._centre()))
         acceleration = frame.a + cross(z, self.r_CM) + cross(w, cross(w, self.r_CM))
         yield frame.f == self.m * (acceleration - g)
-        yield frame.t == self.I @ z + cross(w, self.I @ w) + cross(self.r_CM, frame.f)
+        turning = self.I @ z + cross(w, self.I @ w) if self.gyroscopic else self.I @ z
+        yield frame.t == turning + cross(self.r_CM, frame.f)
         yield self.r_0 == frame.r_0
         yield self.v_0 == resolve1(frame.R, frame.v)
         yield self.a_0 == resolve1(frame.R, frame.a)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from acausal import (
     cross,
     der,
     dot,
+    in_loop,
     observed,
     outer,
     port,
@@ -25,6 +27,8 @@ from acausal import (
 from components.beam import Beam
 from components.beam_element import beam_matrices
 from components.beam_inertia import Inertia
+from components.beam_sections import Sections
+from components.beam_strain import Strain, shifted
 from components.frame import Frame, move
 from components.orientation import null_rotation, planar_rotation, resolve1, resolve2
 from components.world import World
@@ -80,6 +84,11 @@ class FlexibleBeam(Beam):
         shape=lambda s: (len(s.free),),
         unit=lambda s: [("m/s2", "m/s2", "rad/s2")[k % 3] for k in s.free],
     )
+    tension: Any = variable(
+        "axial force of each element, where its stretch is not integrated",
+        shape=lambda s: (s.elements * s._has_tension,),
+        unit="N",
+    )
 
     @port
     def chord(self):
@@ -88,10 +97,20 @@ class FlexibleBeam(Beam):
 
     @property
     def free(self) -> list[int]:
+        """Nodal coordinates that are integrated."""
+        return [k for k in self._loose if (self.bending if k % 3 else self.axial == "dynamic")]
+
+    @property
+    def _loose(self) -> list[int]:
         """Nodal coordinates that are not zero by the choice of the reference frame (equation 13)."""
         last = 3 * self.elements
         fixed = (0, 1, 2) if self.reference == "tangent" else (0, 1, last + 1)
         return [k for k in range(last + 3) if k not in fixed]
+
+    @property
+    def _has_tension(self) -> bool:
+        """Whether axial forces count although no stretch is integrated."""
+        return self.axial == "quasi_static" or (self.axial == "none" and self._strain.second_order)
 
     @property
     def ref(self) -> Any:
@@ -105,51 +124,60 @@ class FlexibleBeam(Beam):
         yield potential_root(self.ref, priority=1)
 
     def equations(self):
-        ref, b = self.ref, self.frame_b
-        yield self.qd == der(self.q)
-        yield self.qdd == der(self.qd)
-        U, inertia = self._nodes(self.q), self._inertia()
-        r_b, R_b = self._end(U), planar_rotation(Z, U[-1] / self._l)
+        ref, b, l = self.ref, self.frame_b, self._l
+        if self.free:
+            yield self.qd == der(self.q)
+            yield self.qdd == der(self.qd)
+        motion = U, Ud, _ = self._motion()
+        r_b, R_b = self._end(U), self._rotation(U[-1])
         if self.reference == "pinned":
-            R_a = planar_rotation(Z, U[2] / self._l)
+            R_a = self._rotation(U[2])
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
         else:
             R_a = null_rotation()
-        yield from move(ref, b, r_b, R_b)
+        # What closes a loop cannot follow forces: there a quasi-static stretch is seen in results of the beam alone.
+        moves_tip = self.axial == "quasi_static" and not in_loop(self)
+        yield from move(ref, b, r_b, R_b, as_expr((sum(self._stretches()), 0.0, 0.0)) if moves_tip else None)
 
         f_a, t_a = resolve1(R_a, self.frame_a.f), resolve1(R_a, self.frame_a.t)
         f_b, t_b = resolve1(R_b, b.f), resolve1(R_b, b.t)
-        a = ref.a - resolve2(ref.R, self.world.acceleration(self._centre(inertia)))
-        force, moment, nodal = inertia.forces(a, ref.z, ref.R.w)
-        spin = self.torsional_inertia * ref.R.w[0]
-        twist = as_expr((self.torsional_inertia * ref.z[0], ref.R.w[2] * spin, -ref.R.w[1] * spin))
-        rates = self._nodes(self.qd)
-        elastic, drag = self._stiffness(U) + self.beta * self._stiffness(rates), self._drag(rates)
+        inertia, sections = self._inertia(motion), self._sections(motion)
+        force, moment, nodal = inertia.forces(self._acceleration(inertia), ref.z, ref.R.w)
+        nodal += sections.nodal(ref.z)
+        elastic, drag = self._strain.forces(U, Ud, self._tensions(U, Ud)), self._drag(Ud)
         balance = nodal + elastic + drag
-
         load = [as_expr(0.0)] * (3 * self.elements + 3)
-        load[2] = t_a[2] / self._l
-        load[-3:] = [f_b[0], f_b[1], t_b[2] / self._l]
-        yield as_expr([balance[k] for k in self.free]) == as_expr([load[k] for k in self.free])
+        load[2] = t_a[2] / l
+        load[-3:] = [f_b[0], f_b[1], t_b[2] / l]
+        balanced = [k for k in self._loose if k in self.free or (self._has_tension and k % 3 == 0)]
+        if balanced:
+            yield as_expr([balance[k] for k in balanced]) == as_expr([load[k] for k in balanced])
+        root, tip = [force[k] - f_b[k] for k in range(3)], [f_b[0], f_b[1], t_b[2]]
         if self.reference == "tangent":
             # The balances of the nodes, subtracted from those of the whole beam, leave the load on the tip out of them.
-            root = [nodal[k] + elastic[k] - sum(drag[3 + k :: 3], as_expr(0.0)) for k in (0, 1)]
-            yield as_expr((*root, force[2])) == as_expr((f_a[0], f_a[1], f_a[2] + f_b[2]))
-            f_b = as_expr((balance[-3], balance[-2], f_b[2]))
-            t_b = as_expr((t_b[0], t_b[1], self._l * balance[-1]))
-        else:
-            yield force == f_a + f_b
-        yield moment + twist == t_a + t_b + cross(r_b, f_b)
+            for k in (k for k in range(3) if k + 3 * self.elements in balanced):
+                tip[k] = balance[k - 3] * (l if k == 2 else 1.0)
+                if k < 2:
+                    root[k] = nodal[k] + elastic[k] - sum(drag[3 + k :: 3], as_expr(0.0))
+        yield as_expr(root) == f_a
+        t_tip = as_expr((t_b[0], t_b[1], tip[2])) + cross(r_b, as_expr((tip[0], tip[1], f_b[2])))
+        yield moment + sections.moment(ref.z, ref.R.w) == t_a + t_tip
 
     def initial_equations(self):
         zero = np.zeros(len(self.free))
-        if self.initial != "free":
+        if self.initial != "free" and self.free:
             yield self.qd == as_expr(zero)
             yield (self.q if self.initial == "undeformed" else self.qdd) == as_expr(zero)
 
     @property
     def _l(self) -> Any:
         return self.length / self.elements
+
+    @property
+    def _strain(self) -> Strain:
+        beta = self.beta if self.damping else 0.0
+        second_order = self.geometric_stiffness and self.bending
+        return Strain(self.elements, self._l, self.E * self.A, self.E * self.J, beta, second_order)
 
     def _nodes(self, q: Any) -> Any:
         """Nodal coordinates in metres, (u, v, l theta) of every node, from the free ones."""
@@ -158,47 +186,78 @@ class FlexibleBeam(Beam):
             full[index] = self._l * q[k] if index % 3 == 2 else q[k]
         return as_expr([as_expr(entry.sx) for entry in full])
 
-    def _inertia(self) -> Inertia:
-        U, Ud, Udd = (self._nodes(q) for q in (self.q, self.qd, self.qdd))
-        return Inertia(beam_matrices(self.elements), self.elements, self._l, self.rho * self.A * self._l, U, Ud, Udd)
+    def _motion(self) -> tuple[Any, Any, Any]:
+        """Nodal coordinates in metres and their first and second derivatives, those of a slow stretch left out."""
+        U, Ud, Udd = self._nodes(self.q), self._nodes(self.qd), self._nodes(self.qdd)
+        return (U, Ud, Udd) if self.axial == "dynamic" else self._strain.unstretched(U, Ud, Udd)
+
+    def _tensions(self, U: Any, Ud: Any) -> list[Any]:
+        """Axial force of every element, in N."""
+        if self.axial == "dynamic":
+            return self._strain.stretching(U, Ud)
+        return [self.tension[j] if self._has_tension else as_expr(0.0) for j in range(self.elements)]
+
+    def _stretches(self) -> list[Any]:
+        """Quasi-static change of length of every element, in m."""
+        return [self.tension[j] * self._l / (self.E * self.A) for j in range(self.elements)]
+
+    def _shape(self) -> Any:
+        """Nodal coordinates in metres as they are seen."""
+        U = self._motion()[0]
+        return shifted(U, self._stretches()) if self.axial == "quasi_static" else U
+
+    def _inertia(self, motion: tuple[Any, Any, Any]) -> Inertia:
+        n, mu = self.elements, self.rho * self.A * self._l
+        return Inertia(beam_matrices(n), n, self._l, mu, *motion, self.centrifugal, self.coriolis)
+
+    def _sections(self, motion: tuple[Any, Any, Any]) -> Sections:
+        about_z = self.rho * self.length * self.J if self.rotary_inertia else 0.0
+        about_y = self.rho * self.length * self.J_y if self.rotary_inertia else 0.0
+        I = as_expr([as_expr(i).sx for i in (self.torsional_inertia, about_y, about_z)])
+        return Sections(self.elements, self._l, I, motion[1], motion[2], self.coriolis)
+
+    def _rotation(self, turn: Any) -> Any:
+        """Rotation of an end section, whose angle is turn / l."""
+        return planar_rotation(Z, turn / self._l) if self.bending else null_rotation()
 
     def _end(self, U: Any) -> Any:
         return as_expr((self.length + U[-3], U[-2], 0.0))
 
-    def _stiffness(self, U: Any) -> Any:
-        b, l = beam_matrices(self.elements), self._l
-        return self.E * self.A / l * (b.K_axial @ U) + self.E * self.J / l**3 * (b.K_bending @ U)
-
     def _drag(self, Ud: Any) -> Any:
-        b = beam_matrices(self.elements)
-        return self.alpha * self.rho * self.A * self._l * ((b.M11 + b.M22) @ Ud)
+        b, alpha = beam_matrices(self.elements), self.alpha if self.damping else 0.0
+        return alpha * self.rho * self.A * self._l * ((b.M11 + b.M22) @ Ud)
 
     def _centre(self, inertia: Inertia) -> Any:
         return self.ref.r_0 + resolve1(self.ref.R, inertia.first() / inertia.mass)
 
+    def _acceleration(self, inertia: Inertia) -> Any:
+        """Acceleration of the reference frame less that of gravity, resolved in it."""
+        gravity = self.world.acceleration(self._centre(inertia)) if self.weight else np.zeros(3)
+        return self.ref.a - resolve2(self.ref.R, gravity)
+
     def stored_energy(self):
-        """Kinetic, elastic and potential energy."""
-        inertia, ref = self._inertia(), self.ref
-        U, w = self._nodes(self.q), ref.R.w
-        kinetic = inertia.kinetic_energy(ref.v, w) + self.torsional_inertia * w[0] ** 2 / 2
-        potential = inertia.mass * self.world.potential(self._centre(inertia))
-        return kinetic + dot(U, self._stiffness(U)) / 2 + potential
+        """Kinetic, elastic and potential energy; that of a stretch only if it is dynamic."""
+        motion, ref = self._motion(), self.ref
+        inertia = self._inertia(motion)
+        kinetic = inertia.kinetic_energy(ref.v, ref.R.w) + self._sections(motion).kinetic_energy(ref.R.w)
+        potential = inertia.mass * self.world.potential(self._centre(inertia)) if self.weight else 0.0
+        return kinetic + potential + self._strain.energy(motion[0], stretches=self.axial == "dynamic")
 
     def dissipated_power(self):
         """Power of the Rayleigh damping."""
-        Ud = self._nodes(self.qd)
-        return dot(Ud, self._drag(Ud) + self.beta * self._stiffness(Ud))
+        U, Ud, _ = self._motion()
+        return dot(Ud, self._drag(Ud)) + self._strain.dissipated(U, Ud, stretches=self.axial == "dynamic")
 
     @observed
     def node_deflection(self):
         """Nodal coordinates (u, v, theta), shape (nodes, 3), resolved in the reference frame."""
-        U = self._nodes(self.q)
+        U = self._shape()
         return as_expr([[U[3 * k], U[3 * k + 1], U[3 * k + 2] / self._l] for k in range(self.elements + 1)])
 
     @observed
     def node_r_0(self):
         """Position of every node, shape (nodes, 3), resolved in the world, in m."""
-        U, ref = self._nodes(self.q), self.ref
+        U, ref = self._shape(), self.ref
         local = as_expr([[k * self._l + U[3 * k], U[3 * k + 1], 0.0] for k in range(self.elements + 1)])
         origin = as_expr([[ref.r_0[i] for i in range(3)]] * (self.elements + 1))
         return origin + local @ ref.R.T
@@ -206,7 +265,7 @@ class FlexibleBeam(Beam):
     @observed
     def middle_r_0(self):
         """Position of the material middle point, resolved in the world, in m."""
-        U, half = self._nodes(self.q), self.elements // 2
+        U, half = self._shape(), self.elements // 2
         left = U[3 * half : 3 * half + 3]
         if self.elements % 2:
             right = U[3 * half + 3 : 3 * half + 6]
@@ -227,21 +286,20 @@ class FlexibleBeam(Beam):
 
     def _cuts(self) -> list[tuple[Any, Any]]:
         """Force and moment at every node: what is applied at the tip, less the inertia forces beyond the node."""
-        U, ref, b = self._nodes(self.q), self.ref, self.frame_b
-        inertia = self._inertia()
+        motion, ref, b = self._motion(), self.ref, self.frame_b
+        (U, Ud, Udd), inertia, sections = motion, self._inertia(motion), self._sections(motion)
         R_b, r_b = planar_rotation_without_rate(U[-1] / self._l), self._end(U)
-        a = ref.a - resolve2(ref.R, self.world.acceleration(self._centre(inertia)))
+        a = self._acceleration(inertia)
         force, moment = R_b.T @ b.f, R_b.T @ b.t + cross(r_b, R_b.T @ b.f)
         cuts = []
         for k in range(self.elements, -1, -1):
             at = as_expr((k * self._l + U[3 * k], U[3 * k + 1], 0.0))
             cuts.append((force, moment - cross(at, force)))
             if k:
+                nodes = slice(3 * k - 3, 3 * k + 3)
                 part, about = inertia.element_forces(k - 1, a, ref.z, ref.R.w)
-                spin = self.torsional_inertia / self.elements * ref.R.w[0]
-                alpha = self.torsional_inertia / self.elements * ref.z[0]
-                twist = as_expr((alpha, ref.R.w[2] * spin, -ref.R.w[1] * spin))
-                force, moment = force - part, moment - about - twist
+                own = replace(sections, elements=1, I=sections.I / self.elements, Ud=Ud[nodes], Udd=Udd[nodes])
+                force, moment = force - part, moment - about - own.moment(ref.z, ref.R.w)
         return cuts[::-1]
 
 

@@ -73,7 +73,7 @@ class TwoFrames(Component):
     frame_b: Frame = port(Frame, "coordinate system at the second end")
 
 
-def move(frame_a: Any, frame_b: Any, r: Any, R: Any) -> Iterator[Any]:
+def move(frame_a: Any, frame_b: Any, r: Any, R: Any, offset: Any = None) -> Iterator[Any]:
     """Equations of all levels of motion of frame_b relative to frame_a, written away from the root.
 
     Parameters
@@ -84,6 +84,8 @@ def move(frame_a: Any, frame_b: Any, r: Any, R: Any) -> Iterator[Any]:
         Position of frame_b relative to frame_a, resolved in frame_a, in m.
     R : RelativeOrientation
         Orientation of frame_b relative to frame_a.
+    offset : Expr, shape (3,), optional
+        Displacement of frame_b, resolved in frame_a, in m, so slow that it counts in the position alone.
 
     Notes
     -----
@@ -92,11 +94,12 @@ def move(frame_a: Any, frame_b: Any, r: Any, R: Any) -> Iterator[Any]:
     a_b = T (a_a + z_a x r + w_a x (w_a x r) + 2 w_a x dr + ddr).
     """
     if not rooted(frame_a, frame_b):
+        offset = None if offset is None else -resolve2(R, offset)
         frame_a, frame_b, r, R = frame_b, frame_a, -resolve2(R, r), inverse_rotation(R)
     a, b = frame_a, frame_b
     w_a = a.R.w
     dr = _der(r)
-    yield b.r_0 == a.r_0 + resolve1(a.R, r)
+    yield b.r_0 == a.r_0 + resolve1(a.R, r if offset is None else r + offset)
     yield b.R.T == R.T @ a.R.T
     yield b.R.w == resolve2(R, w_a) + R.w
     yield b.v == resolve2(R, a.v + cross(w_a, r) + dr)

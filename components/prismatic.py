@@ -4,26 +4,34 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, branch, cross, der, dot, port, structural, variable
-from components.frame import TwoFrames, move
+from acausal import PREFER, Scalar, cross, der, dot, parameter, port, structural, variable
+from components.driven_joint import DrivenJoint
+from components.frame import move
 from components.orientation import null_rotation, unit_vector
 from components.translational_flange import TranslationalFlange
-from components.world import require_direction
 
 
-class Prismatic(TwoFrames):
+class Prismatic(DrivenJoint):
     """Prismatic joint: frame_b slides relative to frame_a along the axis n.
 
     Parameters
     ----------
     n : array of 3 floats
         Axis of translation, the same in frame_a and frame_b; any length but 0.
-    use_axis_flange : bool
-        True gives the joint a drive rod `axis` and its housing `support`.
+    d : float
+        Viscous friction in N.s/m.
+    f_dry, v_dry : float
+        Dry friction in N, and the speed in m/s below which it fades: d v + f_dry tanh(v / v_dry) acts against v. It
+        creeps where it should stick.
+    compliance : float
+        Of the drive, in m/N: axis.s - s = compliance f; 0 is rigid.
     """
 
     n: Any = structural("axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,))
-    use_axis_flange: bool = structural("whether the joint has a drive rod", default=False, choices=(True, False))
+    d: Scalar = parameter("viscous friction", unit="N.s/m", default=0, minimum=0)
+    f_dry: Scalar = parameter("dry friction", unit="N", default=0, minimum=0)
+    v_dry: Scalar = parameter("speed below which dry friction fades", unit="m/s", default=1e-3, positive=True)
+    compliance: Scalar = parameter("compliance of the drive", unit="m/N", default=0, minimum=0)
     s: Scalar = variable("distance from frame_a to frame_b along n", unit="m", select=PREFER)
     v: Scalar = variable("der(s)", unit="m/s", select=PREFER)
     a: Scalar = variable("der(v)", unit="m/s2")
@@ -39,13 +47,6 @@ class Prismatic(TwoFrames):
         """Housing of the drive."""
         return TranslationalFlange() if self.use_axis_flange else None
 
-    def check(self) -> None:
-        """Refuse an axis of length 0."""
-        require_direction(self, self.n, "n")
-
-    def connections(self):
-        yield branch(self.frame_a, self.frame_b)
-
     def equations(self):
         n = unit_vector(self.n)
         r = n * self.s
@@ -54,10 +55,21 @@ class Prismatic(TwoFrames):
         yield from move(self.frame_a, self.frame_b, r, null_rotation())
         yield self.frame_a.f == -self.frame_b.f
         yield self.frame_a.t == -self.frame_b.t - cross(r, self.frame_b.f)
-        yield self.f == -dot(n, self.frame_b.f)
+        yield self.f - self._drag() == -dot(n, self.frame_b.f)
         if self.use_axis_flange:
-            yield self.axis.s == self.s
+            yield self.axis.s == self.s + self.give(self.f)
             yield self.axis.f == self.f
             yield self.support.s == 0
         else:
             yield self.f == 0
+
+    def stored_energy(self):
+        """Elastic energy of the drive."""
+        return self.f * self.give(self.f) / 2
+
+    def dissipated_power(self):
+        """Power of the friction."""
+        return self.v * self._drag()
+
+    def _drag(self) -> Any:
+        return self.drag(self.v, self.f_dry, self.v_dry)

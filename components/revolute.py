@@ -4,26 +4,34 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, branch, der, dot, port, structural, variable
+from acausal import PREFER, Scalar, der, dot, parameter, port, structural, variable
+from components.driven_joint import DrivenJoint
 from components.flange import Flange
-from components.frame import TwoFrames, move
+from components.frame import move
 from components.orientation import planar_rotation, resolve1, unit_vector
-from components.world import require_direction
 
 
-class Revolute(TwoFrames):
+class Revolute(DrivenJoint):
     """Revolute joint: frame_b turns relative to frame_a about the axis n.
 
     Parameters
     ----------
     n : array of 3 floats
         Axis of rotation, the same in frame_a and frame_b; any length but 0.
-    use_axis_flange : bool
-        True gives the joint a drive shaft `axis` and its housing `support`.
+    d : float
+        Viscous friction in N.m.s/rad.
+    tau_dry, w_dry : float
+        Dry friction in N.m, and the speed in rad/s below which it fades: d w + tau_dry tanh(w / w_dry) acts against w.
+        It creeps where it should stick; components.rotational.Friction sticks.
+    compliance : float
+        Of the drive, in rad/(N.m): axis.phi - phi = compliance tau; 0 is rigid.
     """
 
     n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
-    use_axis_flange: bool = structural("whether the joint has a drive shaft", default=False, choices=(True, False))
+    d: Scalar = parameter("viscous friction", unit="N.m.s/rad", default=0, minimum=0)
+    tau_dry: Scalar = parameter("dry friction", unit="N.m", default=0, minimum=0)
+    w_dry: Scalar = parameter("speed below which dry friction fades", unit="rad/s", default=1e-2, positive=True)
+    compliance: Scalar = parameter("compliance of the drive", unit="rad/(N.m)", default=0, minimum=0)
     phi: Scalar = variable("angle from frame_a to frame_b", unit="rad", select=PREFER)
     w: Scalar = variable("der(phi)", unit="rad/s", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")
@@ -39,13 +47,6 @@ class Revolute(TwoFrames):
         """Housing of the drive."""
         return Flange() if self.use_axis_flange else None
 
-    def check(self) -> None:
-        """Refuse an axis of length 0."""
-        require_direction(self, self.n, "n")
-
-    def connections(self):
-        yield branch(self.frame_a, self.frame_b)
-
     def equations(self):
         n = unit_vector(self.n)
         R = planar_rotation(n, self.phi)
@@ -54,10 +55,21 @@ class Revolute(TwoFrames):
         yield from move(self.frame_a, self.frame_b, (0, 0, 0), R)
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == -resolve1(R, self.frame_b.t)
-        yield self.tau == -dot(n, self.frame_b.t)
+        yield self.tau - self._drag() == -dot(n, self.frame_b.t)
         if self.use_axis_flange:
-            yield self.axis.phi == self.phi
+            yield self.axis.phi == self.phi + self.give(self.tau)
             yield self.axis.tau == self.tau
             yield self.support.phi == 0
         else:
             yield self.tau == 0
+
+    def stored_energy(self):
+        """Elastic energy of the drive."""
+        return self.tau * self.give(self.tau) / 2
+
+    def dissipated_power(self):
+        """Power of the friction."""
+        return self.w * self._drag()
+
+    def _drag(self) -> Any:
+        return self.drag(self.w, self.tau_dry, self.w_dry)

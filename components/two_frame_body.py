@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Vector3, connect, part, structural, variable
+from acausal import Vector3, connect, effect, part, structural, variable
 from components.body import Body
 from components.frame import TwoFrames
 from components.translation import FixedTranslation
@@ -17,11 +17,14 @@ class TwoFrameBody(TwoFrames):
     ----------
     angles_start, sequence_start, angles_fixed
         Orientation of a freely moving body at the start: angles in rad about the axes of the sequence.
+    gyroscopic : bool
+        False leaves out the torque w x I w, as of Body.
     """
 
     angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    gyroscopic: bool = effect("gyroscopic torque w x I w")
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
@@ -47,6 +50,7 @@ class TwoFrameBody(TwoFrames):
             angles_start=self.angles_start,
             sequence_start=self.sequence_start,
             angles_fixed=self.angles_fixed,
+            gyroscopic=self.gyroscopic,
         )
 
     def connections(self):

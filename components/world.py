@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, DeclarationError, Scalar, dot, parameter, port, root, sqrt, structural
+from acausal import Component, DeclarationError, Scalar, dot, effect, parameter, port, root, sqrt, structural
 from components.frame import Frame
 from components.orientation import unit_vector
 
@@ -27,7 +27,7 @@ class World(Component):
     """
 
     ends = ("", "frame_b")
-    gravity: Any = structural("kind of gravity", default="uniform", choices=("uniform", "point", None))
+    gravity: Any = effect("gravity", default="uniform", choices=("uniform", "point", None), tries=(None,))
     g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665)
     n: Any = structural("direction of gravity, resolved in the world", default=(0, -1, 0), shape=(3,))
     mu: Scalar = parameter("gravity constant of the central body", unit="m3/s2", default=3.986004418e14)

@@ -61,6 +61,9 @@ def build_graph(components: list[Component]) -> Graph:
     _refuse_doubles(connects)
     connectors = [c for c in components if isinstance(c, Connector)]
     cuts, chosen = spanning_tree(connectors, connects, branches, roots)
+    for cut in cuts:
+        for part in cut.loop:
+            part._in_loop = True
     cut_ids = {id(cut.statement) for cut in cuts}
     same = UnionFind(connectors)
     for _, statement, _ in connects:

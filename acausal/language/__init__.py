@@ -2,7 +2,7 @@
 
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.condition import Condition
-from acausal.language.connection import branch, chain, connect, is_root, potential_root, root, rooted
+from acausal.language.connection import branch, chain, connect, in_loop, is_root, potential_root, root, rooted
 from acausal.language.declare import (
     discrete,
     effect,
@@ -39,6 +39,7 @@ from acausal.language.functions import (
     sin,
     sqrt,
     tan,
+    tanh,
     time,
 )
 from acausal.language.types import Matrix33, Scalar, Vector3
@@ -78,6 +79,7 @@ __all__ = [
     "fixed",
     "flow",
     "guess",
+    "in_loop",
     "initial",
     "input",
     "is_root",
@@ -99,6 +101,7 @@ __all__ = [
     "sqrt",
     "structural",
     "tan",
+    "tanh",
     "time",
     "variable",
     "when",

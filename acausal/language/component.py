@@ -56,6 +56,7 @@ class Component:
     _path: str = ""
     _ports: tuple[Any, ...] = ()
     _is_bound = False
+    _in_loop = False
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

@@ -96,6 +96,11 @@ def rooted(a: Any, b: Any | None = None) -> bool:
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
+def in_loop(component: Any) -> bool:
+    """Tell in equations() whether the component is part of a closed loop of over-determined records."""
+    return component._in_loop
+
+
 def _end(item: Any, which: int) -> Any:
     if isinstance(item, Connector):
         return item

@@ -96,6 +96,7 @@ asin = _elementary("asin", ca.asin)
 acos = _elementary("acos", ca.acos)
 exp = _elementary("exp", ca.exp)
 log = _elementary("log", ca.log)
+tanh = _elementary("tanh", ca.tanh)
 
 
 @_deferrable
