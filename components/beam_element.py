@@ -25,7 +25,7 @@ class BeamMatrices:
     Parameters
     ----------
     s1, s2 : arrays, shape (n,)
-        Integrals of S1 and S2, the rows of the shape functions along and across; n = 3 (N + 1).
+        Integrals of S1 and S2, the rows of the shape functions along and across; n = 3 (N + 1) + bubbles.
     x1, x2 : arrays, shape (n,)
         Integrals of x S1 and x S2.
     M11, M12, M22 : arrays, shape (n, n)
@@ -34,6 +34,8 @@ class BeamMatrices:
         Integrals of S1'' S1' and S2'''' S2'' (first and second derivatives), factors EA/l and EJ/l^3.
     G : array, shape (n, n)
         Integral of S2'' S2' (first derivatives), factor 1/l.
+    bubbles : int
+        Last entries of all arrays: an element may have, beside its nodes, a displacement xi (1 - xi) along the beam.
     """
 
     s1: np.ndarray
@@ -46,6 +48,7 @@ class BeamMatrices:
     K_axial: np.ndarray
     K_bending: np.ndarray
     G: np.ndarray
+    bubbles: int = 0
 
 
 def _integral(polynomial: sp.Expr) -> float:
@@ -62,33 +65,70 @@ def _matrix(left: tuple, right: tuple, order: int = 0) -> np.ndarray:
 
 
 @cache
-def element_matrices() -> BeamMatrices:
+def element_matrices(bubble: bool = False) -> BeamMatrices:
     """Return the integrals of one element."""
+    along, across = (*ALONG, *[xi * (1 - xi)] * bubble), (*ACROSS, *[0] * bubble)
     return BeamMatrices(
-        s1=_vector(ALONG, sp.Integer(1)),
-        s2=_vector(ACROSS, sp.Integer(1)),
-        x1=_vector(ALONG, xi),
-        x2=_vector(ACROSS, xi),
-        M11=_matrix(ALONG, ALONG),
-        M12=_matrix(ALONG, ACROSS),
-        M22=_matrix(ACROSS, ACROSS),
-        K_axial=_matrix(ALONG, ALONG, 1),
-        K_bending=_matrix(ACROSS, ACROSS, 2),
-        G=_matrix(ACROSS, ACROSS, 1),
+        s1=_vector(along, sp.Integer(1)),
+        s2=_vector(across, sp.Integer(1)),
+        x1=_vector(along, xi),
+        x2=_vector(across, xi),
+        M11=_matrix(along, along),
+        M12=_matrix(along, across),
+        M22=_matrix(across, across),
+        K_axial=_matrix(along, along, 1),
+        K_bending=_matrix(across, across, 2),
+        G=_matrix(across, across, 1),
+        bubbles=int(bubble),
     )
 
 
 @cache
-def beam_matrices(elements: int) -> BeamMatrices:
+def beam_matrices(elements: int, bubbles: bool = False) -> BeamMatrices:
     """Assemble the integrals of a beam (equation 11): element j lies between nodes j and j + 1, its root at x = j."""
-    one, n = element_matrices(), 3 * (elements + 1)
+    one, n = element_matrices(bubbles), 3 * (elements + 1) + elements * bubbles
     vectors = {name: np.zeros(n) for name in ("s1", "s2", "x1", "x2")}
     matrices = {name: np.zeros((n, n)) for name in ("M11", "M12", "M22", "K_axial", "K_bending", "G")}
     for j in range(elements):
-        dofs = slice(3 * j, 3 * j + 6)
+        dofs = np.array(places(j, elements, bubbles))
         for name, total in vectors.items():
             shifted = j * getattr(one, "s" + name[1]) if name[0] == "x" else 0
             total[dofs] += getattr(one, name) + shifted
         for name, total in matrices.items():
-            total[dofs, dofs] += getattr(one, name)
-    return BeamMatrices(**vectors, **matrices)
+            total[np.ix_(dofs, dofs)] += getattr(one, name)
+    return BeamMatrices(**vectors, **matrices, bubbles=elements * bubbles)
+
+
+def places(j: int, elements: int, bubbles: bool) -> list[int]:
+    """Places of the coordinates of element j among those of the beam."""
+    return [*range(3 * j, 3 * j + 6), *[3 * (elements + 1) + j] * bubbles]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Points of Gauss in an element.
+
+    Parameters
+    ----------
+    xi, weights : arrays, shape (3,)
+        Places between 0 and 1, and weights with the sum 1.
+    slope, curvature : arrays, shape (3, 6)
+        First and second derivatives of S2 there, factors 1/l and 1/l^2.
+    """
+
+    xi: np.ndarray
+    weights: np.ndarray
+    slope: np.ndarray
+    curvature: np.ndarray
+
+
+@cache
+def gauss_points() -> Points:
+    """Return three points, exact for polynomials up to degree 5."""
+    at, weights = np.polynomial.legendre.leggauss(3)
+    at, weights = (at + 1) / 2, weights / 2
+    slope, curvature = (
+        np.array([[float(sp.diff(sp.sympify(s), xi, order).subs(xi, x)) for s in ACROSS] for x in at])
+        for order in (1, 2)
+    )
+    return Points(at, weights, slope, curvature)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal import as_expr, cross, dot
-from components.beam_element import BeamMatrices, element_matrices
+from components.beam_element import BeamMatrices, element_matrices, places
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class Inertia:
         N.
     l, mu : Expr
         Length in m and mass in kg of an element.
-    U, Ud, Udd : Expr, shape (3 N + 3,)
-        Nodal coordinates in m, and derivatives.
+    U, Ud, Udd : Expr, shape (n,)
+        Coordinates of the matrices in m, and derivatives.
     centrifugal, coriolis : bool
         Whether U has a part in w x (w x u), where the straight beam always has one, and whether 2 w x du counts.
     rest : Expr or float
@@ -71,7 +71,7 @@ class Inertia:
         -------
         force, moment : Expr, shape (3,)
             In N and N.m, resolved in the frame.
-        nodal : Expr, shape (3 N + 3,)
+        nodal : Expr, shape (n,)
             In N, conjugate to the nodal coordinates in m.
         """
         b, mu, Ud, Udd = self.matrices, self.mu, self.Ud, self.Udd
@@ -116,21 +116,33 @@ class Inertia:
         """The beam without displacements."""
         return replace(self, U=as_expr(np.zeros(self.U.shape)) + self.rest)
 
+    def momentum(self) -> Any:
+        """Momenta of the rates of deformation alone, in kg.m/s, shape (n,)."""
+        return self.mu * ((self.matrices.M11 + self.matrices.M22) @ self.Ud)
+
     def kinetic_energy(self, v: Any, w: Any) -> Any:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
-        b, mu, Ud, I = self.matrices, self.mu, self.Ud, self._tensor()
+        mu, Ud, I = self.mu, self.Ud, self._tensor()
         _, y_1, x_2, _ = self._position()
         spin = mu * (dot(x_2, Ud) - dot(y_1, Ud))
-        own = mu * dot(Ud, (b.M11 + b.M22) @ Ud)
+        own = dot(Ud, self.momentum())
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self._moment(Ud))
         return (translation + dot(w, I @ w) + 2 * w[2] * spin + own) / 2
 
     def element_forces(self, j: int, a: Any, z: Any, w: Any) -> tuple[Any, Any]:
         """Force and moment about the origin of the inertia of element j alone."""
-        nodes = slice(3 * j, 3 * j + 6)
         # An element whose root lies at x = j l is one at the origin with both nodes moved by j l.
-        rest = self.l * np.array([j, 0, 0, j, 0, 0])
-        U, Ud, Udd = self.U[nodes] + rest, self.Ud[nodes], self.Udd[nodes]
-        own = replace(self, matrices=element_matrices(), elements=1, U=U, Ud=Ud, Udd=Udd, rest=rest)
+        bubble = self.matrices.bubbles > 0
+        rest = self.l * np.array([j, 0, 0, j, 0, 0, *[0] * bubble])
+        U, Ud, Udd = ([x[k] for k in places(j, self.elements, bubble)] for x in (self.U, self.Ud, self.Udd))
+        own = replace(
+            self,
+            matrices=element_matrices(bubble),
+            elements=1,
+            U=as_expr(U) + rest,
+            Ud=as_expr(Ud),
+            Udd=as_expr(Udd),
+            rest=rest,
+        )
         force, moment, _ = own.forces(a, z, w)
         return force, moment

@@ -143,8 +143,8 @@ class FlexibleBeam(Beam):
         f_b, t_b = resolve1(R_b, b.f), resolve1(R_b, b.t)
         inertia, sections = self._inertia(motion), self._sections(motion)
         force, moment, nodal = inertia.forces(self._acceleration(inertia), ref.z, ref.R.w)
-        nodal += sections.nodal(ref.z)
-        elastic, drag = self._strain.forces(U, Ud, self._tensions(U, Ud)), self._drag(Ud)
+        nodal = self._strain.without_bubbles(nodal, U) + sections.nodal(ref.z)
+        elastic, drag = self._strain.forces(U, Ud, self._tensions(U, Ud)), self._drag(motion)
         balance = nodal + elastic + drag
         load = [as_expr(0.0)] * (3 * self.elements + 3)
         load[2] = t_a[2] / l
@@ -207,8 +207,9 @@ class FlexibleBeam(Beam):
         return shifted(U, self._stretches()) if self.axial == "quasi_static" else U
 
     def _inertia(self, motion: tuple[Any, Any, Any]) -> Inertia:
-        n, mu = self.elements, self.rho * self.A * self._l
-        return Inertia(beam_matrices(n), n, self._l, mu, *motion, self.centrifugal, self.coriolis)
+        n, mu, strain = self.elements, self.rho * self.A * self._l, self._strain
+        matrices = beam_matrices(n, strain.second_order)
+        return Inertia(matrices, n, self._l, mu, *strain.with_bubbles(*motion), self.centrifugal, self.coriolis)
 
     def _sections(self, motion: tuple[Any, Any, Any]) -> Sections:
         about_z = self.rho * self.length * self.J if self.rotary_inertia else 0.0
@@ -223,9 +224,9 @@ class FlexibleBeam(Beam):
     def _end(self, U: Any) -> Any:
         return as_expr((self.length + U[-3], U[-2], 0.0))
 
-    def _drag(self, Ud: Any) -> Any:
-        b, alpha = beam_matrices(self.elements), self.alpha if self.damping else 0.0
-        return alpha * self.rho * self.A * self._l * ((b.M11 + b.M22) @ Ud)
+    def _drag(self, motion: tuple[Any, Any, Any]) -> Any:
+        inertia, alpha = self._inertia(motion), self.alpha if self.damping else 0.0
+        return self._strain.without_bubbles(alpha * inertia.momentum(), motion[0])
 
     def _centre(self, inertia: Inertia) -> Any:
         return self.ref.r_0 + resolve1(self.ref.R, inertia.first() / inertia.mass)
@@ -245,8 +246,8 @@ class FlexibleBeam(Beam):
 
     def dissipated_power(self):
         """Power of the Rayleigh damping."""
-        U, Ud, _ = self._motion()
-        return dot(Ud, self._drag(Ud)) + self._strain.dissipated(U, Ud, stretches=self.axial == "dynamic")
+        motion = U, Ud, _ = self._motion()
+        return dot(Ud, self._drag(motion)) + self._strain.dissipated(U, Ud, stretches=self.axial == "dynamic")
 
     @observed
     def node_deflection(self):
