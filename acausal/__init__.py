@@ -79,6 +79,7 @@ from acausal.language import (
 )
 from acausal.result import Result
 from acausal.solve import Linearization, linearize, simulate
+from acausal.study import Formulation, Study, study
 
 __all__ = [
     "ALWAYS",
@@ -96,6 +97,7 @@ __all__ = [
     "Equation",
     "ExportError",
     "Expr",
+    "Formulation",
     "InitializationError",
     "Linearization",
     "Matrix33",
@@ -106,6 +108,7 @@ __all__ = [
     "Scalar",
     "SimulationError",
     "StructurallySingularError",
+    "Study",
     "UnbalancedModelError",
     "UnitsError",
     "Vector3",
@@ -150,6 +153,7 @@ __all__ = [
     "sin",
     "sqrt",
     "structural",
+    "study",
     "tan",
     "tanh",
     "time",

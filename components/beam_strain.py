@@ -74,6 +74,16 @@ class Strain:
             _add(total, j, forces[n + j] * (gauss_points().slope.T @ (_bubble_weights() * _f_1(self._slope(U, j)))))
         return as_expr(total)
 
+    def angle(self, turn: Any) -> Any:
+        """Angle in rad of a section whose nodal coordinate is turn = l v', with v' = sin(angle) in second order."""
+        slope = turn / self.l
+        return slope + slope * slope * slope / 6 if self.second_order else slope
+
+    def turning(self, turn: Any) -> Any:
+        """Derivative of the angle by the slope."""
+        slope = turn / self.l
+        return 1 + slope * slope / 2 if self.second_order else 1.0
+
     def stretching(self, U: Any, Ud: Any) -> list[Any]:
         """Axial force of each element by its extension, in N."""
         return [self.EA / self.l * (e + self.beta * rate) for e, rate in self._extensions(U, Ud)]

@@ -129,7 +129,7 @@ class FlexibleBeam(Beam):
             yield self.qd == der(self.q)
             yield self.qdd == der(self.qd)
         motion = U, Ud, _ = self._motion()
-        r_b, R_b = self._end(U), self._rotation(U[-1])
+        strain, r_b, R_b = self._strain, self._end(U), self._rotation(U[-1])
         if self.reference == "pinned":
             R_a = self._rotation(U[2])
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
@@ -143,12 +143,12 @@ class FlexibleBeam(Beam):
         f_b, t_b = resolve1(R_b, b.f), resolve1(R_b, b.t)
         inertia, sections = self._inertia(motion), self._sections(motion)
         force, moment, nodal = inertia.forces(self._acceleration(inertia), ref.z, ref.R.w)
-        nodal = self._strain.without_bubbles(nodal, U) + sections.nodal(ref.z)
-        elastic, drag = self._strain.forces(U, Ud, self._tensions(U, Ud)), self._drag(motion)
+        nodal = strain.without_bubbles(nodal, U) + sections.nodal(ref.z)
+        elastic, drag = strain.forces(U, Ud, self._tensions(U, Ud)), self._drag(motion)
         balance = nodal + elastic + drag
         load = [as_expr(0.0)] * (3 * self.elements + 3)
-        load[2] = t_a[2] / l
-        load[-3:] = [f_b[0], f_b[1], t_b[2] / l]
+        load[2] = t_a[2] / l * strain.turning(U[2])
+        load[-3:] = [f_b[0], f_b[1], t_b[2] / l * strain.turning(U[-1])]
         balanced = [k for k in self._loose if k in self.free or (self._has_tension and k % 3 == 0)]
         if balanced:
             yield as_expr([balance[k] for k in balanced]) == as_expr([load[k] for k in balanced])
@@ -156,7 +156,7 @@ class FlexibleBeam(Beam):
         if self.reference == "tangent":
             # The balances of the nodes, subtracted from those of the whole beam, leave the load on the tip out of them.
             for k in (k for k in range(3) if k + 3 * self.elements in balanced):
-                tip[k] = balance[k - 3] * (l if k == 2 else 1.0)
+                tip[k] = balance[k - 3] * (l / strain.turning(U[-1]) if k == 2 else 1.0)
                 if k < 2:
                     root[k] = nodal[k] + elastic[k] - sum(drag[3 + k :: 3], as_expr(0.0))
         yield as_expr(root) == f_a
@@ -218,8 +218,8 @@ class FlexibleBeam(Beam):
         return Sections(self.elements, self._l, I, motion[1], motion[2], self.coriolis)
 
     def _rotation(self, turn: Any) -> Any:
-        """Rotation of an end section, whose angle is turn / l."""
-        return planar_rotation(Z, turn / self._l) if self.bending else null_rotation()
+        """Rotation of an end section, of nodal coordinate turn = l v'."""
+        return planar_rotation(Z, self._strain.angle(turn)) if self.bending else null_rotation()
 
     def _end(self, U: Any) -> Any:
         return as_expr((self.length + U[-3], U[-2], 0.0))
@@ -253,7 +253,8 @@ class FlexibleBeam(Beam):
     def node_deflection(self):
         """Nodal coordinates (u, v, theta), shape (nodes, 3), resolved in the reference frame."""
         U = self._shape()
-        return as_expr([[U[3 * k], U[3 * k + 1], U[3 * k + 2] / self._l] for k in range(self.elements + 1)])
+        angle = self._strain.angle
+        return as_expr([[U[3 * k], U[3 * k + 1], angle(U[3 * k + 2])] for k in range(self.elements + 1)])
 
     @observed
     def node_r_0(self):
@@ -289,7 +290,7 @@ class FlexibleBeam(Beam):
         """Force and moment at every node: what is applied at the tip, less the inertia forces beyond the node."""
         motion, ref, b = self._motion(), self.ref, self.frame_b
         (U, Ud, Udd), inertia, sections = motion, self._inertia(motion), self._sections(motion)
-        R_b, r_b = planar_rotation_without_rate(U[-1] / self._l), self._end(U)
+        R_b, r_b = planar_rotation_without_rate(self._strain.angle(U[-1])), self._end(U)
         a = self._acceleration(inertia)
         force, moment = R_b.T @ b.f, R_b.T @ b.t + cross(r_b, R_b.T @ b.f)
         cuts = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 from typing import Any
 
+import acausal as ac
 from acausal import Model, Scalar, chain, connect, cos, output, parameter, part, piecewise, sin, structural, time
 from components import FlexibleBeam, Revolute, SubstructuredBeam, World
 from components.rotational import Position
@@ -14,6 +15,22 @@ class SpinUp(Model):
     """Beam on a hub that is brought to the speed omega within the time ramp."""
 
     stop_time = 20.0
+    formulations = (
+        ac.Formulation("one frame", {"formulation": "fem"}, {"volumes": (5, 10, 20)}),
+        ac.Formulation("stiffened", {"formulation": "fem", "beam.geometric_stiffness": True}, {"volumes": (5, 10, 20)}),
+        ac.Formulation(
+            "volumes",
+            {"formulation": "substructured", "elements_per_volume": 1},
+            {"volumes": (5, 10, 20, 40)},
+            exact=True,
+        ),
+        ac.Formulation(
+            "volumes of 2 elements",
+            {"formulation": "substructured", "elements_per_volume": 2},
+            {"volumes": (5, 10, 20)},
+            exact=True,
+        ),
+    )
     formulation: str = structural("kind of beam", default="substructured", choices=("substructured", "fem"))
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
     elements_per_volume: int = structural("finite elements of a volume", default=1, minimum=1)
@@ -24,16 +41,13 @@ class SpinUp(Model):
     A: Scalar = parameter("area of the section", unit="m2", default=7.299e-5, positive=True)
     J: Scalar = parameter("second moment of area", unit="m4", default=8.214e-9, positive=True)
     rho: Scalar = parameter("density", unit="kg/m3", default=2767, positive=True)
-    world = World(gravity=None)
-    hub = Revolute(use_axis_flange=True)
-    drive = Position()
+    world, hub, drive = World(gravity=None), Revolute(use_axis_flange=True), Position()
     angle: Scalar = output("prescribed angle", unit="rad")
     tip_deflection: Scalar = output("transverse position of the tip in the turning frame", unit="m")
     tip_extension: Scalar = output("longitudinal position of the tip in the turning frame, less the length", unit="m")
 
     @part
     def beam(self):
-        """The beam, substructured or of finite elements in one frame."""
         section: dict[str, Any] = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
         if self.formulation == "fem":
             return FlexibleBeam(elements=self.volumes * self.elements_per_volume, **section)
@@ -54,6 +68,4 @@ class SpinUp(Model):
 
 
 if __name__ == "__main__":
-    import acausal as ac
-
     ac.simulate(SpinUp(), stop_time=SpinUp.stop_time).plot("tip_deflection", "tip_extension", path="spin-up.png")

@@ -221,12 +221,16 @@ _ORDER = {f.Structural: 0, f.Parameter: 1, f.Outer: 2, f.Part: 3, f.Variable: 4,
 def walk(component: Component) -> Iterator[Component]:
     """Yield a bound component, its parts and theirs."""
     yield component
+    for member in members(component):
+        yield from walk(member)
+
+
+def members(component: Component) -> Iterator[Component]:
+    """Yield the parts and ports of a bound component."""
     for name, declared in component.fields.items():
         if isinstance(declared, f.Part):
             value = getattr(component, name)
-            for item in value if isinstance(value, list) else [value]:
-                if item is not None:
-                    yield from walk(item)
+            yield from (item for item in (value if isinstance(value, list) else [value]) if item is not None)
 
 
 def join(path: str, name: str) -> str:

@@ -17,7 +17,8 @@ MAY = {
     "compiler": BASE | {"language", "flatten", "reduce"},
     "result": BASE | {"language", "flatten"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "compiler", "result"},
-    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "solve", "result"},
+    "study": BASE | {"language", "flatten", "compiler", "solve", "result"},
+    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "solve", "study", "result"},
 }
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 

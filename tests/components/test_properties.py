@@ -202,7 +202,7 @@ class OnRevolute(Scene):
     @part
     def it(self):
         s = -1 if self.turned else 1
-        return Revolute(n=(0, 1, 2), phi=fixed(0.4 * s), w=fixed(3.0 * s))
+        return Revolute(n=(0, 1, 2), phi=fixed(0.4 * s), w=fixed(3.0 * s), d=0.02, tau_dry=0.05, w_dry=0.5)
 
     def graph(self):
         yield from self.path(self.it)
@@ -238,7 +238,8 @@ class OnPrismatic(OnSpherical):
     @part
     def it(self):
         s = -1 if self.turned else 1
-        return Prismatic(n=(1, 2, 2), s=fixed(0.3 * s), v=fixed(0.5 * s), use_axis_flange=self.use_axis_flange)
+        drive = {"compliance": 2e-3, "f": fixed(5.0), "use_axis_flange": True} if self.use_axis_flange else {}
+        return Prismatic(n=(1, 2, 2), s=fixed(0.3 * s), v=fixed(0.5 * s), d=0.5, f_dry=0.4, v_dry=0.2, **drive)
 
     def graph(self):
         yield from super().graph()
@@ -520,7 +521,15 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Speed": OnShaftSpeed,
 }
 TURNED = SCENES | {"Prismatic": OnPrismatic}
-BASES = {"LineForce", "TwoFrameBody", "TwoFrames", "TwoFlanges", "rotational.Compliant", "rotational.OneFlange"}
+BASES = {
+    "DrivenJoint",
+    "LineForce",
+    "TwoFrameBody",
+    "TwoFrames",
+    "TwoFlanges",
+    "rotational.Compliant",
+    "rotational.OneFlange",
+}
 BASES |= {"rotational.TwoFlanges", "rotational.Slipping"}
 
 
@@ -533,7 +542,7 @@ def exported() -> dict[str, type]:
 
 EXPORTED = exported()
 SIDED = [name for name in SCENES if issubclass(EXPORTED[name], TwoFrames | TwoFlanges)]
-DISSIPATING = {"Damper", "SpringDamperParallel", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
+DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {"rotational.Position", "rotational.Speed"}
