@@ -13,6 +13,8 @@ from acausal.reduce import ReducedModel
 
 # Change of the multipliers in a Newton step, after which the next one would change rounding only: the rest is linear.
 SETTLED = 1e-6
+# Times at which equations are settled in one call.
+AT_ONCE = 8
 
 
 class Closing:
@@ -124,30 +126,40 @@ class Closing:
         t : array, shape (n,)
             Times.
         """
-        before, change = np.inf, np.finfo(float).max
-        while SETTLED < change < before:
-            settled = self._settle(x, z, p, t, modes)
-            if settled is None:
-                # Singular at some time: the others need not suffer.
-                rows = range(len(t)) if len(t) > 1 else ()
-                return np.array([self.settle(x[k][None], z[k][None], p, t[k][None], modes)[0] for k in rows] or z)
-            moved = (settled - z)[:, self.multipliers]
-            before, change = change, float(np.max(np.abs(moved), initial=0.0))
-            z = settled
+        z, rows, before = z.copy(), np.arange(len(t)), np.full(len(t), np.inf)
+        while rows.size:
+            settled = self._step(x[rows], z[rows], p, t[rows], modes)
+            change = np.max(np.abs(settled - z[rows])[:, self.multipliers], axis=1, initial=0.0)
+            z[rows] = settled
+            again = (change > SETTLED) & (change < before[rows])
+            before[rows] = change
+            rows = rows[again]
         return z
 
-    def _settle(
-        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
-    ) -> np.ndarray | None:
-        n = len(t)
-        if n not in self._settling:
-            self._settling[n] = Call(self._newton.map(n))
-        call = self._settling[n]
-        for array, value in zip(call.inputs, (x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n)), strict=True):
+    def _step(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        """One Newton step at every time; where the equations are singular, none."""
+        return np.concatenate(
+            [
+                self._some(x[k : k + AT_ONCE], z[k : k + AT_ONCE], p, t[k : k + AT_ONCE], modes)
+                for k in range(0, len(t), AT_ONCE)
+            ]
+        )
+
+    def _some(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        n, size = len(t), AT_ONCE if len(t) > 1 else 1
+        if size not in self._settling:
+            self._settling[size] = Call(self._newton.map(size))
+        call, rows = self._settling[size], np.minimum(np.arange(size), n - 1)
+        values = (x[rows].ravel(), z[rows].ravel(), np.tile(p, size), t[rows], np.tile(modes, size))
+        for array, value in zip(call.inputs, values, strict=True):
             array[:] = value
         done, _ = call.attempt()
-        found = call.outputs[0].reshape(n, -1).copy()
-        return found if done and np.all(np.isfinite(found)) else None
+        found = call.outputs[0].reshape(size, -1)[:n].copy()
+        if done and np.all(np.isfinite(found)):
+            return found
+        if n == 1:
+            return z
+        return np.concatenate([self._some(x[k : k + 1], z[k : k + 1], p, t[k : k + 1], modes) for k in range(n)])
 
     @cached_property
     def _newton(self) -> ca.Function:
