@@ -102,33 +102,3 @@ def beam_matrices(elements: int, bubbles: bool = False) -> BeamMatrices:
 def places(j: int, elements: int, bubbles: bool) -> list[int]:
     """Places of the coordinates of element j among those of the beam."""
     return [*range(3 * j, 3 * j + 6), *[3 * (elements + 1) + j] * bubbles]
-
-
-@dataclass(frozen=True)
-class Points:
-    """Points of Gauss in an element.
-
-    Parameters
-    ----------
-    xi, weights : arrays, shape (3,)
-        Places between 0 and 1, and weights with the sum 1.
-    slope, curvature : arrays, shape (3, 6)
-        First and second derivatives of S2 there, factors 1/l and 1/l^2.
-    """
-
-    xi: np.ndarray
-    weights: np.ndarray
-    slope: np.ndarray
-    curvature: np.ndarray
-
-
-@cache
-def gauss_points() -> Points:
-    """Return three points, exact for polynomials up to degree 5."""
-    at, weights = np.polynomial.legendre.leggauss(3)
-    at, weights = (at + 1) / 2, weights / 2
-    slope, curvature = (
-        np.array([[float(sp.diff(sp.sympify(s), xi, order).subs(xi, x)) for s in ACROSS] for x in at])
-        for order in (1, 2)
-    )
-    return Points(at, weights, slope, curvature)

@@ -114,7 +114,7 @@ class Inertia:
 
     def _straight(self) -> Inertia:
         """The beam without displacements."""
-        return replace(self, U=as_expr(np.zeros(self.U.shape)) + self.rest)
+        return replace(self, U=as_expr(np.ones(self.U.shape)) * self.rest)
 
     def momentum(self) -> Any:
         """Momenta of the rates of deformation alone, in kg.m/s, shape (n,)."""

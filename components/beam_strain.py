@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from math import sqrt
+from typing import Any, NamedTuple
 
-import numpy as np
+from acausal import as_expr
 
-from acausal import as_expr, dot
-from components.beam_element import beam_matrices, gauss_points
+
+class Bend(NamedTuple):
+    """Bending of an element: chord d = v_2 - v_1, symmetric q = l (theta_1 - theta_2), r = 2 d - l (theta_1 + theta_2), in m.
+
+    With eta from 1 at the first node to -1 at the second one, l v' = d + eta q / 2 + (1 - 3 eta^2) r / 4 and
+    l^2 v'' = 3 eta r - q: these modes are orthogonal in the integrals of v'^2 and of v''^2.
+    """
+
+    d: Any
+    q: Any
+    r: Any
 
 
 @dataclass(frozen=True)
@@ -18,7 +28,7 @@ class Strain:
     With `second_order`, a beam that slopes by v' = sin(phi) at arc length x reaches less far along the axis: by
     f = 1 - cos(phi) = v'^2 / 2 + v'^4 / 8 per length; and its curvature is v'' / cos(phi). The axial strain of an element is
     the mean of u' + f: linear u cannot balance f at each point (membrane locking). What varies linearly in an element is
-    taken up by a displacement c xi (1 - xi) along the beam, with c such that the first moment of the strain is 0. The
+    taken up by a displacement c xi (1 - xi) along the beam, with c such that the first moment of u' + v'^2 / 2 is 0. The
     energy is the sum of N^2 l / (2 E A) and of E J v''^2 (1 + v'^2) / 2, so that axial forces N act on the slopes.
 
     Parameters
@@ -38,40 +48,61 @@ class Strain:
     beta: Any
     second_order: bool
 
-    def _slope(self, U: Any, j: int) -> Any:
-        """Slope v' at the points of element j."""
-        return gauss_points().slope @ U[3 * j : 3 * j + 6] / self.l
+    def _bends(self, U: Any) -> list[Bend]:
+        """Bending of every element."""
+        found = []
+        for j in range(self.elements):
+            _, v_1, a, _, v_2, b = (U[3 * j + k] for k in range(6))
+            found.append(Bend(v_2 - v_1, a - b, 2 * (v_2 - v_1) - a - b))
+        return found
 
-    def _integrals(self, weights: np.ndarray, U: Any, Ud: Any, Udd: Any, j: int) -> tuple[Any, Any, Any]:
-        """Integral of the weighted shortening over element j in m, and its first and second derivatives."""
-        v, vd, vdd = (self._slope(x, j) for x in (U, Ud, Udd))
-        f, f_1, again = v * v / 2 + v * v * v * v / 8, _f_1(v), vd * vd + 1.5 * v * v * vd * vd
-        return self.l * dot(weights, f), self.l * dot(weights, f_1 * vd), self.l * dot(weights, again + f_1 * vdd)
+    def _slopes(self, e: Bend, f: Bend) -> Any:
+        """Integral of v' w' over an element, in m."""
+        return (e.d * f.d + e.q * f.q / 12 + e.r * f.r / 20) / self.l
 
     def shortening(self, U: Any, Ud: Any, Udd: Any) -> list[tuple[Any, Any, Any]]:
         """Shortening of every element by its slope in m, and its derivatives; 0 without second order."""
         if not self.second_order:
-            return [(as_expr(0.0),) * 3] * self.elements
-        return [self._integrals(gauss_points().weights, U, Ud, Udd, j) for j in range(self.elements)]
+            zero = as_expr(0.0)
+            return [(zero, zero, zero)] * self.elements
+        found = []
+        for e, ed, edd in zip(self._bends(U), self._bends(Ud), self._bends(Udd), strict=True):
+            s, half_rate, steep = self._slopes(e, e), self._slopes(e, ed), self._steepness(e)
+            again = (self._slopes(ed, ed) + self._slopes(e, edd)) * steep + half_rate * half_rate / self.l
+            found.append((s / 2 + s * s / (8 * self.l), half_rate * steep, again))
+        return found
+
+    def _steepness(self, e: Bend) -> Any:
+        """Derivative of the shortening by half the integral of v'^2."""
+        return 1 + self._slopes(e, e) / (2 * self.l)
 
     def unstretched(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
         """Nodal coordinates and derivatives, with u such that no element changes its length."""
-        each = zip(*self.shortening(U, Ud, Udd), strict=True)
-        return tuple(shifted(x, [-g for g in own]) for x, own in zip((U, Ud, Udd), each, strict=True))  # type: ignore[return-value]
+        g, gd, gdd = zip(*self.shortening(U, Ud, Udd), strict=True)
+        return shifted(U, [-x for x in g]), shifted(Ud, [-x for x in gd]), shifted(Udd, [-x for x in gdd])
 
     def with_bubbles(self, U: Any, Ud: Any, Udd: Any) -> tuple[Any, Any, Any]:
-        """Append c and its derivatives of every element; nothing without second order."""
+        """Append c and its derivatives of every element, in m; nothing without second order."""
         if not self.second_order:
             return U, Ud, Udd
-        each = zip(*[self._integrals(_bubble_weights(), U, Ud, Udd, j) for j in range(self.elements)], strict=True)
-        return tuple(_joined(x, list(own)) for x, own in zip((U, Ud, Udd), each, strict=True))  # type: ignore[return-value]
+        c, cd, cdd = [], [], []
+        for e, ed, edd in zip(self._bends(U), self._bends(Ud), self._bends(Udd), strict=True):
+            k, kd, kdd = (self._lean(x) for x in (e, ed, edd))
+            c.append(e.q * k)
+            cd.append(ed.q * k + e.q * kd)
+            cdd.append(edd.q * k + 2 * ed.q * kd + e.q * kdd)
+        return _joined(U, c), _joined(Ud, cd), _joined(Udd, cdd)
+
+    def _lean(self, e: Bend) -> Any:
+        return (e.r / 10 - e.d / 2) / self.l
 
     def without_bubbles(self, forces: Any, U: Any) -> Any:
         """Nodal forces of forces on the coordinates and on c, which follows from the slopes."""
         n = 3 * self.elements + 3
         total = [forces[k] for k in range(n)]
-        for j in range(self.elements if self.second_order else 0):
-            _add(total, j, forces[n + j] * (gauss_points().slope.T @ (_bubble_weights() * _f_1(self._slope(U, j)))))
+        for j, e in enumerate(self._bends(U) if self.second_order else ()):
+            on_q = forces[n + j] * e.q / self.l
+            _add(total, j, Bend(-on_q / 2, forces[n + j] * self._lean(e), on_q / 10))
         return as_expr(total)
 
     def angle(self, turn: Any) -> Any:
@@ -97,36 +128,42 @@ class Strain:
 
     def forces(self, U: Any, Ud: Any, N: list[Any]) -> Any:
         """Nodal forces of the axial forces N and of bending, in N, conjugate to U; shape (3 elements + 3,)."""
-        bending = self.EJ / self.l**3 * (beam_matrices(self.elements).K_bending @ (U + self.beta * Ud))
-        total = [bending[k] for k in range(3 * self.elements + 3)]
-        points = gauss_points()
-        for j, force in enumerate(N):
+        total = [as_expr(0.0)] * (3 * self.elements + 3)
+        k = self.EJ / self.l**3
+        for j, (force, e, ed) in enumerate(zip(N, self._bends(U), self._bends(Ud), strict=True)):
             total[3 * j] -= force
             total[3 * j + 3] += force
+            on = Bend(as_expr(0.0), k * (e.q + self.beta * ed.q), 3 * k * (e.r + self.beta * ed.r))
             if self.second_order:
-                v, curvature = self._slope(U, j), self._curvature(U, j)
-                turning = force * _f_1(v) + self.EJ * curvature * curvature * v
-                bent = self.EJ * curvature * v * v / self.l
-                _add(
-                    total, j, points.slope.T @ (points.weights * turning) + points.curvature.T @ (points.weights * bent)
-                )
+                turn = force * self._steepness(e) / self.l
+                parts = [Bend(turn * e.d, turn * e.q / 12, turn * e.r / 20), self._steep_bending(e)]
+                on = Bend(*(sum(entries[1:], entries[0]) for entries in zip(on, *parts, strict=True)))
+            _add(total, j, on)
         return as_expr(total)
 
-    def _curvature(self, U: Any, j: int) -> Any:
-        """Curvature v'' at the points of element j."""
-        return gauss_points().curvature @ U[3 * j : 3 * j + 6] / self.l**2
+    def _steep_bending(self, e: Bend) -> Bend:
+        """Derivatives of E J v''^2 v'^2 / 2, integrated by two points of Gauss, eta = 1 / sqrt(3) and its opposite."""
+        on = [as_expr(0.0)] * 3
+        for sign in (1, -1):
+            slope, bent = e.d + sign / sqrt(12) * e.q, sign * sqrt(3) * e.r - e.q
+            by_slope, by_bent = (self.EJ / (2 * self.l**5) * x for x in (slope * bent * bent, slope * slope * bent))
+            more = (by_slope, sign / sqrt(12) * by_slope - by_bent, sign * sqrt(3) * by_bent)
+            on = [a + b for a, b in zip(on, more, strict=True)]
+        return Bend(*on)
 
     def energy(self, U: Any, stretches: bool) -> Any:
         """Elastic energy in J; that of stretch only if the axis stretches."""
-        total = self.EJ / self.l**3 * dot(U, beam_matrices(self.elements).K_bending @ U) / 2
-        for j in range(self.elements if self.second_order else 0):
-            bent = self._slope(U, j) * self._curvature(U, j)
-            total += self.EJ * self.l / 2 * dot(gauss_points().weights, bent * bent)
+        total = as_expr(0.0)
+        for e in self._bends(U):
+            total += self.EJ / self.l**3 * (e.q * e.q + 3 * e.r * e.r) / 2
+            for sign in (1, -1) if self.second_order else ():
+                steep = (e.d + sign / sqrt(12) * e.q) * (sign * sqrt(3) * e.r - e.q)
+                total += self.EJ / self.l**5 * steep * steep / 4
         return total + (self.EA / self.l * sum(e * e for e, _ in self._extensions(U, U)) / 2 if stretches else 0.0)
 
     def dissipated(self, U: Any, Ud: Any, stretches: bool) -> Any:
         """Power of the damping in proportion to stiffness, in W."""
-        bending = self.EJ / self.l**3 * dot(Ud, beam_matrices(self.elements).K_bending @ Ud)
+        bending = self.EJ / self.l**3 * sum(e.q * e.q + 3 * e.r * e.r for e in self._bends(Ud))
         axial = self.EA / self.l * sum(r * r for _, r in self._extensions(U, Ud)) if stretches else 0.0
         return self.beta * (bending + axial)
 
@@ -140,22 +177,12 @@ def shifted(U: Any, lengths: list[Any]) -> Any:
     return as_expr(entries)
 
 
-def _f_1(v: Any) -> Any:
-    """Derivative of the shortening f by the slope."""
-    return v + v * v * v / 2
-
-
-def _bubble_weights() -> np.ndarray:
-    """Weights of the points for c = -3 times the integral of (1 - 2 xi) f."""
-    points = gauss_points()
-    return -3 * points.weights * (1 - 2 * points.xi)
-
-
 def _joined(U: Any, more: list[Any]) -> Any:
     return as_expr([*[U[k] for k in range(U.shape[0])], *more])
 
 
-def _add(total: list[Any], j: int, local: Any) -> None:
-    """Add the six forces of element j."""
-    for k in range(6):
-        total[3 * j + k] += local[k]
+def _add(total: list[Any], j: int, on: Bend) -> None:
+    """Add the nodal forces of forces on the bending of element j."""
+    across = on.d + 2 * on.r
+    for k, force in ((1, -across), (2, on.q - on.r), (4, across), (5, -on.q - on.r)):
+        total[3 * j + k] += force
