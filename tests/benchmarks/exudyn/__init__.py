@@ -1,0 +1,1 @@
+"""The scenes spin-up, pendulum and slider-crank next to Exudyn, which is optional: pip install ".[benchmark]"."""

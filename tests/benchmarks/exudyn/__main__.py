@@ -1,0 +1,45 @@
+"""Benchmark: accuracy against time next to Exudyn; tables in Markdown or for the terminal, and a picture.
+
+    OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.exudyn [--markdown] [--plot FILE.png] [SCENE]...
+
+One run on one machine: spin-up, pendulum and slider-crank at several tolerances, steps and formulations. Errors are the
+largest over 401 points against Exudyn with many elements and short steps, in parts of the range; how far our own
+converged solution is from it is printed too. Times are CPU times, best of several: of SolveDynamic, and of simulate() with
+a compiled model, which counts initialisation and choice of the order. Assembling and compiling are left out; neither
+writes files. Exudyn is optional: pip install ".[benchmark]".
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from tests.benchmarks.exudyn.cable import has_exudyn
+from tests.benchmarks.exudyn.compare import ours, reference, theirs
+from tests.benchmarks.exudyn.picture import draw
+from tests.benchmarks.exudyn.scenes import SCENES
+from tests.benchmarks.exudyn.tables import Compared, show
+
+REPEATS = 6
+
+
+def main(names: list[str], path: str | None, markdown: bool) -> None:
+    """Compare the scenes whose name holds one of the names; all, if there are none."""
+    if not has_exudyn():
+        raise SystemExit('Exudyn is not installed, so there is nothing to compare with: pip install ".[benchmark]"')
+    compared = []
+    for scene in (s for s in SCENES if not names or any(name in s.name for name in names)):
+        exact = reference(scene)
+        points = [p for curve in scene.curves for p in ours(scene, curve, exact.outputs, REPEATS)]
+        compared.append(Compared(scene, exact.apart, points, theirs(scene, exact.outputs, REPEATS)))
+        show(compared[-1], markdown)
+    if path:
+        draw(compared, path)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="part of a scene's name")
+    parser.add_argument("--plot", metavar="FILE.png", help="write the picture")
+    parser.add_argument("--markdown", action="store_true", help="tables in Markdown")
+    given = parser.parse_args()
+    main(given.scenes, given.plot, given.markdown)

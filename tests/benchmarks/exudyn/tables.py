@@ -1,0 +1,67 @@
+"""Tables of the comparison: each program's best points, and times at equal error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rich.console import Console
+from rich.table import Table
+
+from tests.benchmarks.exudyn.compare import Point, front, quickest
+from tests.benchmarks.exudyn.scenes import Scene
+
+LEVELS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5)
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A scene, how far the two references are apart, and the points of both programs."""
+
+    scene: Scene
+    apart: dict[str, float]
+    ours: list[Point]
+    theirs: list[Point]
+
+
+def best_rows(compared: Compared) -> Iterable[list[str]]:
+    """Rows of the points that none of their own program beats in time and in every output's error."""
+    for side in (compared.ours, compared.theirs):
+        kept = {id(p) for output in compared.scene.outputs for p in front(side, output)}
+        for p in sorted((p for p in side if id(p) in kept), key=lambda p: p.seconds):
+            errors = [f"{p.errors[output]:.1e}" for output in compared.scene.outputs]
+            counts = [str(n) for n in (p.steps, p.factorisations, p.evaluations)]
+            yield [p.curve, p.setting, f"{1e3 * p.seconds:.1f}", *errors, *counts, p.method]
+
+
+def equal_rows(compared: Compared) -> Iterable[list[str]]:
+    """Rows of the least times for an error, for each output, down to what the references agree on."""
+    for output in compared.scene.outputs:
+        for error in (level for level in LEVELS if level > compared.apart[output]):
+            ours, theirs = (quickest(side, output, error) for side in (compared.ours, compared.theirs))
+            if not theirs and not ours:
+                continue
+            times = [f"{1e3 * p.seconds:.1f}" if p else "not reached" for p in (ours, theirs)]
+            ratio = f"{theirs.seconds / ours.seconds:.1f}" if ours and theirs else ""
+            yield [output, f"{error:g}", *times, ratio, f"{ours.curve}, {ours.setting}" if ours else ""]
+
+
+def show(compared: Compared, markdown: bool) -> None:
+    """Print both tables."""
+    scene = compared.scene
+    apart = ", ".join(f"{name} {value:.1e}" for name, value in compared.apart.items())
+    title = f"{scene.name}: the two references are apart by {apart} of the range"
+    errors = [f"error of {name}" for name in scene.outputs]
+    points = ["", "tolerance or step", "ms", *errors, "steps", "factorisations", "evaluations", "method"]
+    equal = ["output", "error", "ms, ours", "ms, Exudyn", f"Exudyn / ours (goal {scene.goal:g})", "ours"]
+    console = Console(width=180)
+    console.print(title + "\n", highlight=False, markup=False)
+    for columns, rows in ((points, list(best_rows(compared))), (equal, list(equal_rows(compared)))):
+        if markdown:
+            lines = ["| " + " | ".join(row) + " |" for row in (columns, ["---"] * len(columns), *rows)]
+            print("\n".join(lines) + "\n")
+        else:
+            table = Table(*columns)
+            for row in rows:
+                table.add_row(*row)
+            console.print(table)
