@@ -79,7 +79,7 @@ from acausal.language import (
 )
 from acausal.result import Result
 from acausal.solve import Linearization, linearize, simulate
-from acausal.study import Formulation, Study, study
+from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [
     "ALWAYS",
@@ -94,6 +94,7 @@ __all__ = [
     "ConnectError",
     "Connector",
     "DeclarationError",
+    "Effects",
     "Equation",
     "ExportError",
     "Expr",
@@ -126,6 +127,7 @@ __all__ = [
     "discrete",
     "dot",
     "effect",
+    "effects",
     "exp",
     "fixed",
     "flow",
@@ -159,4 +161,5 @@ __all__ = [
     "time",
     "variable",
     "when",
+    "with_and_without",
 ]

@@ -3,26 +3,35 @@
 from __future__ import annotations
 
 import inspect
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, redirect_stdout
-from pathlib import Path
-from typing import IO, TYPE_CHECKING, Annotated, NoReturn
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from acausal.cli.common import (
+    Applied,
+    Initial,
+    Json,
+    Quiet,
+    Scene,
+    Set,
+    StopTime,
+    blaming,
+    compile_scene,
+    make_scene,
+    running,
+    stop_time_of,
+)
 from acausal.cli.output import Files, Progress, modes_table, progress_bar, summary, write_json
-from acausal.cli.scenes import brief, find_scene, place_in, read_settings, scenes
-from acausal.errors import AcausalError, DeclarationError, InitializationError, SimulationError
-from acausal.language.component import Model
-from acausal.result import Result, check_writable, match
+from acausal.cli.scenes import find_scene, scenes
+from acausal.errors import DeclarationError, InitializationError, SimulationError
+from acausal.result import Result, match
+from acausal.solve.trials import adaptive
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
-FAILED, WRONG, INTERRUPTED = 1, 2, 130
 MODES = ("states", "eigenvalues", "frequencies_hz", "damping_ratios", "inputs", "outputs")
-STOP_TIME = 1.0  # of a model that does not tell its own, in s
 
 app = typer.Typer(
     help="Acausal modelling of machines with rigid and flexible parts.",
@@ -31,21 +40,6 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-
-Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
-Set = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set", metavar="NAME=VALUE", help="Value of a parameter: a number, a word or a tuple such as 0,0,1."
-    ),
-]
-Json = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write a JSON document; - is standard output.")
-]
-Initial = Annotated[
-    str,
-    typer.Option("--initial", metavar="fixed|guesses|steady", help="What to do with states that no condition fixes."),
-]
 
 
 def main() -> None:
@@ -56,7 +50,7 @@ def main() -> None:
 @app.command("list")
 def list_scenes() -> None:
     """List the scenes, a line each."""
-    with _run():
+    with running():
         known = scenes()
         width = max(map(len, known), default=0)
         for name, cls in known.items():
@@ -67,10 +61,21 @@ def list_scenes() -> None:
 def simulate(
     scene: Scene,
     settings: Set = None,
-    stop_time: Annotated[
-        float | None, typer.Option(help="In s; the scene's own if not given.", metavar="S", show_default=False)
+    effects: Applied = None,
+    stop_time: StopTime = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(help="Relative tolerance of a step; 1e-6 if not given.", metavar="R", show_default=False),
     ] = None,
-    tolerance: Annotated[float, typer.Option(help="Relative tolerance of a step.", metavar="R")] = 1e-6,
+    accuracy: Annotated[
+        float | None,
+        typer.Option(
+            help="Instead of a tolerance: largest error of the outputs in parts of their ranges; chooses tolerance and "
+            "order, and the elements of adaptive beams.",
+            metavar="R",
+            show_default=False,
+        ),
+    ] = None,
     intervals: Annotated[int, typer.Option(help="The result has N + 1 points.", metavar="N")] = 400,
     method: Annotated[
         str | None,
@@ -90,20 +95,24 @@ def simulate(
         list[str] | None,
         typer.Option(help="More columns: paths with * and ?; drawn instead of outputs.", metavar="PATTERN"),
     ] = None,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but errors.")] = False,
+    quiet: Quiet = False,
 ) -> None:
     """Simulate a scene."""
-    with _run(json) as standard_output:
+    with running(json) as standard_output:
         import acausal as ac
 
         files = Files(scene, csv, plot, json, standard_output)
         files.check()
         cls = find_scene(scene)
-        compiled = _compile(cls, settings)
-        chosen = match(compiled.tree, variables or ())
+        model, values = make_scene(scene, cls, settings, effects)
+        compiled = compile_scene(scene, cls, settings, effects)
+        match(compiled.tree, variables or ())  # refuse wrong patterns before any work
+        again = accuracy is not None and bool(adaptive(compiled.tree))
         options = {
-            "stop_time": _stop_time(cls) if stop_time is None else stop_time,
+            "stop_time": stop_time_of(cls, stop_time),
             "tolerance": tolerance,
+            "accuracy": accuracy,
+            "parameters": values if again else None,
             "intervals": intervals,
             "method": method,
             "constraints": constraints,
@@ -111,17 +120,19 @@ def simulate(
             "initial": initial,
             "energy": True,
         }
-        result = _rescue(lambda show: ac.simulate(compiled, **options, progress=show), files, chosen, quiet)
-        files.write(result, chosen)
+        with blaming(cls):
+            subject = model if again else compiled
+            result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)
+        files.write(result, _chosen(result, variables))
         if not quiet:
             typer.echo(summary(result))
 
 
 @app.command()
-def check(scene: Scene, settings: Set = None, json: Json = None) -> None:
+def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
     """Compile a scene and tell what the compiler did: equations and unknowns, states, what was removed, seconds."""
-    with _run(json) as standard_output:
-        compiled = _compile(find_scene(scene), settings)
+    with running(json) as standard_output:
+        compiled = compile_scene(scene, find_scene(scene), settings, effects)
         _look_at_start(compiled)
         typer.echo(compiled.summary())
         if json:
@@ -129,12 +140,14 @@ def check(scene: Scene, settings: Set = None, json: Json = None) -> None:
 
 
 @app.command()
-def linearize(scene: Scene, settings: Set = None, initial: Initial = "fixed", json: Json = None) -> None:
+def linearize(
+    scene: Scene, settings: Set = None, effects: Applied = None, initial: Initial = "fixed", json: Json = None
+) -> None:
     """Linearise a scene about its initial point and list its modes."""
-    with _run(json) as standard_output:
+    with running(json) as standard_output:
         import acausal as ac
 
-        linear = ac.linearize(_compile(find_scene(scene), settings), initial=initial)
+        linear = ac.linearize(compile_scene(scene, find_scene(scene), settings, effects), initial=initial)
         typer.echo(modes_table(linear.eigenvalues))
         if json:
             document = {key: getattr(linear, key) for key in MODES} | {
@@ -156,51 +169,18 @@ def _look_at_start(compiled: CompiledModel) -> None:
             )
 
 
-@contextmanager
-def _run(json: str | None = None) -> Iterator[IO[str]]:
-    """Turn errors into a message and an exit status; give the stream for a JSON document.
-
-    With `json` "-" everything else that is printed goes to standard error.
-    """
-    standard_output = sys.stdout
-    try:
-        if json not in (None, "-"):
-            check_writable(json)
-        with redirect_stdout(sys.stderr) if json == "-" else nullcontext():
-            yield standard_output
-    except SimulationError as error:
-        _stop(f"the simulation failed: {error}", FAILED)
-    except AcausalError as error:
-        _stop(str(error), WRONG)
-    except KeyboardInterrupt:
-        _stop("interrupted.", INTERRUPTED)
+def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
+    """Return the names that match; accuracy may have chosen so few volumes that a pattern matches none."""
+    found: dict[str, None] = {}
+    for pattern in patterns or ():
+        try:
+            found |= dict.fromkeys(match(result.tree, [pattern]))
+        except DeclarationError as error:
+            typer.echo(f"left out: {error}", err=True)
+    return list(found)
 
 
-def _stop(message: str, status: int) -> NoReturn:
-    typer.echo(f"Error: {message}", err=True)
-    raise typer.Exit(status) from None
-
-
-def _compile(cls: type[Model], settings: list[str] | None) -> CompiledModel:
-    import acausal as ac
-
-    try:
-        return ac.compile(cls(), parameters=read_settings(settings or ()))
-    except AcausalError:
-        raise
-    except Exception as error:
-        place = place_in(error, Path(inspect.getfile(cls)))
-        if not place:
-            raise  # no fault of the user's file: whoever mends the engine needs the traceback
-        raise DeclarationError(f"{place}: {brief(error)}") from error
-
-
-def _stop_time(cls: type[Model]) -> float:
-    own = getattr(cls, "stop_time", None)
-    return float(own) if isinstance(own, int | float) else STOP_TIME
-
-
-def _rescue(compute: Callable[[Progress], Result], files: Files, chosen: list[str], quiet: bool) -> Result:
+def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[str] | None, quiet: bool) -> Result:
     """Run a simulation; where it fails or is interrupted, write what it has computed until then."""
     try:
         with progress_bar(not quiet) as show:
@@ -208,5 +188,5 @@ def _rescue(compute: Callable[[Progress], Result], files: Files, chosen: list[st
     except (SimulationError, KeyboardInterrupt) as stop:
         part = getattr(stop, "result", None)
         if isinstance(part, Result):
-            files.write(part, chosen, error=str(stop) or "interrupted")
+            files.write(part, _chosen(part, patterns), error=str(stop) or "interrupted")
         raise

@@ -13,6 +13,7 @@ import numpy as np
 
 from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
+from acausal.solve.accuracy import chosen_text
 
 FINAL_VALUES = 20
 ROUNDING = 1e-12
@@ -91,6 +92,7 @@ def summary(result: Result) -> str:
         f"  {stats['states']} states, {stats['algebraic']} algebraic unknowns; {stats['steps']} steps, "
         f"{stats['factorisations']} factorisations; {_method(stats)}",
         *_events(stats),
+        *([f"  {chosen_text(stats)}; {len(stats['trials'])} runs"] if "accuracy" in stats else []),
     ]
     series = result.series()
     if not series:
@@ -154,6 +156,19 @@ def modes_table(eigenvalues: np.ndarray) -> str:
 @contextmanager
 def progress_bar(wanted: bool) -> Iterator[Progress]:
     """Give a function that shows the progress of a long run on the terminal, or None where there is no terminal."""
+    with _bar(wanted) as show:
+        yield show and (lambda fraction, steps: show(fraction, 1.0, f"{steps} steps"))
+
+
+@contextmanager
+def runs_bar(wanted: bool) -> Iterator[Callable[[int, int, str], None] | None]:
+    """Give a function that shows how many runs of a study are done, or None where there is no terminal."""
+    with _bar(wanted) as show:
+        yield show and (lambda done, total, what: show(done, total, f"{done} of {total} runs: {what}"))
+
+
+@contextmanager
+def _bar(wanted: bool) -> Iterator[Callable[[float, float, str], None] | None]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -170,9 +185,9 @@ def progress_bar(wanted: bool) -> Iterator[Progress]:
     bar = Progress(*columns, console=console, transient=True)
     task = bar.add_task("", total=1.0)
 
-    def show(fraction: float, steps: int) -> None:
+    def show(done: float, total: float, what: str) -> None:
         bar.start()  # a short run never calls and shows nothing
-        bar.update(task, completed=fraction, description=f"{steps} steps")
+        bar.update(task, completed=done, total=total, description=what)
 
     try:
         yield show

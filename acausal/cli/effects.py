@@ -1,0 +1,76 @@
+"""The command effects: what each effect of a scene changes and costs."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from acausal.cli.app import app
+from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.output import runs_bar, write_json
+from acausal.cli.scenes import find_scene, read_settings
+from acausal.result import check_writable
+
+
+@app.command("effects")
+def effects(
+    scene: Scene,
+    settings: Set = None,
+    accuracy: Annotated[
+        float, typer.Option(help="Largest change of the outputs, in parts of their ranges.", metavar="R")
+    ] = 1e-2,
+    apply: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE.json",
+            help="Write the cheapest set of effects, for `acausal simulate SCENE --effects FILE.json`.",
+        ),
+    ] = None,
+    outputs: Annotated[
+        list[str] | None,
+        typer.Option(help="What to compare: paths with * and ?; the scene's outputs if not given.", metavar="PATTERN"),
+    ] = None,
+    tolerance: Annotated[float, typer.Option(help="Relative tolerance of a step.", metavar="R")] = 1e-6,
+    stop_time: StopTime = None,
+    pairs: Annotated[int, typer.Option(help="Pairs of effects that are tried at most.", metavar="N")] = 15,
+    limit: Annotated[float, typer.Option(help="Seconds after which a run is stopped.", metavar="S")] = 60.0,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes side by side; one for each core if not given.", metavar="N")
+    ] = None,
+    csv: Annotated[str | None, typer.Option(help="Write a row for each trial.", metavar="FILE")] = None,
+    markdown: Annotated[str | None, typer.Option(help="Write the tables in Markdown.", metavar="FILE")] = None,
+    json: Json = None,
+    quiet: Quiet = False,
+) -> None:
+    """Tell what each effect of a scene changes and costs, and the cheapest set that stays within an accuracy."""
+    with running(json) as standard_output:
+        from acausal.study import effects as study
+        from acausal.study.effects_file import choices_document
+
+        for path in filter(None, (apply, csv, markdown)):
+            check_writable(path)
+        cls, values = find_scene(scene), read_settings(settings or ())
+        with blaming(cls), runs_bar(not quiet) as show:
+            found = study(
+                cls(),
+                stop_time=stop_time_of(cls, stop_time),
+                accuracy=accuracy,
+                tolerance=tolerance,
+                outputs=outputs,
+                parameters=values,
+                limit=limit,
+                pairs=pairs,
+                workers=workers,
+                progress=show,
+            )
+        if csv:
+            found.to_csv(csv)
+        if markdown:
+            found.to_markdown(markdown)
+        if apply:
+            write_json(choices_document(found, scene, values), apply, standard_output)
+        if json:
+            write_json({"scene": scene, **found.document()}, json, standard_output)
+        if not quiet:
+            typer.echo(found.table())

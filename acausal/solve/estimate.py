@@ -1,0 +1,95 @@
+"""Errors of a run, estimated from runs that are better than it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.result import Result
+
+# An output that moves by no more than this, in parts of its size or of 1, rests.
+ROUNDING = 1e-13
+# The error falls at least with the power 2/3 of the tolerance, that of order 2, or with the order 2 of the elements.
+BY_TOLERANCE, ORDER, HIGHEST = 2 / 3, 2.0, 4.0
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Estimated errors of a run in parts of the range of each output.
+
+    Parameters
+    ----------
+    outputs : dict of str to float
+        Of each output, both errors together.
+    total, tolerance, elements : float
+        Of the worst output: both together, by the tolerance alone, by the number of elements alone.
+    worst : str
+        The output with the largest error.
+    """
+
+    outputs: dict[str, float]
+    total: float
+    tolerance: float
+    elements: float
+    worst: str
+
+
+def table(result: Result) -> tuple[list[str], np.ndarray]:
+    """Return names and values of the outputs, shape (times, outputs)."""
+    series = result.series()
+    return [s.name for s in series], np.column_stack([s.values for s in series])
+
+
+def scale(values: np.ndarray) -> np.ndarray:
+    """Return what an error is compared with: the range of each column; where it rests, its size; where that is 0, 1."""
+    size = np.max(np.abs(values), axis=0)
+    moved = np.ptp(values, axis=0)
+    rest = np.where(size > ROUNDING, size, 1.0)
+    return np.where(moved > ROUNDING * np.maximum(size, 1.0), moved, rest)
+
+
+def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, halved: Result | None) -> Estimate:
+    """Estimate the errors of a run.
+
+    What the better run lacks itself is added by extrapolation: with the least power of the tolerance, and with the order
+    in the number of elements that a third run tells.
+
+    Parameters
+    ----------
+    run : Result
+        The run.
+    finer : Result
+        With a smaller tolerance.
+    tenths : float
+        Its tolerance over that of the run.
+    doubled, halved : Result or None
+        As finer, with twice and with half as many elements.
+    """
+    names, values = table(run)
+    exact = table(doubled or finer)[1]
+    unit = scale(exact)
+    by_tolerance = (values - table(finer)[1]) / unit / (1 - tenths**BY_TOLERANCE)
+    by_elements = np.zeros_like(values)
+    if doubled is not None:
+        step = (table(finer)[1] - exact) / unit
+        order = ORDER
+        if halved is not None:
+            before = (table(halved)[1] - table(finer)[1]) / unit
+            order = float(np.log2(max(_size(before), 1e-300) / max(_size(step), 1e-300)))
+        by_elements = step / (1 - 2.0 ** -np.clip(order, 1.0, HIGHEST))
+    found = np.max(np.abs(by_tolerance + by_elements), axis=0)
+    found = np.where(np.isfinite(found), found, np.inf)
+    worst = int(np.argmax(found))
+    return Estimate(
+        dict(zip(names, found.tolist(), strict=True)),
+        float(found[worst]),
+        _size(by_tolerance),
+        _size(by_elements),
+        names[worst],
+    )
+
+
+def _size(values: np.ndarray) -> float:
+    size = float(np.max(np.abs(values)))
+    return size if np.isfinite(size) else np.inf

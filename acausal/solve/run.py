@@ -1,0 +1,164 @@
+"""One run: initialise, choose the order, integrate, and make a Result."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.errors import SimulationError
+from acausal.result import Result
+from acausal.solve.evaluator import Evaluator
+from acausal.solve.events import Chattering, Run
+from acausal.solve.instant import Point, go_on, start
+from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
+from acausal.solve.order import eigenvalues_of, order_limit
+
+
+@dataclass(frozen=True)
+class Task:
+    """What to run, as of `simulate`; `max_order` None is chosen from the eigenvalues."""
+
+    start_time: float
+    stop_time: float
+    tolerance: float
+    intervals: int
+    initial: str
+    method: str
+    constraints: str
+    max_order: int | None
+    energy: bool
+    progress: Progress | None
+
+
+def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
+    """Run a compiled model once with the parameter values p.
+
+    Raises
+    ------
+    InitializationError
+        If no consistent initial values exist or are found.
+    SimulationError
+        If the integration fails; its `result` holds what was computed.
+    """
+    start_time, stop_time = task.start_time, task.stop_time
+    built = compiled.seconds.get("integrators", 0.0)
+    started = clock.perf_counter()
+    times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, task.intervals + 1)
+    times[-1] = stop_time
+    breaks = _breaks(compiled, p, start_time, stop_time)
+    at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), task.initial)
+    first, at = at, go_on(compiled, p, at)
+    rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
+    max_order = task.max_order or order_limit(rates, stop_time - start_time)
+    fastest = float(np.max(np.abs(rates), initial=0.0))
+    settings = Settings(task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
+    integrator = Integrator(compiled, p, settings, (start_time, stop_time))
+    events = Run(integrator, times, breaks)
+    failure: BaseException | None = None
+    try:
+        events.go(at)
+    except (Failure, Chattering, KeyboardInterrupt) as caught:
+        failure = caught
+    waited = compiled.seconds.get("integrators", 0.0) - built
+    stats = _stats(compiled, integrator, breaks)
+    stats |= {"events": len(events.events), "event_times": events.events}
+    stats["solve_seconds"] = clock.perf_counter() - started - waited
+    first = (events.first or at) if at is first else first
+    result = _result(compiled, integrator.trace, p, first, times, stats, task.energy)
+    if failure is not None:
+        _raise(failure, result, integrator, p)
+    return result
+
+
+def _raise(failure: BaseException, result: Result, integrator: Integrator, p: np.ndarray) -> NoReturn:
+    """Raise what ended a run, with what was computed."""
+    if isinstance(failure, Failure):
+        raise SimulationError(_failure_text(integrator.compiled, integrator, p, failure), result)
+    if isinstance(failure, Chattering):
+        raise SimulationError(str(failure), result)
+    failure.result = result  # type: ignore[attr-defined]
+    raise failure
+
+
+def _breaks(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> list[float]:
+    inside = compiled.breaks(p)[0]
+    return sorted({float(b) for b in inside if start < b < stop})
+
+
+def _middle(start: float, breaks: list[float], stop: float) -> float:
+    return (start + (breaks[0] if breaks else stop)) / 2
+
+
+def _stats(compiled: CompiledModel, run: Integrator, breaks: list[float]) -> dict[str, Any]:
+    report, trace = compiled.report, run.trace
+    return {
+        "equations_flat": report["equations_flat"],
+        "equations_reduced": report["equations_reduced"],
+        "states": compiled.nx,
+        "algebraic": compiled.nz,
+        "compile_seconds": sum(compiled.seconds.values()),
+        "steps": trace.steps,
+        "factorisations": trace.factorisations,
+        "residual_evaluations": trace.residual_evaluations,
+        "calls": trace.calls,
+        "integration_seconds": trace.seconds,
+        "max_order": run.settings.max_order,
+        "tolerance": run.settings.tolerance,
+        "method": " and ".join(trace.methods) or "none",
+        "method_steps": dict(trace.methods),
+        "fastest_rate": run.settings.fastest,
+        "constraints": "none" if not compiled.closing.size else "projection" if run.moves else "states",
+        "choices": trace.choices,
+        "loosened_at": trace.loosened,
+        "break_times": breaks,
+    }
+
+
+def _result(
+    compiled: CompiledModel,
+    trace: Trace,
+    p: np.ndarray,
+    first: Point,
+    times: np.ndarray,
+    stats: dict[str, Any],
+    energy: bool,
+) -> Result:
+    t = np.concatenate([[first.time], *trace.times])
+    x = np.vstack([first.x[None], *trace.x])
+    z = np.vstack([first.z[None], *trace.z])
+    modes = np.vstack([first.modes[None], *trace.modes])
+    rows = np.searchsorted(t, times[times <= t[-1]])
+    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], p)
+    if energy:
+        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], p)
+        held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
+        supplied, dissipated = trace.energy[-1][-1] if trace.energy else (0.0, 0.0)
+        change = held[1] - held[0]
+        stats |= {
+            "energy_supplied": float(supplied),
+            "energy_stored_change": float(change),
+            "energy_dissipated": float(dissipated),
+            "energy_method": float(supplied - change - dissipated),
+        }
+    return Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
+
+
+def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failure: Failure) -> str:
+    trace = run.trace
+    lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
+    if trace.x:
+        x, z, modes = trace.x[-1][-1], trace.z[-1][-1], trace.modes[-1][-1]
+        at = float(trace.times[-1][-1])
+        rates = compiled.values(x, z, p, at, modes, 0.0)[0][: compiled.nx] / compiled.nominal[: compiled.nx]
+        fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
+        names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
+        lines.append(f"Until t = {at:.6g} s all is well; what changes fastest there: {names}.")
+    lines.append(
+        "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
+        "stops an integrator. What was computed is kept."
+    )
+    return "\n".join(lines)

@@ -1,0 +1,123 @@
+"""Runs of one model with several tolerances, methods and numbers of elements, each done once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.errors import DeclarationError, SimulationError
+from acausal.flatten.instantiate import Instantiation, join, walk
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.result import Result
+from acausal.solve.run import Task, run
+
+COUNTS = ("states", "steps", "factorisations", "residual_evaluations", "solve_seconds")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """How to run: elements or volumes of each adaptive beam (0: none is adaptive), tolerance, method, order limit."""
+
+    number: int
+    tolerance: float
+    method: str
+    max_order: int | None
+
+
+class Trials:
+    """Runs of a model.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model; a compiled one must not contain adaptive parts.
+    parameters : mapping of str to value or None
+        As of `simulate`.
+    task : Task
+        What to run; tolerance, method and order limit are those of each choice.
+    """
+
+    def __init__(self, model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task) -> None:
+        self.model, self.parameters, self.task = model, dict(parameters or {}), task
+        fixed = isinstance(model, CompiledModel)
+        tree = model.tree if fixed else Instantiation(model, self.parameters).root
+        self.adaptive = adaptive(tree)
+        if not any(isinstance(d, f.Variable) and d.causality == "output" for d in tree.fields.values()):
+            raise DeclarationError(
+                "the model has no output whose error could be estimated. Declare what is looked at: "
+                'y: Scalar = output("..."), or give a tolerance instead of an accuracy.'
+            )
+        if fixed and self.adaptive:
+            path = next(iter(self.adaptive))
+            raise DeclarationError(
+                f"accuracy chooses `{path}`, which is fixed in a compiled model. Give the model itself, "
+                f'simulate(model, accuracy=...), or compile with parameters={{"{_beam(path)}.adaptive": False}}.'
+            )
+        self.compiled: dict[int, CompiledModel] = {}
+        self.results: dict[Choice, Result | SimulationError] = {}
+        self.done: list[dict[str, Any]] = []
+
+    def __call__(self, choice: Choice) -> Result | SimulationError:
+        """Return the result of a choice, or how it failed."""
+        if choice not in self.results:
+            compiled, p = self._compile(choice.number)
+            how = {"tolerance": choice.tolerance, "method": choice.method, "max_order": choice.max_order}
+            try:
+                found: Any = run(compiled, p, replace(self.task, **how))
+            except SimulationError as failure:
+                found = failure
+            self.results[choice] = found
+            self._note(choice, found if isinstance(found, Result) else found.result, str(found))
+        return self.results[choice]
+
+    def sizes(self, choice: Choice) -> dict[str, int]:
+        """Return elements or volumes by path."""
+        return {path: max(choice.number, least) for path, least in self.adaptive.items()}
+
+    def seconds(self) -> dict[str, float]:
+        """Return seconds of compiling and solving, all runs together."""
+        return {
+            "compile_seconds": sum(sum(c.seconds.values()) for c in self.compiled.values()),
+            "solve_seconds": sum(trial["solve_seconds"] for trial in self.done),
+        }
+
+    def _compile(self, number: int) -> tuple[CompiledModel, np.ndarray]:
+        if isinstance(self.model, CompiledModel):
+            self.compiled[number] = self.model
+            return self.model, self.model.parameter_values(self.parameters)
+        if number not in self.compiled:
+            sizes = {path: max(number, least) for path, least in self.adaptive.items()}
+            self.compiled[number] = compile(self.model, {**self.parameters, **sizes})
+        return self.compiled[number], self.compiled[number].parameter_values(None)
+
+    def _note(self, choice: Choice, result: Any, text: str) -> None:
+        stats = result.stats
+        self.done.append(
+            {
+                "tolerance": choice.tolerance,
+                "max_order": stats["max_order"],
+                "method": stats["method"],
+                "sizes": self.sizes(choice),
+                **{name: stats[name] for name in COUNTS},
+                "failed": "" if isinstance(self.results[choice], Result) else text,
+            }
+        )
+
+
+def adaptive(tree: Component) -> dict[str, int]:
+    """Return path and least value of every structural parameter that accuracy may choose."""
+    return {
+        join(component._path, name): int(declared.minimum or 1)
+        for component in walk(tree)
+        for name, declared in component.fields.items()
+        if isinstance(declared, f.Structural) and declared.refine is not None and declared.refine(component)
+    }
+
+
+def _beam(path: str) -> str:
+    return path.rpartition(".")[0]
