@@ -23,8 +23,8 @@ class DrivenJoint(TwoFrames):
     """
 
     use_axis_flange: bool = structural("whether the joint has a drive", default=False, choices=(True, False))
-    friction: bool = effect("friction in the joint")
-    elasticity: bool = effect("compliance of the drive")
+    friction: bool = effect("friction in the joint", default=True)
+    elasticity: bool = effect("compliance of the drive", default=True)
     n: Any
     d: Any
     compliance: Any

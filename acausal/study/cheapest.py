@@ -1,0 +1,76 @@
+"""The cheapest set of effects that stays within an accuracy: greedy, each step verified by a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping, Sequence
+from typing import Any
+
+from acausal.study.effects_rows import Row
+
+Search = Generator[Mapping[str, Any], Row, Row]
+
+
+def search(
+    singles: Sequence[Row],
+    reference: Row,
+    standing: Row,
+    outputs: Sequence[str],
+    accuracy: float,
+    fits: Callable[[Mapping[str, Any]], dict[str, Any]],
+) -> Search:
+    """Yield the choices to try, take the row of each, and return the cheapest row.
+
+    Begins with the reference and adds one switched effect after the other, the one that saves most first, as long as
+    the outputs stay within the accuracy and the scene becomes cheaper.
+
+    Parameters
+    ----------
+    singles : sequence of Row
+        One effect switched each.
+    reference, standing : Row
+        The reference, and the scene as it stands.
+    outputs : sequence of str
+        Which outputs must stay within the accuracy.
+    accuracy : float
+        Largest change in parts of an output's range.
+    fits : callable
+        Takes choices and returns those whose part exists with the others.
+    """
+
+    def is_good(row: Row) -> bool:
+        return not row.error and row.change(outputs) <= accuracy
+
+    best = reference
+    candidates = [row for row in singles if is_good(row) and row.cheaper(reference)]
+    for single in sorted(candidates, key=lambda row: row.seconds):
+        wanted = fits({**best.choices, **single.choices})
+        if wanted == best.choices or not single.choices.items() <= wanted.items():
+            continue
+        tried = single if wanted == single.choices else (yield wanted)
+        # Each step may be slower by what cannot be told; all together must not be.
+        if is_good(tried) and tried.cheaper(best) and tried.cheaper(reference):
+            best = tried
+    return standing if is_good(standing) and standing.cheaper(best) else best
+
+
+def cheapest(searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[Row]]) -> dict[str, Row]:
+    """Carry out searches side by side and return what each found.
+
+    Parameters
+    ----------
+    searches : mapping of str to generator
+        From `search`, by name.
+    measure : callable
+        Returns a row for each of some choices.
+    """
+    found: dict[str, Row] = {}
+    answers: dict[str, Any] = dict.fromkeys(searches)
+    while answers:
+        asked = {}
+        for name, answer in answers.items():
+            try:
+                asked[name] = searches[name].send(answer)
+            except StopIteration as end:
+                found[name] = end.value
+        answers = dict(zip(asked, measure(list(asked.values())), strict=True))
+    return {name: found[name] for name in searches}

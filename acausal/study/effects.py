@@ -1,0 +1,258 @@
+"""effects(): what each effect of a scene changes and costs, and the cheapest set within an accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import compile
+from acausal.errors import DeclarationError, SimulationError
+from acausal.language.component import Component
+from acausal.result import match
+from acausal.result.lookup import find
+from acausal.study.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
+from acausal.study.cheapest import cheapest, search
+from acausal.study.effects_listing import Effect, fullest, same
+from acausal.study.effects_result import ALL, Effects
+from acausal.study.effects_rows import Interaction, Row, interaction, row
+from acausal.study.effects_trials import Choices, Trials
+from acausal.study.point import Job, Measurement, Point
+from acausal.study.session import Progress
+from acausal.study.shipping import pack
+
+# An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
+# changes more than this part of a range: what is left without it is another scene.
+MATTERS, OTHER = 0.1, 0.4
+
+
+def effects(
+    model: Component,
+    *,
+    stop_time: float | None = None,
+    accuracy: float = 1e-2,
+    tolerance: float = 1e-6,
+    intervals: int = 400,
+    outputs: Sequence[str] | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    initial: str = "fixed",
+    method: str | None = None,
+    repeats: int = 3,
+    limit: float = 60.0,
+    pairs: int = 15,
+    workers: int | None = None,
+    executor: Executor | str | None = None,
+    progress: Progress | None = None,
+) -> Effects:
+    """Find what each effect of a scene changes and costs, and the cheapest set of effects within an accuracy.
+
+    The reference is the fullest scene: every effect at its most complete choice. Each effect is switched alone, then
+    pairs of those that matter or save time, and the cheapest set is built from those that may go, each step of it
+    verified by a simulation.
+
+    Parameters
+    ----------
+    model : Component
+        A model that is not compiled.
+    stop_time : float, optional
+        In s; that of the model if not given.
+    accuracy : float
+        Largest change of the outputs that the cheapest set may make, in parts of their ranges.
+    tolerance, initial, method
+        As of `simulate`.
+    intervals : int
+        Outputs are compared at intervals + 1 equidistant times.
+    outputs : sequence of str, optional
+        Paths, or patterns with * and ?, of what to compare; the outputs of the model if not given.
+    parameters : mapping of str to value, optional
+        Values by path for all runs.
+    repeats : int
+        Runs whose median solve time counts.
+    limit : float
+        Seconds after which a run is stopped.
+    pairs : int
+        How many pairs are tried at most, those first whose effects change most.
+    workers : int, optional
+        Processes side by side; one for each core if not given.
+    executor : Executor or str, optional
+        Where to run instead: an executor of the kind of concurrent.futures, or the address of a Dask scheduler.
+    progress : callable, optional
+        Called with the number of runs that are done, of all that are known to be needed, and what is going on.
+
+    Returns
+    -------
+    Effects
+        With rows, interactions, the cheapest sets, and tables of them.
+
+    Raises
+    ------
+    DeclarationError
+        If the model is wrong, has no effects, or nothing that could be compared.
+    SimulationError
+        If neither the fullest scene nor the scene as it stands can be integrated.
+    """
+    given = dict(parameters or {})
+    stop = stop_time_of(model, stop_time)
+    check_counts(intervals=intervals, repeats=repeats)
+    check_counts(0, pairs=pairs)
+    check_shares(1e-2, accuracy=accuracy)
+    check_shares(1e-6, tolerance=tolerance)
+    check_limit(limit)
+    names = _outputs(model, given, outputs)
+    found, full = fullest(model, given)
+    if not found:
+        raise DeclarationError(
+            f"{type(model).__name__} has no effects: none of its fields, and none of its parts', is an effect(...)."
+        )
+    point = Point(tolerance=tolerance, method=method)
+    job = Job(pack(model), point, stop, intervals, names, repeats, limit, initial)
+    with executor_of(executor, workers) as where:
+        trials = Trials(model, given, job, where, progress)
+        return _Study(trials, found, full, accuracy).result(pairs)
+
+
+class _Study:
+    """The course of one study, from the reference to the cheapest sets."""
+
+    def __init__(self, trials: Trials, found: tuple[Effect, ...], full: Choices, accuracy: float) -> None:
+        self.trials, self.effects, self.accuracy = trials, found, accuracy
+        self.tolerance = trials.job.point.tolerance
+        full_run, stands_run = trials.measure([full, {}], "reference")
+        self.refused = full_run.error
+        if full_run.error and stands_run.error:
+            raise SimulationError(
+                f"neither the fullest scene nor the scene as it stands can be simulated: {stands_run.error}"
+            )
+        self.base = full if not full_run.error else self._in_force(full)
+        self.reference = stands_run if full_run.error else full_run
+        self.origin = row({}, self.reference, self.reference)
+        self.standing = row(self._difference({}), stands_run, self.reference)
+
+    def result(self, pairs: int) -> Effects:
+        """Switch effects, pairs of them, and find the cheapest sets."""
+        singles, idle = self._singles()
+        rows = self._rows(singles, "effects")
+        fine = self.trials.measure([self.base], "integration error", self.tolerance / 10)
+        floor = row({}, fine[0], self.reference)
+        together, left = self._pairs(rows, pairs)
+        sets = self._cheapest(rows)
+        return Effects(
+            scene=type(self.trials.model).__name__,
+            accuracy=self.accuracy,
+            tolerance=self.tolerance,
+            effects=self.effects,
+            reference=self.origin,
+            standing=self.standing,
+            refused=self.refused,
+            floor=floor,
+            rows=tuple(sorted(rows, key=lambda r: (bool(r.error), -r.change(), r.seconds))),
+            interactions=tuple(sorted(together, key=lambda i: -i.largest)),
+            untried=left,
+            idle=tuple(idle),
+            cheapest=sets,
+            choices={name: self._choices(best.choices, idle) for name, best in sets.items()},
+        )
+
+    def _in_force(self, paths: Choices) -> dict[str, Any]:
+        """The choices of the scene as it stands."""
+        return {effect.path: effect.value for effect in self.effects if effect.path in paths}
+
+    def _difference(self, choices: Choices) -> dict[str, Any]:
+        """Choices that a trial makes other than the reference, of effects that both have."""
+        return {
+            effect.path: value
+            for effect in self.effects
+            for value in [choices.get(effect.path, effect.value)]
+            if effect.path in self.base and not same(value, self.base[effect.path])
+        }
+
+    def _singles(self) -> tuple[list[Choices], list[Choices]]:
+        """Each effect switched to each other choice: those that change the equations, and those that do not."""
+        wanted: list[Choices] = [
+            {effect.path: choice}
+            for effect in self.effects
+            for choice in effect.tries
+            if effect.path in self.base and not same(choice, self.base[effect.path])
+        ]
+        reference, *prints = self.trials.fingerprints([self.base, *[self._with(choices) for choices in wanted]])
+        idle = [choices for choices, print_ in zip(wanted, prints, strict=True) if print_ == reference]
+        return [choices for choices in wanted if choices not in idle], idle
+
+    def _with(self, choices: Choices) -> dict[str, Any]:
+        return {**self.base, **choices}
+
+    def _measured(self, wanted: Sequence[Choices], what: str) -> list[Measurement]:
+        return self.trials.measure([self._with(choices) for choices in wanted], what)
+
+    def _rows(self, wanted: Sequence[Choices], what: str) -> list[Row]:
+        found = self._measured(wanted, what)
+        return [row(choices, run, self.reference) for choices, run in zip(wanted, found, strict=True)]
+
+    def _fits(self, choices: Choices) -> dict[str, Any]:
+        there = self.trials.fitting(self._with(choices))
+        return {path: value for path, value in choices.items() if path in there}
+
+    def _pairs(self, rows: Sequence[Row], most: int) -> tuple[list[Interaction], int]:
+        """Pairs of effects that matter or save time, as many as wanted; and how many were left out."""
+        counts = [
+            r
+            for r in rows
+            if not r.error and r.change() < OTHER and (r.change() > MATTERS * self.accuracy or r.cheaper(self.origin))
+        ]
+        ways = [
+            (a, b)
+            for a, b in combinations(sorted(counts, key=lambda r: -r.change()), 2)
+            if a.choices.keys() != b.choices.keys() and len(self._fits({**a.choices, **b.choices})) == 2
+        ]
+        ways.sort(key=lambda pair: -min(r.change() for r in pair))
+        tried, left = ways[:most], max(0, len(ways) - most)
+        both = self._measured([{**a.choices, **b.choices} for a, b in tried], "pairs")
+        alone = [self._measured([a.choices, b.choices], "pairs") for a, b in tried]
+        found = [
+            interaction((a.choices, first), (b.choices, second), together, self.reference)
+            for (a, b), (first, second), together in zip(tried, alone, both, strict=True)
+            if not (_same(together, first) or _same(together, second))
+        ]
+        return found, left
+
+    def _cheapest(self, rows: Sequence[Row]) -> dict[str, Row]:
+        """The cheapest set for all outputs together, and for each alone."""
+        names = list(self.reference.values)
+        targets = {ALL: names} | ({name: [name] for name in names} if len(names) > 1 else {})
+        return cheapest(
+            {
+                name: search(rows, self.origin, self.standing, outputs, self.accuracy, self._fits)
+                for name, outputs in targets.items()
+            },
+            lambda wanted: self._rows(wanted, "cheapest sets"),
+        )
+
+    def _choices(self, choices: Choices, idle: Sequence[Choices]) -> dict[str, Any]:
+        """Every choice of a set by path, but for effects that the scene does not call for and that are as they stand."""
+        there = self._fits(self._with(choices))
+        silent = {path for one in idle for path in one if same(there.get(path), self._in_force(self.base)[path])}
+        return {path: value for path, value in there.items() if path not in silent}
+
+
+def _same(one: Measurement, other: Measurement) -> bool:
+    """Tell whether two trials have the same equations: one effect leaves nothing of the other."""
+    return one.operations == other.operations and all(
+        np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
+    )
+
+
+def _outputs(model: Component, given: Mapping[str, Any], outputs: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of what to compare; the model as it stands is compiled, which tells what is wrong with it."""
+    compiled = compile(model, given)
+    names = tuple(match(compiled.tree, outputs) if outputs else compiled.outputs)
+    if not names:
+        raise DeclarationError(
+            f"{type(model).__name__} has no outputs to compare; name variables, for instance "
+            f"outputs=[{next(iter(compiled.states), 'joint.phi')!r}]."
+        )
+    for name in names:
+        find(compiled.tree, name)
+    return names

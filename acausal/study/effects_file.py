@@ -1,0 +1,92 @@
+"""Choices of effects in a file: written by a study, taken by a later run of the same scene."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path, PurePath
+from typing import Any
+
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import unknown_name
+from acausal.language.component import Component
+from acausal.study.effects_listing import effects_of, fitting
+from acausal.study.effects_result import ALL, Effects
+
+
+def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the cheapest set for all outputs as a document.
+
+    Parameters
+    ----------
+    found : Effects
+        The study.
+    scene : str
+        Name of the scene, as the command takes it.
+    settings : mapping of str to value
+        Values by path with which the study was made.
+    """
+    best = found.cheapest[ALL]
+    return {
+        "scene": scene,
+        "settings": dict(settings),
+        "accuracy": found.accuracy,
+        "outputs": list(found.outputs),
+        "change": best.change(),
+        "times_faster": found.reference.seconds / best.seconds,
+        "effects": dict(found.choices[ALL]),
+    }
+
+
+def with_effects(model: Component, scene: str, path: str | Path, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return settings together with the choices of a file; where both give a value, the settings win.
+
+    Parameters
+    ----------
+    model : Component
+        The scene, not compiled.
+    scene : str
+        Its name, as the command takes it.
+    path : str or Path
+        The file.
+    settings : mapping of str to value
+        Values by path.
+
+    Raises
+    ------
+    DeclarationError
+        If the file cannot be read, is none of effects, is for another scene, or names effects that the scene lacks.
+    """
+    choices = _read(path, scene)
+    _check_names(model, choices, path)
+    together = fitting(model, {**choices, **settings})
+    return {name: value for name, value in together.items() if name not in settings} | dict(settings)
+
+
+def _read(path: str | Path, scene: str) -> dict[str, Any]:
+    try:
+        document = json.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise DeclarationError(f"cannot read {path}: {error.strerror or error}.") from None
+    except ValueError as error:
+        raise DeclarationError(f"{path} is no JSON document: {error}.") from None
+    choices = document.get("effects") if isinstance(document, dict) else None
+    if not isinstance(choices, dict) or "scene" not in document:
+        raise DeclarationError(
+            f"{path} holds no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
+        )
+    # Where the user's file lies may change, and from where it is named.
+    if PurePath(str(document["scene"])).name != PurePath(scene).name:
+        raise DeclarationError(
+            f"{path} is for the scene {document['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "
+            "writes one for it."
+        )
+    return choices
+
+
+def _check_names(model: Component, choices: Mapping[str, Any], path: str | Path) -> None:
+    known = [effect.path for effect in effects_of(model, fitting(model, choices))]
+    for name in choices:
+        if name not in known:
+            message = unknown_name(name, known).replace("in the model", "among the effects of the scene", 1)
+            raise DeclarationError(f"{path}: {message}")

@@ -1,0 +1,134 @@
+"""Rows of a study of effects: what switched effects change, and what they cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from acausal.study.deviation import deviations, scale
+from acausal.study.point import Measurement
+
+# Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
+NOISE = 0.1
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a trial changes and costs, next to the reference.
+
+    Parameters
+    ----------
+    choices : mapping of str to value
+        What is switched; nothing in the reference.
+    largest, rms : mapping of str to float
+        Change of each output in parts of its range: the largest, and the root mean square.
+    seconds : float
+        Median solve time.
+    time, work : float
+        Ratio of solve times, and of operations.
+    operations, equations, equations_less, steps : int
+        Instructions of equations and Jacobian; size of the integrated system, and by how much it is smaller; steps.
+    error : str
+        Why the trial failed, "" if it did not.
+    """
+
+    choices: Mapping[str, Any]
+    largest: Mapping[str, float] = field(default_factory=dict)
+    rms: Mapping[str, float] = field(default_factory=dict)
+    seconds: float = 0.0
+    time: float = 1.0
+    work: float = 1.0
+    operations: int = 0
+    equations: int = 0
+    equations_less: int = 0
+    steps: int = 0
+    error: str = ""
+
+    @property
+    def name(self) -> str:
+        """The switched effects: "crank=rigid, rod_bar.weight=False"."""
+        return ", ".join(f"{path}={value}" for path, value in self.choices.items())
+
+    def change(self, outputs: Iterable[str] | None = None) -> float:
+        """Return the largest change of some outputs, of all if not given."""
+        return max((self.largest[name] for name in (self.largest if outputs is None else outputs)), default=0.0)
+
+    def cheaper(self, other: Row) -> bool:
+        """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
+        if not as_fast(self, other):
+            return self.seconds < other.seconds
+        return (self.operations, self.steps) < (other.operations, other.steps)
+
+
+def as_fast(one: Row, other: Row) -> bool:
+    """Tell whether the times of two trials cannot be told apart."""
+    return abs(one.seconds - other.seconds) <= NOISE * other.seconds
+
+
+@dataclass(frozen=True)
+class Interaction:
+    """What two effects change together beyond the sum of what they change alone, by output, in parts of its range."""
+
+    first: Mapping[str, Any]
+    second: Mapping[str, Any]
+    size: Mapping[str, float]
+    error: str = ""
+
+    @property
+    def largest(self) -> float:
+        """The largest of all outputs."""
+        return max(self.size.values(), default=0.0)
+
+
+def row(choices: Mapping[str, Any], found: Measurement, reference: Measurement) -> Row:
+    """Compare a trial with the reference.
+
+    Parameters
+    ----------
+    choices : mapping of str to value
+        What is switched.
+    found, reference : Measurement
+        What the trial and the reference gave.
+    """
+    if found.error:
+        return Row(dict(choices), error=found.error)
+    changes = deviations(found.values, reference.values)
+    return Row(
+        dict(choices),
+        {name: largest for name, (largest, _) in changes.items()},
+        {name: rms for name, (_, rms) in changes.items()},
+        found.solve_seconds,
+        found.solve_seconds / reference.solve_seconds,
+        found.operations / reference.operations,
+        found.operations,
+        found.equations,
+        reference.equations - found.equations,
+        found.steps,
+    )
+
+
+def interaction(
+    first: tuple[Mapping[str, Any], Measurement],
+    second: tuple[Mapping[str, Any], Measurement],
+    both: Measurement,
+    reference: Measurement,
+) -> Interaction:
+    """Compare the change of both effects with the sum of the changes of each.
+
+    Parameters
+    ----------
+    first, second : (mapping of str to value, Measurement)
+        What is switched, and what that alone gave.
+    both, reference : Measurement
+        What both together and the reference gave.
+    """
+    if both.error:
+        return Interaction(first[0], second[0], {}, both.error)
+    size = {}
+    for name, exact in reference.values.items():
+        alone = first[1].values[name] + second[1].values[name] - exact
+        size[name] = float(np.max(np.abs(both.values[name] - alone)) / scale(exact))
+    return Interaction(first[0], second[0], size)

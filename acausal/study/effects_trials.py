@@ -1,0 +1,96 @@
+"""Trials: a scene with some of its effects switched, compiled, looked at and measured."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Executor
+from dataclasses import replace
+from typing import Any
+
+import casadi as ca
+
+from acausal.compiler import compile
+from acausal.errors import AcausalError
+from acausal.language.component import Component
+from acausal.result.lookup import find
+from acausal.study.effects_listing import fitting
+from acausal.study.journal import Journal
+from acausal.study.point import Job, Measurement, Point
+from acausal.study.session import Progress, Session
+from acausal.study.shipping import unpack
+
+Choices = Mapping[str, Any]
+
+
+def fingerprint(job: Job) -> str:
+    """Return what is the same for scenes with the same equations and outputs; "" if the scene cannot be compiled.
+
+    Parameters
+    ----------
+    job : Job
+        What would be measured.
+    """
+    try:
+        compiled = compile(unpack(job.model), parameters=job.point.settings)
+        shown = ca.vertcat(*[find(compiled.tree, name).column for name in job.outputs])
+        outputs = ca.Function("outputs", compiled.arguments, [compiled.reduced.resolve(ca.densify(shown))])
+    except AcausalError:
+        return ""
+    functions = (compiled.local.function, outputs, compiled.start.function, compiled.breaks.function)
+    return hashlib.sha256("".join(f.serialize() for f in functions).encode()).hexdigest()
+
+
+class Trials:
+    """Measures a scene with effects switched; what is known is not measured again.
+
+    Parameters
+    ----------
+    model : Component
+        The scene.
+    settings : mapping of str to value
+        Values that hold in all trials, unless a choice replaces them.
+    job : Job
+        How to run; its point tells all but the settings.
+    executor : Executor
+        Where to run.
+    progress : callable, optional
+        Called with the number of runs that are done, of all that are known to be needed, and what is going on.
+    """
+
+    def __init__(
+        self, model: Component, settings: Choices, job: Job, executor: Executor, progress: Progress | None = None
+    ) -> None:
+        self.model, self.settings, self.job, self.executor = model, settings, job, executor
+        self.session = Session(self._job, executor, Journal(None, {}), progress)
+
+    def fitting(self, choices: Choices) -> dict[str, Any]:
+        """Return the settings of a trial: those that fit together."""
+        return fitting(self.model, {**self.settings, **choices})
+
+    def fingerprints(self, wanted: Iterable[Choices]) -> list[str]:
+        """Return the fingerprint of each trial."""
+        return list(self.executor.map(fingerprint, [self._job(self._point(choices)) for choices in wanted]))
+
+    def measure(self, wanted: Iterable[Choices], what: str, tolerance: float | None = None) -> list[Measurement]:
+        """Measure trials.
+
+        Parameters
+        ----------
+        wanted : iterable of mapping
+            Choices by path.
+        what : str
+            What they are for, for the progress.
+        tolerance : float, optional
+            Another one than for the others.
+        """
+        points = [self._point(choices) for choices in wanted]
+        if tolerance is not None:
+            points = [replace(point, tolerance=tolerance) for point in points]
+        return self.session.measure(points, what)
+
+    def _point(self, choices: Choices) -> Point:
+        return replace(self.job.point, settings=self.fitting(choices))
+
+    def _job(self, point: Point) -> Job:
+        return replace(self.job, point=point)
