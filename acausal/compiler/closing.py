@@ -121,14 +121,16 @@ class Closing:
         ----------
         x, z : arrays, shapes (n, nx), (n, nz)
             States, and algebraic unknowns nearly right.
-        p, modes : arrays
-            Parameters and constants of the segment.
+        p : array
+            Parameters.
         t : array, shape (n,)
             Times.
+        modes : array, shape (n, m)
+            Constants of the segment of each time.
         """
         z, rows, before = z.copy(), np.arange(len(t)), np.full(len(t), np.inf)
         while rows.size:
-            settled = self._step(x[rows], z[rows], p, t[rows], modes)
+            settled = self._step(x[rows], z[rows], p, t[rows], modes[rows])
             change = np.max(np.abs(settled - z[rows])[:, self.multipliers], axis=1, initial=0.0)
             z[rows] = settled
             again = (change > SETTLED) & (change < before[rows])
@@ -138,19 +140,15 @@ class Closing:
 
     def _step(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """One Newton step at every time; where the equations are singular, none."""
-        return np.concatenate(
-            [
-                self._some(x[k : k + AT_ONCE], z[k : k + AT_ONCE], p, t[k : k + AT_ONCE], modes)
-                for k in range(0, len(t), AT_ONCE)
-            ]
-        )
+        some = (slice(k, k + AT_ONCE) for k in range(0, len(t), AT_ONCE))
+        return np.concatenate([self._some(x[k], z[k], p, t[k], modes[k]) for k in some])
 
     def _some(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         n, size = len(t), AT_ONCE if len(t) > 1 else 1
         if size not in self._settling:
             self._settling[size] = Call(self._newton.map(size))
         call, rows = self._settling[size], np.minimum(np.arange(size), n - 1)
-        values = (x[rows].ravel(), z[rows].ravel(), np.tile(p, size), t[rows], np.tile(modes, size))
+        values = (x[rows].ravel(), z[rows].ravel(), np.tile(p, size), t[rows], modes[rows].ravel())
         for array, value in zip(call.inputs, values, strict=True):
             array[:] = value
         done, _ = call.attempt()
@@ -159,7 +157,8 @@ class Closing:
             return found
         if n == 1:
             return z
-        return np.concatenate([self._some(x[k : k + 1], z[k : k + 1], p, t[k : k + 1], modes) for k in range(n)])
+        each = (slice(k, k + 1) for k in range(n))
+        return np.concatenate([self._some(x[k], z[k], p, t[k], modes[k]) for k in each])
 
     @cached_property
     def _newton(self) -> ca.Function:
@@ -167,7 +166,7 @@ class Closing:
         r = self._reduced
         arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
         alg = ca.substitute(r.alg, initial.sx, 0)
-        both = ca.Function("alg", arguments, [ca.densify(alg), ca.jacobian(alg, r.z)])
+        both = ca.Function("alg", arguments, ca.cse([ca.densify(alg), ca.jacobian(alg, r.z)]))
         symbols = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
         value, J = both(*symbols)
         return ca.Function("newton", symbols, [symbols[1] - ca.solve(J, value, "csparse")])

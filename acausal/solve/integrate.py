@@ -257,7 +257,9 @@ class Integrator:
         found = Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts)
         if not c.closing.size:
             return found
-        return replace(found, z=c.closing.settle(found.x, found.z, self.p, found.times, modes))
+        # What goes on from here starts on the constraints; the other rows settle when somebody reads them.
+        last = c.closing.settle(found.x[-1:], found.z[-1:], self.p, found.times[-1:], modes[None])
+        return replace(found, z=np.vstack([found.z[:-1], last]))
 
     def keep(self, stretch: Stretch) -> None:
         """Append rows to the trace; integrals of power go on from the last one."""

@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from scipy.sparse.csgraph import maximum_bipartite_matching
-
-from acausal.structure.incidence import Rows, sparse
+from acausal.structure.incidence import Rows
 
 
 @dataclass(frozen=True)
@@ -36,18 +33,24 @@ class Search:
 
 
 def maximum_matching(rows: Rows, n_variables: int) -> Matching:
-    """Match as many equations as possible (Hopcroft & Karp 1973, of scipy).
+    """Match as many equations as possible: short ones first, each with the first free variable, then by augmenting paths.
 
-    Short equations come first: in the given order the search of scipy can take exponentially long.
+    The search of scipy for all at once takes exponentially long on some chains.
     """
-    order = np.argsort([len(row) for row in rows], kind="stable")
-    found = maximum_bipartite_matching(sparse([rows[k] for k in order], n_variables), perm_type="column")
-    variable_of = np.empty(len(rows), dtype=int)
-    variable_of[order] = found
-    equation_of = np.full(n_variables, -1)
-    matched = np.flatnonzero(variable_of >= 0)
-    equation_of[variable_of[matched]] = matched
-    return Matching(variable_of.tolist(), equation_of.tolist())
+    matching = Matching([-1] * len(rows), [-1] * n_variables)
+    alone = []
+    for equation in sorted(range(len(rows)), key=lambda k: len(rows[k])):
+        free = next((v for v in rows[equation] if matching.equation_of[v] < 0), None)
+        if free is None:
+            alone.append(equation)
+        else:
+            matching.variable_of[equation], matching.equation_of[free] = free, equation
+    closed: set[int] = set()
+    for equation in alone:
+        search = augment(equation, rows, matching.variable_of, matching.equation_of, closed)
+        if not search.found:
+            closed.update(search.right)
+    return matching
 
 
 def augment(
