@@ -93,6 +93,16 @@ class Strain:
             cdd.append(edd.q * k + 2 * ed.q * kd + e.q * kdd)
         return _joined(U, c), _joined(Ud, cd), _joined(Udd, cdd)
 
+    def bubble(self, U: Any, j: int) -> Any:
+        """Coefficient c of element j, in m; 0 without second order."""
+        bend = self._bends(U)[j]
+        return bend.q * self._lean(bend) if self.second_order else 0.0
+
+    def middle(self, U: Any, j: int) -> tuple[Any, Any]:
+        """Displacements (u, v) of the middle of element j, in m."""
+        u_1, v_1, a, u_2, v_2, b = (U[3 * j + k] for k in range(6))
+        return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
+
     def _lean(self, e: Bend) -> Any:
         return (e.r / 10 - e.d / 2) / self.l
 

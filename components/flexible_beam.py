@@ -11,7 +11,6 @@ from acausal import (
     PREFER,
     as_expr,
     branch,
-    cos,
     cross,
     der,
     dot,
@@ -20,7 +19,6 @@ from acausal import (
     outer,
     port,
     potential_root,
-    sin,
     structural,
     variable,
 )
@@ -30,7 +28,7 @@ from components.beam_inertia import Inertia
 from components.beam_sections import Sections
 from components.beam_strain import Strain, shifted
 from components.frame import Frame, move
-from components.orientation import null_rotation, planar_rotation, resolve1, resolve2
+from components.orientation import null_rotation, planar_matrix, planar_rotation, resolve1, resolve2
 from components.world import World
 
 Z = np.array([0.0, 0.0, 1.0])
@@ -268,12 +266,7 @@ class FlexibleBeam(Beam):
     def middle_r_0(self):
         """Position of the material middle point, resolved in the world, in m."""
         U, half = self._shape(), self.elements // 2
-        left = U[3 * half : 3 * half + 3]
-        if self.elements % 2:
-            right = U[3 * half + 3 : 3 * half + 6]
-            at = ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2 + (left[2] - right[2]) / 8)
-        else:
-            at = (left[0], left[1])
+        at = self._strain.middle(U, half) if self.elements % 2 else (U[3 * half], U[3 * half + 1])
         return self.ref.r_0 + resolve1(self.ref.R, as_expr((self.length / 2 + at[0], at[1], 0.0)))
 
     @observed
@@ -290,7 +283,7 @@ class FlexibleBeam(Beam):
         """Force and moment at every node: what is applied at the tip, less the inertia forces beyond the node."""
         motion, ref, b = self._motion(), self.ref, self.frame_b
         (U, Ud, Udd), inertia, sections = motion, self._inertia(motion), self._sections(motion)
-        R_b, r_b = planar_rotation_without_rate(self._strain.angle(U[-1])), self._end(U)
+        R_b, r_b = planar_matrix(self._strain.angle(U[-1])), self._end(U)
         a = self._acceleration(inertia)
         force, moment = R_b.T @ b.f, R_b.T @ b.t + cross(r_b, R_b.T @ b.f)
         cuts = []
@@ -303,9 +296,3 @@ class FlexibleBeam(Beam):
                 own = replace(sections, elements=1, I=sections.I / self.elements, Ud=Ud[nodes], Udd=Udd[nodes])
                 force, moment = force - part, moment - about - own.moment(ref.z, ref.R.w)
         return cuts[::-1]
-
-
-def planar_rotation_without_rate(angle: Any) -> Any:
-    """Rotation matrix about z, turning coordinates of the reference frame into those of the section."""
-    c, s = cos(angle), sin(angle)
-    return as_expr([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -69,6 +69,12 @@ def planar_rotation(n: Any, phi: Any) -> RelativeOrientation:
     return RelativeOrientation(T, n * der(phi))
 
 
+def planar_matrix(phi: Any) -> Any:
+    """Rotation matrix of a turn by the angle phi about z, for results, where no rate counts."""
+    c, s = cos(phi), sin(phi)
+    return as_expr([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
 def fixed_rotation(T: np.ndarray) -> RelativeOrientation:
     """Rotate by a constant matrix."""
     return RelativeOrientation(T, np.zeros(3))

@@ -24,7 +24,7 @@ class TwoFrameBody(TwoFrames):
     angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
-    gyroscopic: bool = effect("gyroscopic torque w x I w")
+    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True)
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
