@@ -54,12 +54,14 @@ class FlexibleBeam(Beam):
         Rayleigh damping in 1/s and s: D = alpha M + beta K.
     initial : "undeformed", "static" or "free"
         At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing.
+    axial, bending, rotary_inertia, centrifugal, coriolis, geometric_stiffness, damping, weight
+        Effects, as of Beam.
 
     Notes
     -----
     Schiavo, Vigano, Ferretti, Object-oriented modelling of flexible beams, Multibody System Dynamics 15 (2006),
     equations 5 to 16. Sections keep a finite angle: frame_a and frame_b are the material end sections. Deformations are
-    small against the length; a beam that turns faster than its first natural frequency needs SubstructuredBeam.
+    small against the length; a beam that turns faster than its first natural frequency needs geometric_stiffness.
     """
 
     elements: int = structural("number of finite elements", default=1, minimum=1, refine=lambda s: s.adaptive)

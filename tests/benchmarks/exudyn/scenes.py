@@ -105,6 +105,7 @@ def _spin_up(omega: float, volumes: int) -> Scene:
             substructured(4 * n, "auto"),
             fem("one frame, stiffened", n, "auto"),
             fem("one frame, stiffened, quasi-static stretch", n, "auto", axial="quasi_static"),
+            fem("one frame, stiffened, quasi-static stretch, one-step", n, "rosenbrock", axial="quasi_static"),
             substructured(n, "auto", ", stiffened", **STIFFENED),
             substructured(n, "rosenbrock", ", stiffened, one-step", **STIFFENED),
             substructured(2 * n, "rosenbrock", ", stiffened, one-step", **STIFFENED),
