@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -76,11 +77,11 @@ class Inertia:
         """
         b, mu, Ud, Udd = self.matrices, self.mu, self.Ud, self.Udd
         P, Pdd, turning = self.first(), self._moment(Udd), self if self.centrifugal else self._straight()
-        x_1, y_1, x_2, y_2 = self._position()
-        c_1, d_1, c_2, d_2 = turning._position()
+        x_1, y_1, x_2, y_2 = self._position
+        c_1, d_1, c_2, d_2 = turning._position
         relative = as_expr((0.0, 0.0, mu * (dot(x_2, Udd) - dot(y_1, Udd))))
         force = self.mass * a + cross(z, P) + cross(w, cross(w, turning.first())) + Pdd
-        moment = cross(P, a) + self._tensor() @ z + cross(w, turning._tensor() @ w) + relative
+        moment = cross(P, a) + self._tensor @ z + cross(w, turning._tensor @ w) + relative
         wx, wy, wz = w
         nodal = mu * (
             a[0] * b.s1
@@ -99,15 +100,17 @@ class Inertia:
             nodal += 2 * mu * wz * (b.M12.T @ Ud - b.M12 @ Ud)
         return force, moment, nodal
 
+    @cached_property
     def _position(self) -> tuple[Any, Any, Any, Any]:
         """Integrals of S1' u_x, S1' u_y, S2' u_x, S2' u_y."""
         b, l, U = self.matrices, self.l, self.U
         return b.M11 @ U + l * b.x1, b.M12 @ U, b.M12.T @ U + l * b.x2, b.M22 @ U
 
+    @cached_property
     def _tensor(self) -> Any:
         """Inertia tensor about the origin in kg.m2."""
         b, l, mu, U = self.matrices, self.l, self.mu, self.U
-        x_1, _, x_2, y_2 = self._position()
+        x_1, _, x_2, y_2 = self._position
         xx = mu * (self.elements**3 / 3 * l**2 + l * dot(b.x1, U) + dot(U, x_1))
         yy, xy = mu * dot(U, y_2), mu * dot(U, x_2)
         return as_expr([[yy, -xy, 0.0], [-xy, xx, 0.0], [0.0, 0.0, xx + yy]])
@@ -122,8 +125,8 @@ class Inertia:
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
-        mu, Ud, I = self.mu, self.Ud, self._tensor()
-        _, y_1, x_2, _ = self._position()
+        mu, Ud, I = self.mu, self.Ud, self._tensor
+        _, y_1, x_2, _ = self._position
         spin = mu * (dot(x_2, Ud) - dot(y_1, Ud))
         own = dot(Ud, self.momentum())
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self._moment(Ud))
