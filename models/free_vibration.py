@@ -1,13 +1,11 @@
 """Free vibration: a cantilever that is released from the static shape under a tip force (beam paper, section 5.1)."""
 
-from __future__ import annotations
-
-from typing import Any
-
+import acausal as ac
 from acausal import Model, Scalar, chain, connect, initial, output, parameter, part, structural
 from components import FlexibleBeam, SubstructuredBeam, World, WorldForce
 
-SECTION: dict[str, Any] = {"length": 2.0, "E": 72e9, "A": 1e-4, "J": 1e-8 / 12, "rho": 2700.0}
+SECTION: dict = {"length": 2.0, "E": 72e9, "A": 1e-4, "J": 1e-8 / 12, "rho": 2700.0}
+CHAIN = {"formulation": "substructured"}
 
 
 class FreeVibration(Model):
@@ -15,6 +13,12 @@ class FreeVibration(Model):
 
     stop_time = 1.0
     method = "resolve"  # its vibrations are what is looked at: follow them, do not damp them
+    formulations = ac.with_and_without(
+        ac.Formulation("one frame", {"formulation": "fem"}, {"elements": (4, 8, 16)}),
+        ac.Formulation("volumes", {**CHAIN, "elements_per_volume": 1}, {"volumes": (4, 8, 16)}, exact=True),
+        ac.Formulation("volumes of 2", {**CHAIN, "elements_per_volume": 2}, {"volumes": (2, 4, 8)}, exact=True),
+        stiffened="beam.geometric_stiffness",
+    )
     formulation: str = structural("kind of beam", default="fem", choices=("fem", "substructured"))
     elements: int = structural("elements of the finite-element beam", default=10, minimum=1)
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
@@ -47,6 +51,4 @@ class FreeVibration(Model):
 
 
 if __name__ == "__main__":
-    import acausal as ac
-
     ac.simulate(FreeVibration(), stop_time=FreeVibration.stop_time).plot("tip_deflection", path="free-vibration.png")

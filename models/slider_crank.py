@@ -1,7 +1,5 @@
 """Slider-crank of elastic or rigid bars, driven by a torque that is switched off at 0.7 s (beam paper, section 5.3)."""
 
-from __future__ import annotations
-
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, effect, fixed, output, parameter, part, structural, time
 from components import Body, BodyRod, FlexibleBeam, Prismatic, Revolute, SubstructuredBeam, World
@@ -14,6 +12,12 @@ class SliderCrank(Model):
     """Crank and rod in line along +x and at rest at the start, the slider far."""
 
     stop_time = 1.6
+    formulations = ac.with_and_without(
+        ac.Formulation("one frame", {"rod": "elastic", "rod_volumes": 1}, {"rod_elements": (4, 8)}),
+        ac.Formulation("volumes", {"rod": "elastic"}, {"rod_volumes": (4, 8), "rod_elements": (4, 8)}, exact=True),
+        ac.Formulation("volumes of 2", {"rod": "elastic"}, {"rod_volumes": (2, 4), "rod_elements": (4, 8)}, exact=True),
+        stiffened="rod_bar.geometric_stiffness",
+    )
     crank: str = effect("elasticity of the crank", default="elastic", choices=("elastic", "rigid"))
     rod: str = effect("elasticity of the rod", default="elastic", choices=("elastic", "rigid"))
     crank_elements: int = structural("finite elements of the crank", default=3, minimum=1)
@@ -31,27 +35,23 @@ class SliderCrank(Model):
 
     @part
     def crank_bar(self):
-        if self.crank == "rigid":
-            return BodyRod(r=(0.152, 0, 0), m=D * A * 0.152)
-        return FlexibleBeam(length=0.152, E=1e9, rho=D, A=A, J=J, elements=self.crank_elements)
+        beam = FlexibleBeam(length=0.152, E=1e9, rho=D, A=A, J=J, elements=self.crank_elements)
+        return beam if self.crank == "elastic" else BodyRod(r=(0.152, 0, 0), m=D * A * 0.152)
 
     @part
     def rod_bar(self):
         n, rest = divmod(self.rod_elements, self.rod_volumes)
         if rest:
             raise ac.DeclarationError("rod_elements is no multiple of rod_volumes; try rod_elements=8, rod_volumes=4.")
-        if self.rod == "rigid":
-            return BodyRod(r=(0.304, 0, 0), m=D * A * 0.304)
-        return SubstructuredBeam(length=0.304, E=5e7, rho=D, A=A, J=J, volumes=self.rod_volumes, elements_per_volume=n)
+        beam = SubstructuredBeam(length=0.304, E=5e7, rho=D, A=A, J=J, volumes=self.rod_volumes, elements_per_volume=n)
+        return beam if self.rod == "elastic" else BodyRod(r=(0.304, 0, 0), m=D * A * 0.304)
 
     def connections(self):
-        yield connect(self.drive.flange, self.bearing.axis)
+        yield from (connect(self.drive.flange, self.bearing.axis), chain(self.world, self.guide, self.slider))
         yield chain(self.world, self.bearing, self.crank_bar, self.pin, self.rod_bar, self.wrist, self.slider)
-        yield chain(self.world, self.guide, self.slider)
 
     def equations(self):
-        yield self.crank_angle == self.bearing.phi
-        yield self.slider_position == self.guide.s
+        yield from (self.crank_angle == self.bearing.phi, self.slider_position == self.guide.s)
         yield self.rod_tip_deflection == (0 if self.rod == "rigid" else self.rod_bar.node_deflection[-1, 1])
         yield self.rod_mid_deflection == (0 if self.rod == "rigid" else self.rod_bar.middle_deflection)
 

@@ -1,35 +1,24 @@
 """Spin-up manoeuvre: a flexible beam on a hub that turns by a prescribed angle (beam paper, section 5.4)."""
 
-from __future__ import annotations
-
 from math import pi
-from typing import Any
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, cos, output, parameter, part, piecewise, sin, structural, time
 from components import FlexibleBeam, Revolute, SubstructuredBeam, World
 from components.rotational import Position
 
+FEM, CHAIN = {"formulation": "fem"}, {"formulation": "substructured"}
+
 
 class SpinUp(Model):
     """Beam on a hub that is brought to the speed omega within the time ramp."""
 
     stop_time = 20.0
-    formulations = (
-        ac.Formulation("one frame", {"formulation": "fem"}, {"volumes": (5, 10, 20)}),
-        ac.Formulation("stiffened", {"formulation": "fem", "beam.geometric_stiffness": True}, {"volumes": (5, 10, 20)}),
-        ac.Formulation(
-            "volumes",
-            {"formulation": "substructured", "elements_per_volume": 1},
-            {"volumes": (5, 10, 20, 40)},
-            exact=True,
-        ),
-        ac.Formulation(
-            "volumes of 2 elements",
-            {"formulation": "substructured", "elements_per_volume": 2},
-            {"volumes": (5, 10, 20)},
-            exact=True,
-        ),
+    formulations = ac.with_and_without(
+        ac.Formulation("one frame", FEM, {"volumes": (5, 10)}),
+        ac.Formulation("volumes", {**CHAIN, "elements_per_volume": 1}, {"volumes": (5, 10, 20, 40)}, exact=True),
+        ac.Formulation("volumes of 2", {**CHAIN, "elements_per_volume": 2}, {"volumes": (5, 10, 20)}, exact=True),
+        stiffened="beam.geometric_stiffness",
     )
     formulation: str = structural("kind of beam", default="substructured", choices=("substructured", "fem"))
     volumes: int = structural("volumes of the substructured beam", default=5, minimum=1)
@@ -48,14 +37,13 @@ class SpinUp(Model):
 
     @part
     def beam(self):
-        section: dict[str, Any] = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
+        section: dict = {"length": self.length, "E": self.E, "A": self.A, "J": self.J, "rho": self.rho}
         if self.formulation == "fem":
             return FlexibleBeam(elements=self.volumes * self.elements_per_volume, **section)
         return SubstructuredBeam(volumes=self.volumes, elements_per_volume=self.elements_per_volume, **section)
 
     def connections(self):
-        yield chain(self.world, self.hub, self.beam)
-        yield connect(self.drive.flange, self.hub.axis)
+        yield from (chain(self.world, self.hub, self.beam), connect(self.drive.flange, self.hub.axis))
 
     def equations(self):
         T, x = self.ramp, 2 * pi * time / self.ramp

@@ -1,0 +1,153 @@
+"""The command study: what accuracy costs in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+
+from acausal.cli.app import app
+from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
+from acausal.cli.output import runs_bar, write_json
+from acausal.cli.scenes import find_scene, read_settings
+from acausal.errors import DeclarationError
+from acausal.language.component import Model
+from acausal.result import check_picture, check_writable
+
+
+@app.command("study")
+def study(
+    scene: Scene,
+    settings: Set = None,
+    formulations: Annotated[
+        list[str] | None,
+        typer.Option("--formulation", metavar="NAME", help="Try these only; all of the scene if not given."),
+    ] = None,
+    tolerances: Annotated[
+        str, typer.Option(metavar="R,R,...", help="Relative tolerances of a step.")
+    ] = "1e-3,1e-4,1e-5,1e-6,1e-7",
+    max_orders: Annotated[
+        str, typer.Option(metavar="N,N,...", help="Limits of the order; auto is chosen by the run.")
+    ] = "auto",
+    methods: Annotated[
+        str | None, typer.Option(metavar="NAME,...", help="Methods of simulate; the scene's own if not given.")
+    ] = None,
+    constraints: Annotated[
+        str | None, typer.Option(metavar="NAME,...", help="How loops stay closed: auto, states, projection.")
+    ] = None,
+    switches: Annotated[
+        list[str] | None,
+        typer.Option("--switch", metavar="NAME=VALUE,VALUE", help="Another parameter that is varied."),
+    ] = None,
+    outputs: Annotated[
+        list[str] | None,
+        typer.Option(metavar="PATTERN", help="What to compare: paths with * and ?; the scene's outputs if not given."),
+    ] = None,
+    reference: Annotated[
+        str | None,
+        typer.Option(metavar="FILE.csv", help="Compare with this table of simulate --csv; made if not given."),
+    ] = None,
+    accuracy: Annotated[
+        float, typer.Option(metavar="R", help="How well the reference is to be known, in parts of the range.")
+    ] = 1e-4,
+    stop_time: StopTime = None,
+    intervals: Annotated[int, typer.Option(help="Every run has N + 1 points.", metavar="N")] = 400,
+    initial: Initial = "fixed",
+    repeats: Annotated[int, typer.Option(help="Runs of a point whose median counts.", metavar="N")] = 3,
+    limit: Annotated[float, typer.Option(help="Seconds after which a point is stopped.", metavar="S")] = 60.0,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes side by side; one for each core if not given.", metavar="N")
+    ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS|local", help="Run on the Dask workers of this scheduler, or on local ones."),
+    ] = None,
+    csv: Annotated[
+        str | None,
+        typer.Option(help="Write every figure of every point; an interrupted study goes on.", metavar="FILE"),
+    ] = None,
+    markdown: Annotated[str | None, typer.Option(help="Write the table in Markdown.", metavar="FILE")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw error over time.", metavar="FILE.png")] = None,
+    json: Json = None,
+    quiet: Quiet = False,
+) -> None:
+    """Run a scene in many ways against a reference: what each digit costs in time."""
+    with running(json) as standard_output:
+        from acausal.study import study as run
+
+        for path in filter(None, (csv, markdown)):
+            check_writable(path)
+        if plot:
+            check_picture(plot)
+        cls, values = find_scene(scene), read_settings(settings or ())
+        options = {
+            "parameters": values,
+            "tolerances": _list(tolerances, float, "tolerances"),
+            "max_orders": _list(max_orders, lambda text: None if text == "auto" else int(text), "max-orders"),
+            "methods": _list(methods, str, "methods") if methods else (None,),
+            "constraints": _list(constraints, str, "constraints") if constraints else None,
+            "switches": _switches(switches or ()),
+            "outputs": outputs or (),
+        }
+        numbers = {"accuracy": accuracy, "intervals": intervals, "initial": initial, "repeats": repeats, "limit": limit}
+        journal = f"{csv}.journal" if csv else None
+        try:
+            with blaming(cls), runs_bar(not quiet) as show:
+                found = run(
+                    cls(),
+                    stop_time=stop_time_of(cls, stop_time),
+                    formulations=_chosen(cls, values, formulations),
+                    reference=reference,
+                    workers=workers,
+                    executor=cluster,
+                    journal=journal,
+                    progress=show,
+                    **options,
+                    **numbers,
+                )
+        except KeyboardInterrupt:
+            kept = f"what is done is kept in {journal}: the same command goes on from it"
+            typer.echo(
+                kept if journal else "nothing is kept; with --csv FILE a study goes on where it stopped", err=True
+            )
+            raise
+        if csv:
+            found.to_csv(csv)
+        if markdown:
+            found.to_markdown(markdown)
+        if plot:
+            found.plot(plot)
+        if json:
+            write_json({"scene": scene, **found.document()}, json, standard_output)
+        if not quiet:
+            typer.echo(found.table())
+
+
+def _list(text: str, read: Callable[[str], Any], option: str) -> tuple[Any, ...]:
+    try:
+        return tuple(read(part.strip()) for part in text.split(","))
+    except ValueError:
+        raise DeclarationError(f"--{option} takes values with commas between them, not `{text}`.") from None
+
+
+def _switches(texts: list[str] | tuple[()]) -> dict[str, list[Any]]:
+    """Read NAME=VALUE,VALUE."""
+    found = {}
+    for text in texts:
+        name, _, values = text.partition("=")
+        found[name.strip()] = [read_settings([f"{name}={value}"])[name.strip()] for value in values.split(",")]
+    return found
+
+
+def _chosen(cls: type[Model], values: dict[str, Any], names: list[str] | None) -> list[Any] | None:
+    """Return the formulations of these names."""
+    if not names:
+        return None
+    from acausal.study import formulations_of
+
+    known = {form.name: form for form in formulations_of(cls(), values)}
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise DeclarationError(f"there is no formulation `{unknown[0]}` in the scene; it has: {', '.join(known)}.")
+    return [known[name] for name in names]

@@ -1,0 +1,64 @@
+"""How far values are from a reference, in parts of the reference's range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+# Times the range of an output: beyond it, a solution has nothing to do with the reference.
+RUNAWAY = 10.0
+# What rounding leaves of quantities that should be 0.
+ROUNDING = 1e-13
+
+
+def deviations(
+    values: Mapping[str, np.ndarray],
+    reference: Mapping[str, np.ndarray],
+    ranges: Mapping[str, np.ndarray] | None = None,
+) -> dict[str, tuple[float, float]]:
+    """Return the largest and the root mean square deviation of each output of the reference, in parts of its range.
+
+    Where an output rests, in parts of its largest size; where it is 0, as it is.
+
+    Parameters
+    ----------
+    values, reference : mapping of str to array, shape (times,)
+        At the same times.
+    ranges : mapping of str to array, optional
+        Values whose ranges count; those of the reference if not given.
+    """
+    found = {}
+    for name, exact in reference.items():
+        difference = (np.asarray(values[name]) - exact) / scale((ranges or reference)[name])
+        found[name] = (float(np.max(np.abs(difference))), float(np.sqrt(np.mean(difference**2))))
+    return found
+
+
+def worst(
+    values: Mapping[str, np.ndarray],
+    reference: Mapping[str, np.ndarray],
+    ranges: Mapping[str, np.ndarray] | None = None,
+) -> float:
+    """Return the largest deviation of all outputs.
+
+    Parameters
+    ----------
+    values, reference, ranges : mapping of str to array, shape (times,)
+        As of `deviations`.
+    """
+    return max((most for most, _ in deviations(values, reference, ranges).values()), default=0.0)
+
+
+def scale(exact: np.ndarray) -> float:
+    """Return what a deviation is compared with.
+
+    Parameters
+    ----------
+    exact : array, shape (times,)
+        Values of the reference.
+    """
+    span, size = float(np.ptp(exact)), float(np.max(np.abs(exact)))
+    if span > ROUNDING * max(size, 1.0):
+        return span
+    return size if size > ROUNDING else 1.0

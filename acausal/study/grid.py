@@ -1,0 +1,96 @@
+"""The grid of a study: every combination of what is varied."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from acausal.errors import DeclarationError
+from acausal.solve.simulate import CONSTRAINTS, METHODS
+from acausal.study.formulation import Formulation
+from acausal.study.point import Point
+
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """What is varied.
+
+    Parameters
+    ----------
+    formulations : sequence of Formulation
+        Each with its sizes.
+    tolerances : sequence of float
+        Relative tolerances of a step.
+    max_orders : sequence of int or None
+        Limits of the order; None lets `simulate` choose.
+    methods : sequence of str or None
+        As of `simulate`; None is the model's own.
+    constraints : sequence of str
+        As of `simulate`.
+    switches : mapping of str to sequence
+        Other structural parameters and effects by path, with their values.
+    """
+
+    formulations: Sequence[Formulation]
+    tolerances: Sequence[float] = TOLERANCES
+    max_orders: Sequence[int | None] = (None,)
+    methods: Sequence[str | None] = (None,)
+    constraints: Sequence[str] = ("auto",)
+    switches: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name in ("formulations", "tolerances", "max_orders", "methods", "constraints"):
+            if not getattr(self, name):
+                raise DeclarationError(f"{name} is empty; give at least one.")
+        for value in self.tolerances:
+            if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-12 <= value < 1:
+                raise DeclarationError(f"a tolerance is {value!r}; it must lie between 1e-12 and 1, for instance 1e-6.")
+        for value in self.max_orders:
+            if value is not None and (isinstance(value, bool) or value not in range(1, 6)):
+                raise DeclarationError(f"a limit of the order is {value!r}; it must be a whole number from 1 to 5.")
+        for name, known in (("methods", METHODS), ("constraints", CONSTRAINTS)):
+            for value in getattr(self, name):
+                if value not in (*known, None):
+                    raise DeclarationError(f"{name} has {value!r}; it must be one of {', '.join(known)}.")
+        names = [form.name for form in self.formulations]
+        if len(set(names)) < len(names):
+            raise DeclarationError(f"formulations need names of their own, not {', '.join(names)}.")
+        for path, values in self.switches.items():
+            if not values:
+                raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
+
+    def points(self, given: Mapping[str, Any]) -> list[Point]:
+        """Return every point, those of one compiled model together.
+
+        Parameters
+        ----------
+        given : mapping of str to value
+            Settings that all points have in common.
+        """
+        return [
+            replace(point, method=method, constraints=constraints, max_order=order, tolerance=tolerance)
+            for point in self.structures(given)
+            for method, constraints, order, tolerance in itertools.product(
+                self.methods, self.constraints, self.max_orders, sorted(self.tolerances, reverse=True)
+            )
+        ]
+
+    def structures(self, given: Mapping[str, Any]) -> list[Point]:
+        """Return one point for each model that has to be compiled.
+
+        Parameters
+        ----------
+        given : mapping of str to value
+            Settings that all points have in common.
+        """
+        found = []
+        for form in self.formulations:
+            for step, values in itertools.product(range(form.steps), itertools.product(*self.switches.values())):
+                settings, size = form.at(step)
+                switched = dict(zip(self.switches, values, strict=True))
+                found.append(Point(form.name, {**given, **settings, **switched}, size))
+        return found

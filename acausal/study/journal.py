@@ -1,0 +1,140 @@
+"""The journal of a study: what was measured, kept on disk at once, so that an interrupted study goes on."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import json
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import DeclarationError, ExportError
+from acausal.flatten.instantiate import walk
+from acausal.language.component import Component
+from acausal.result import check_writable
+from acausal.study.point import Measurement, Point
+
+
+class Journal:
+    """Measurements by the key of their point, a line of JSON each.
+
+    Parameters
+    ----------
+    path : str, Path or None
+        Name of the file; None keeps nothing.
+    identity : mapping
+        What all points have in common; a journal of another identity is refused.
+    """
+
+    def __init__(self, path: str | Path | None, identity: Mapping[str, Any]) -> None:
+        self.path = None if path is None else Path(path)
+        self._found: dict[str, dict[str, Any]] = {}
+        if self.path is None:
+            return
+        check_writable(self.path)
+        lines = self.path.read_text(encoding="utf-8").splitlines() if self.path.exists() else []
+        if lines:
+            self._take(lines, dict(identity))
+        else:
+            self._write(dict(identity))
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def get(self, point: Point) -> Measurement | None:
+        """Return what an earlier session measured.
+
+        Parameters
+        ----------
+        point : Point
+            Of this session.
+        """
+        document = self._found.get(point.key)
+        if document is None:
+            return None
+        values = {name: np.array(column) for name, column in document["values"].items()}
+        return Measurement(**{**document, "point": point, "times": np.array(document["times"]), "values": values})
+
+    def add(self, measurement: Measurement) -> None:
+        """Keep a measurement.
+
+        Parameters
+        ----------
+        measurement : Measurement
+            Of a point that is not in the journal yet.
+        """
+        document = asdict(measurement) | {"point": measurement.point.key, "times": measurement.times.tolist()}
+        document["values"] = {name: np.asarray(column).tolist() for name, column in measurement.values.items()}
+        self._write(document)
+
+    def remove(self) -> None:
+        """Remove the file when the study is complete."""
+        if self.path is not None:
+            self.path.unlink(missing_ok=True)
+
+    def _take(self, lines: list[str], identity: dict[str, Any]) -> None:
+        first = _read(lines[0])
+        other = [
+            name for name in identity if first is None or first.get(name) != json.loads(json.dumps(identity[name]))
+        ]
+        if other:
+            raise DeclarationError(
+                f"{self.path} holds points of another study (other {', '.join(other)}). "
+                "Remove it to begin anew, or give the table another name."
+            )
+        # The last line may be cut where the session was killed.
+        found = [document for document in map(_read, lines[1:]) if document]
+        self._found = {document["point"]: document for document in found}
+        if _read(lines[-1]) is None and self.path is not None:
+            text = "\n".join([lines[0], *[json.dumps(d) for d in found]]) + "\n"
+            self.path.write_text(text, encoding="utf-8")
+
+    def _write(self, document: dict[str, Any]) -> None:
+        if self.path is None:
+            return
+        try:
+            with self.path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(document) + "\n")
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise ExportError(f"cannot write {self.path}: {error.strerror or error}.") from None
+
+
+def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:
+    """Return what tells one study from another: engine, model with its sources, and options of all points.
+
+    Parameters
+    ----------
+    model : Component
+        The model, not built.
+    trees : iterable of Component
+        The model built in every formulation.
+    **options
+        What all points have in common.
+    """
+    classes = {cls for tree in trees for part in walk(tree) for cls in type(part).__mro__}
+    files = {getattr(sys.modules.get(cls.__module__), "__file__", None) for cls in classes}
+    digest = hashlib.sha256()
+    for name in sorted(file for file in files if file):
+        digest.update(Path(name).read_bytes())
+    return {
+        "version": importlib.metadata.version("acausal"),
+        "model": type(model).__qualname__,
+        "source": digest.hexdigest(),
+        "values": {name: repr(value) for name, value in sorted(model._values.items())},
+        **options,
+    }
+
+
+def _read(line: str) -> dict[str, Any] | None:
+    try:
+        return json.loads(line)
+    except ValueError:
+        return None

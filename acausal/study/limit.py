@@ -1,0 +1,62 @@
+"""Stop what takes too long, also inside of an integrator."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time as clock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+# Seconds after which the alarm rings again, should it have come where nothing can be interrupted.
+AGAIN = 1.0
+
+
+class TooLong(Exception):
+    """The time is over."""
+
+
+@contextmanager
+def stopping_after(seconds: float) -> Iterator[Callable[[float, int], None]]:
+    """Stop the block after some seconds; give a function for `progress` of simulate, which stops it as well.
+
+    An alarm of the operating system interrupts an integrator; where there is none, or in a thread that is not the main
+    one, the run ends at its next report of progress.
+
+    Parameters
+    ----------
+    seconds : float
+        How long the block may take.
+
+    Raises
+    ------
+    TooLong
+        When the time is over.
+    """
+    end = clock.perf_counter() + seconds
+    rung = False
+
+    def show(fraction: float, steps: int) -> None:
+        if clock.perf_counter() > end:
+            raise TooLong
+
+    def ring(*_: Any) -> None:
+        nonlocal rung
+        rung = True
+        raise TooLong
+
+    alarm = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGALRM, ring) if alarm else None
+    try:
+        if alarm:
+            signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
+        yield show
+    except KeyboardInterrupt:
+        if rung:  # an integrator tells every signal as an interrupt
+            raise TooLong from None
+        raise
+    finally:
+        if alarm:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, before)

@@ -1,0 +1,124 @@
+"""The picture of a study: error over time, one curve for each formulation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from acausal.errors import DeclarationError
+from acausal.result.plots import DPI
+from acausal.study.reference import Reference
+from acausal.study.rows import TOLERANCE, Row, pareto
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MARKERS = "osD^vPXh<>pd"
+# Ratios of times of points whose labels would meet: one goes above, or none is written.
+NEAR, TOO_NEAR = 1.35, 1.15
+
+
+def draw(rows: Sequence[Row], reference: Reference, title: str, output: str | None = None) -> Figure:
+    """Draw error over solve time, both logarithmic.
+
+    A curve joins the points of a formulation that no other point of it beats. Hollow points would gain from a tighter
+    tolerance, filled ones would not.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        The points.
+    reference : Reference
+        Its own error is a band at the bottom.
+    title : str
+        Title of the picture.
+    output : str, optional
+        Whose error; the largest of all outputs if not given.
+
+    Returns
+    -------
+    Figure
+        On an Agg canvas.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    good = [row for row in rows if not row.remark and row.error_of(output) > 0]
+    if not good:
+        raise DeclarationError("there is nothing to draw: no point has an error greater than 0.")
+    figure = Figure(figsize=(10.0, 6.0), dpi=DPI, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots()
+    axes.set(xscale="log", yscale="log", xlabel="solve time [ms]")
+    axes.set_ylabel(f"largest error of {output or 'all outputs'}, in parts of the range")
+    axes.set_title(title)
+    names = list(dict.fromkeys(row.point.formulation for row in rows))
+    for k, name in enumerate(names):
+        _curve(axes, [row for row in good if row.point.formulation == name], name, k, output)
+    floor = reference.floor if output is None else reference.floors[output]
+    _front(axes, good, floor, output)
+    _band(axes, floor)
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.grid(which="major", alpha=0.35)
+    _legend(
+        axes,
+        [f"{name}: diverged or failed" for name in names if all(r.remark for r in rows if r.point.formulation == name)],
+    )
+    return figure
+
+
+def _curve(axes: Axes, rows: Sequence[Row], name: str, k: int, output: str | None) -> None:
+    """Draw every point of a formulation, and join the best of them."""
+    if not rows:
+        return
+    colour, marker = f"C{k % 10}", MARKERS[k % len(MARKERS)]
+    for row in rows:
+        face = "white" if row.limit == TOLERANCE else colour
+        style = {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": 5, "linestyle": "none"}
+        axes.plot([_ms(row)], [row.error_of(output)], **style)
+    best = pareto(rows, output=output)
+    line = {"color": colour, "marker": marker, "markerfacecolor": colour, "markersize": 5, "linewidth": 1.6}
+    axes.plot([], [], label=name, **line)
+    axes.plot([_ms(r) for r in best], [r.error_of(output) for r in best], color=colour, linewidth=1.6, zorder=1)
+
+
+def _front(axes: Axes, rows: Sequence[Row], floor: float, output: str | None) -> None:
+    """Ring the points that no other one beats, and name their sizes and tolerances."""
+    best = pareto(rows, floor, output)
+    x, y = [_ms(r) for r in best], [r.error_of(output) for r in best]
+    ring = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "color": "black", "linestyle": "none"}
+    axes.plot(x, y, label="best of all: size, tolerance", markeredgewidth=1.0, **ring)
+    labelled = 0.0
+    for k, row in enumerate(best):
+        if x[k] < TOO_NEAR * labelled:
+            continue
+        crowded, labelled = x[k] < NEAR * labelled, x[k]
+        text = ", ".join(filter(None, [row.point.size, f"{row.point.tolerance:.0e}".replace("e-0", "e-")]))
+        place: dict[str, Any] = {"ha": "left", "va": "bottom"} if crowded else {"ha": "right", "va": "top"}
+        offset = (5, 7) if crowded else (-5, -7)
+        axes.annotate(text, (x[k], y[k]), offset, textcoords="offset points", fontsize="x-small", **place)
+
+
+def _ms(row: Row) -> float:
+    return 1e3 * row.seconds
+
+
+def _band(axes: Axes, floor: float) -> None:
+    """Shade the errors that the reference cannot tell."""
+    low, high = axes.get_ylim()
+    if floor > low:
+        axes.axhspan(low, min(floor, high), color="0.9", zorder=0, label=f"the reference is known to {floor:.1g}")
+        axes.set_ylim(low, high)
+
+
+def _legend(axes: Axes, missing: Sequence[str]) -> None:
+    style = {"color": "0.4", "marker": "o", "markersize": 5, "linestyle": "none"}
+    axes.plot([], [], markerfacecolor="white", label="hollow: limited by the tolerance", **style)
+    axes.plot([], [], markerfacecolor="0.4", label="filled: limited by elements, model or reference", **style)
+    for text in missing:
+        axes.plot([], [], linestyle="none", label=text)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small", frameon=False)

@@ -1,0 +1,248 @@
+"""One point of a study: what to run, and what was measured."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import statistics
+import time as clock
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.errors import AcausalError
+from acausal.result import Result
+from acausal.solve import simulate
+from acausal.study.limit import TooLong, stopping_after
+from acausal.study.shipping import unpack
+
+# Seconds after which a run is not repeated: what takes long is measured well enough. Runs that are repeated fill the
+# lesser time, because the times of short ones scatter most.
+ENOUGH, LITTLE = 3.0, 0.2
+KEPT = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """One way of computing a model.
+
+    Parameters
+    ----------
+    formulation : str
+        Name of the formulation, for tables.
+    settings : mapping of str to value
+        Structural parameters, effects and parameters by path, as `compile` takes them.
+    size : str
+        Numbers of elements, for tables: "3 + 8".
+    tolerance : float
+        Relative tolerance of a step.
+    max_order : int or None
+        Limit of the order; None lets `simulate` choose.
+    method : str or None
+        As of `simulate`; None is the model's own.
+    constraints : str
+        As of `simulate`.
+    """
+
+    formulation: str = "as given"
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    size: str = ""
+    tolerance: float = 1e-6
+    max_order: int | None = None
+    method: str | None = None
+    constraints: str = "auto"
+
+    @property
+    def structure(self) -> str:
+        """Text that is the same for points that share a compiled model, in every session."""
+        return json.dumps(_plain(self.settings), sort_keys=True)
+
+    @property
+    def key(self) -> str:
+        """Hash of everything in the point, the same in every session."""
+        return hashlib.sha256(json.dumps(_plain(asdict(self)), sort_keys=True).encode()).hexdigest()
+
+    def __str__(self) -> str:
+        words = [self.formulation, self.size, f"tolerance {self.tolerance:.0e}"]
+        words += [f"order {self.max_order}" if self.max_order else "", self.method or ""]
+        words += [self.constraints if self.constraints != "auto" else ""]
+        return ", ".join(filter(None, words))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Point) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a worker gets: a model, a point and how to run it.
+
+    Parameters
+    ----------
+    model : bytes
+        From `pack`.
+    point : Point
+        What to measure.
+    stop_time : float
+        In s.
+    intervals : int
+        The run has intervals + 1 points.
+    outputs : tuple of str
+        Paths of what to compare; the model's outputs if empty.
+    repeats : int
+        Runs whose median counts; more where they are short, unless it is 1.
+    limit : float
+        Seconds after which a run is stopped.
+    initial : str
+        As of `simulate`.
+    """
+
+    model: bytes
+    point: Point
+    stop_time: float
+    intervals: int = 400
+    outputs: tuple[str, ...] = ()
+    repeats: int = 1
+    limit: float = 60.0
+    initial: str = "fixed"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What a point gave.
+
+    Parameters
+    ----------
+    point : Point
+        What was run.
+    times : array, shape (times,)
+        In s; empty where it failed.
+    values : mapping of str to array, shape (times,)
+        Scalars by name, entries of arrays apart.
+    compile_seconds : float
+        From the model to the first ready integrator.
+    solve_seconds : float
+        Median of the repeats: initialisation, choice of the order and integration, less what other processes had of the
+        processor meanwhile.
+    steps, factorisations, residual_evaluations : int
+        Of one run.
+    equations : int
+        States and algebraic unknowns of the integrated system.
+    operations : int
+        Instructions of the equations and their Jacobian.
+    max_order : int
+        The limit that was used.
+    method, constraints : str
+        What was used.
+    error : str
+        Why there are no values; "" if there are.
+    """
+
+    point: Point
+    times: np.ndarray = field(default_factory=lambda: np.empty(0))
+    values: Mapping[str, np.ndarray] = field(default_factory=dict)
+    compile_seconds: float = 0.0
+    solve_seconds: float = 0.0
+    steps: int = 0
+    factorisations: int = 0
+    residual_evaluations: int = 0
+    equations: int = 0
+    operations: int = 0
+    max_order: int = 0
+    method: str = ""
+    constraints: str = ""
+    error: str = ""
+
+
+def measure(job: Job) -> Measurement:
+    """Compile and run a point; whatever goes wrong with the model is told in the measurement.
+
+    Parameters
+    ----------
+    job : Job
+        What to run.
+    """
+    try:
+        with stopping_after(job.limit) as show:
+            compiled = _compiled(job)
+            return _measure(job, compiled, show)
+    except TooLong:
+        _COMPILED.clear()  # it was left in the middle of something
+        return Measurement(job.point, error=f"it was stopped after {job.limit:g} s")
+    except AcausalError as error:
+        return Measurement(job.point, error=(str(error).splitlines() or [type(error).__name__])[0])
+
+
+def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
+    built = compiled.seconds.pop("integrators", 0.0)
+    result, took = _run(job, compiled, show)
+    stats, seconds = result.stats, [took]
+    while sum(seconds) < (ENOUGH if len(seconds) < job.repeats else LITTLE * (job.repeats > 1)):
+        seconds.append(_run(job, compiled, show)[1])
+    compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
+    found = Measurement(
+        job.point,
+        compile_seconds=stats["compile_seconds"],
+        solve_seconds=statistics.median(seconds),
+        steps=stats["steps"],
+        factorisations=stats["factorisations"],
+        residual_evaluations=stats["residual_evaluations"],
+        equations=stats["equations_reduced"],
+        operations=int(compiled.local.function.n_instructions()),
+        max_order=stats["max_order"],
+        method=stats["method"],
+        constraints=stats["constraints"],
+    )
+    values = {s.name: np.array(s.values) for s in result.series(*job.outputs)}
+    if not all(np.all(np.isfinite(v)) for v in values.values()):
+        return replace(found, error="it diverged: values are not finite")
+    return replace(found, times=result.time, values=values)
+
+
+def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
+    """Run, and tell the solve time less what other processes had of the processor meanwhile."""
+    point = job.point
+    began, busy = clock.perf_counter(), clock.process_time()
+    result = simulate(
+        compiled,
+        stop_time=job.stop_time,
+        intervals=job.intervals,
+        tolerance=point.tolerance,
+        max_order=point.max_order,
+        method=point.method,
+        constraints=point.constraints,
+        initial=job.initial,
+        progress=show,
+    )
+    share = (clock.process_time() - busy) / (clock.perf_counter() - began)
+    return result, result.stats["solve_seconds"] * min(1.0, share)
+
+
+# Compiled models of this process, the last used last.
+_COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
+
+
+def _compiled(job: Job) -> CompiledModel:
+    """Compile a point, or take what another point with the same structure left."""
+    key = (hashlib.sha256(job.model).digest(), job.point.structure)
+    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.point.settings)
+    _COMPILED[key] = found
+    while len(_COMPILED) > KEPT:
+        del _COMPILED[next(iter(_COMPILED))]
+    return found
+
+
+def _plain(value: Any) -> Any:
+    """Turn settings into what JSON knows, whatever kind of array or number they are."""
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    return value if value is None or isinstance(value, bool | int | float | str) else repr(value)

@@ -1,0 +1,118 @@
+"""Run the points of a study side by side, in processes or on the workers of a cluster."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+from collections.abc import Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from typing import Any
+
+from acausal.errors import DeclarationError, SimulationError
+from acausal.study.point import Job, Measurement, measure
+
+# Many points at once on few cores would share threads of linear algebra, and no time would mean anything.
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+
+
+def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
+    """Measure points and yield each as soon as it is there.
+
+    Parameters
+    ----------
+    jobs : iterable of Job
+        What to measure.
+    executor : Executor
+        From `processes` or `cluster`, or another one of the kind of concurrent.futures.
+    """
+    futures: list[Future[Measurement]] = [executor.submit(measure, job) for job in jobs]
+    try:
+        for future in as_completed(futures):
+            yield future.result()
+    except BrokenExecutor:
+        raise SimulationError(
+            "a worker process ended by itself: out of memory, or killed; or a script that runs a study does so when it "
+            'is imported: put the study under `if __name__ == "__main__":`.'
+        ) from None
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+@contextmanager
+def processes(workers: int | None = None) -> Iterator[Executor]:
+    """Give an executor of processes on this machine, each with one thread for linear algebra.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Number of processes; one for each core if not given.
+    """
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+        raise DeclarationError(f"workers is {workers!r}; it must be a whole number of at least 1.")
+    before = set(multiprocessing.active_children())
+    # An interrupt from the terminal reaches everybody; the workers leave it to this process.
+    ignore: dict[str, Any] = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
+    pool = ProcessPoolExecutor(workers or _cores(), multiprocessing.get_context("spawn"), **ignore)
+    with _one_thread():
+        try:
+            yield pool
+        except BaseException:
+            # Nobody waits for what still runs.
+            for process in set(multiprocessing.active_children()) - before:
+                process.terminate()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def cluster(address: str = "local", workers: int | None = None) -> Iterator[Executor]:
+    """Give an executor of Dask workers.
+
+    Parameters
+    ----------
+    address : str
+        Of the scheduler, such as "tcp://10.0.0.1:8786"; "local" starts one with its workers on this machine.
+    workers : int, optional
+        Number of local workers; one for each core if not given.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        raise DeclarationError(
+            "studies on a cluster need Dask: python -m pip install 'acausal[cluster]'. Without it they run in "
+            "processes on this machine."
+        ) from None
+    if address != "local":
+        try:
+            client = Client(address, timeout="10s")
+        except (OSError, ValueError) as error:
+            raise DeclarationError(f"there is no Dask scheduler at {address}: {error}") from None
+        with client:
+            yield client.get_executor(pure=False)
+        return
+    alone: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": ":0"}
+    with LocalCluster(n_workers=workers or _cores(), **alone) as local, Client(local) as client:
+        yield client.get_executor(pure=False)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Let processes that start inside of the block use one thread for linear algebra."""
+    before = {name: os.environ.get(name) for name in THREADS}
+    os.environ.update(dict.fromkeys(THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value

@@ -1,0 +1,231 @@
+"""The reference of a study: refined until it does not change any more, or read from a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from acausal.errors import DeclarationError, SimulationError
+from acausal.study.deviation import deviations, worst
+from acausal.study.formulation import Formulation
+from acausal.study.point import Measurement, Point
+
+# Refinements that are tried, and the least tolerance of a reference.
+ROUNDS, LEAST = 6, 1e-12
+Measure = Callable[[Iterable[Point]], Sequence[Measurement]]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What a study compares with, and how well it is known.
+
+    Parameters
+    ----------
+    times : array, shape (times,)
+        In s.
+    values : mapping of str to array, shape (times,)
+        Outputs by name.
+    agreement : mapping of str to mapping of str to float
+        What it was compared with: the largest deviation of each output, in parts of its range.
+    asked : float
+        The deviation that was asked for.
+    text : str
+        Where it comes from.
+    point : Point or None
+        How it was computed, where it was.
+    """
+
+    times: np.ndarray
+    values: Mapping[str, np.ndarray]
+    agreement: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    asked: float = 0.0
+    text: str = ""
+    point: Point | None = None
+
+    @property
+    def floors(self) -> dict[str, float]:
+        """Errors of each output below which none are told apart."""
+        return {name: max((a[name] for a in self.agreement.values()), default=0.0) for name in self.values}
+
+    @property
+    def floor(self) -> float:
+        """Errors below it are not told apart."""
+        return max(self.floors.values(), default=0.0)
+
+    def __str__(self) -> str:
+        if not self.agreement:
+            return f"reference: {self.text}"
+        compared = ", ".join(f"{what} {max(found.values()):.1e}" for what, found in self.agreement.items())
+        lines = [f"reference: {self.text}; known to {self.floor:.1e} of the range ({compared})"]
+        if self.floor > self.asked:
+            lines.append(f"{self.asked:.0e} was asked for and not reached: smaller errors are not told apart")
+        if len(self.values) > 1:
+            lines.append("by output: " + ", ".join(f"{name} {floor:.1e}" for name, floor in self.floors.items()))
+        return "\n".join(lines)
+
+
+def make(measure: Measure, formulations: Sequence[Formulation], point: Point, least: float, asked: float) -> Reference:
+    """Make the reference from the model itself.
+
+    Parameters
+    ----------
+    measure : callable
+        Measures points side by side.
+    formulations : sequence of Formulation
+        Those with the same limit; two of them check each other.
+    point : Point
+        Settings that all points have in common.
+    least : float
+        The tightest tolerance of the study.
+    asked : float
+        Deviation to be reached, in parts of the range.
+    """
+    start = replace(point, tolerance=max(LEAST, least / 10))
+    if not any(form.refine for form in formulations):
+        return _tightened(measure, _at(start, formulations[0], 0), asked)
+    return _refined(measure, [form for form in formulations if form.refine], start, asked)
+
+
+def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Reference:
+    """Read a table as `simulate --csv` writes it.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file: `time`, then outputs.
+    outputs : sequence of str
+        Outputs that are compared.
+    times : array, shape (times,)
+        Of the study, in s.
+    """
+    import pandas as pd
+
+    try:
+        table = pd.read_csv(path)
+    except (OSError, ValueError) as error:
+        raise DeclarationError(
+            f"cannot read the reference {path}: {getattr(error, 'strerror', None) or error}."
+        ) from None
+    missing = [name for name in ("time", *outputs) if name not in table]
+    if missing:
+        raise DeclarationError(
+            f"the reference {path} has no column {', '.join(f'`{n}`' for n in missing)}; its columns: "
+            f"{', '.join(map(str, table.columns))}. Write it by `acausal simulate ... --csv`, or choose outputs."
+        )
+    own = table["time"].to_numpy()
+    if own.shape != times.shape or not np.allclose(own, times, rtol=0, atol=1e-9 * abs(times[-1] - times[0])):
+        raise DeclarationError(
+            f"the reference {path} has {len(own)} times up to {own[-1] if len(own) else 0:g} s, the study {len(times)} "
+            f"up to {times[-1]:g} s, equidistant. They must be the same: choose stop time and intervals to fit."
+        )
+    values = {name: table[name].to_numpy(dtype=float) for name in outputs}
+    if not all(np.all(np.isfinite(column)) for column in values.values()):
+        raise DeclarationError(f"the reference {path} has entries that are no finite numbers.")
+    return Reference(times, values, text=str(path))
+
+
+def _refined(measure: Measure, forms: Sequence[Formulation], start: Point, asked: float) -> Reference:
+    """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
+    state, best = _State(tuple(forms), start.tolerance), None
+    for _ in range(ROUNDS):
+        now, state, why = _look(measure, state, start, asked)
+        if now is not None and (best is None or now.floor < best.floor):
+            best = now
+        if why or (best is not None and best.floor <= asked):
+            return _ended(best, why)
+    return _ended(best, f"{ROUNDS} refinements were tried")
+
+
+@dataclass(frozen=True)
+class _State:
+    """Where the refinement is: formulations still in it, tolerance, and doublings of the finest sizes."""
+
+    forms: tuple[Formulation, ...]
+    tolerance: float
+    level: int = 0
+
+
+def _look(measure: Measure, state: _State, start: Point, asked: float) -> tuple[Reference | None, _State, str]:
+    """Compare with coarser elements, another formulation and a looser tolerance; tell what to refine, or what failed."""
+    point, n = replace(start, tolerance=state.tolerance), len(state.forms)
+    coarse = [_at(point, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
+    fine = [_at(point, form, form.steps - 1 + state.level) for form in state.forms]
+    runs = measure([*coarse, *fine])
+    pairs = [(a, b, form) for a, b, form in zip(runs[:n], runs[n:], state.forms, strict=True) if not a.error + b.error]
+    if not pairs:
+        return None, state, _failed(runs)
+    # The two that change least go on: they converge fastest.
+    pairs = sorted(pairs, key=lambda pair: worst(pair[0].values, pair[1].values))[:2]
+    coarser, best, _ = pairs[0]
+    agreement = {"coarser elements": _distances(coarser, best)}
+    agreement |= {other.point.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
+    elements = max(max(found.values()) for found in agreement.values())
+    looser = measure([replace(best.point, tolerance=10 * state.tolerance)])[0]
+    if looser.error:
+        return None, state, _failed([looser])
+    agreement["looser tolerance"] = _distances(looser, best)
+    tolerance = max(agreement["looser tolerance"].values())
+    forms = tuple(form for *_, form in pairs)
+    why = _failed(runs) if len(forms) < min(n, 2) else ""
+    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= LEAST
+    after = (
+        _State(forms, state.tolerance / 10, state.level) if tighten else _State(forms, state.tolerance, state.level + 1)
+    )
+    return _reference(best, agreement, asked), after, why
+
+
+def _ended(found: Reference | None, why: str) -> Reference:
+    """Say why the refinement ended before it was good enough."""
+    if found is None:
+        raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
+    return replace(found, text=f"{found.text} ({why})") if why else found
+
+
+def _tightened(measure: Measure, point: Point, asked: float) -> Reference:
+    """Tighten the tolerance of a model without elements, and check by another way of integration."""
+    found, best, looser = None, measure([point])[0], measure([replace(point, tolerance=10 * point.tolerance)])[0]
+    why = ""
+    for _ in range(ROUNDS):
+        if best.error or looser.error:
+            why = _failed([best, looser])
+            break
+        found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
+        tolerance = best.point.tolerance / 10
+        if found.floor <= asked or tolerance < LEAST:
+            break
+        looser, best = best, measure([replace(best.point, tolerance=tolerance)])[0]
+    return _checked(measure, _ended(found, why), looser if best.error else best)
+
+
+def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference:
+    """Compare with loops closed in the other way, or with the other integrator."""
+    if best.constraints in ("states", "projection"):
+        name = "projection" if best.constraints == "states" else "states"
+        other = measure([replace(best.point, constraints=name)])[0]
+    else:
+        name = "idas" if best.method == "rosenbrock" else "rosenbrock"
+        other = measure([replace(best.point, method=name)])[0]
+    if other.error:
+        return replace(found, text=f"{found.text} (no check by {name}: {other.error})")
+    return replace(found, agreement={**found.agreement, name: _distances(other, found)})
+
+
+def _distances(one: Measurement, other: Measurement | Reference) -> dict[str, float]:
+    return {name: most for name, (most, _) in deviations(one.values, other.values).items()}
+
+
+def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], asked: float) -> Reference:
+    return Reference(best.times, best.values, agreement, asked, str(best.point), best.point)
+
+
+def _at(point: Point, form: Formulation, step: int) -> Point:
+    settings, size = form.at(step)
+    return replace(point, formulation=form.name, settings={**point.settings, **settings}, size=size)
+
+
+def _failed(now: Sequence[Measurement]) -> str:
+    failed = next(m for m in now if m.error)
+    return f"{failed.point}: {failed.error}"

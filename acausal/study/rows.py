@@ -1,0 +1,181 @@
+"""Rows of a study: how wrong a point is, what it costs, and what its error comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from acausal.study.deviation import RUNAWAY, deviations, worst
+from acausal.study.formulation import Formulation
+from acausal.study.point import Measurement, Point
+from acausal.study.reference import Reference
+
+# What limits the accuracy of a point.
+TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"
+# The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes with
+# the power 2/3 of the tolerance, that of elements at least with the square of their size.
+TOLERANCE_POWER, ELEMENTS_SHARE = 2 / 3, 1 / 3
+
+
+@dataclass(frozen=True)
+class Row:
+    """A point against the reference.
+
+    Parameters
+    ----------
+    measurement : Measurement
+        Costs and counts.
+    errors : mapping of str to (float, float)
+        Largest and root mean square error of each output, in parts of its range.
+    limit : str
+        What limits the accuracy: "tolerance", "elements" (of which there are too few), "model" (the formulation has
+        another limit than the reference), or "reference" (which is not known better).
+    front : bool
+        Whether no other point is both faster and more accurate.
+    remark : str
+        Why it does not count; "" if it does.
+    """
+
+    measurement: Measurement
+    errors: Mapping[str, tuple[float, float]]
+    limit: str = ""
+    front: bool = False
+    remark: str = ""
+
+    @property
+    def point(self) -> Point:
+        """What was run."""
+        return self.measurement.point
+
+    @property
+    def seconds(self) -> float:
+        """Solve time."""
+        return self.measurement.solve_seconds
+
+    @property
+    def error(self) -> float:
+        """Largest error of all outputs."""
+        return max((most for most, _ in self.errors.values()), default=np.nan)
+
+    def error_of(self, output: str | None) -> float:
+        """Return the largest error of an output, or of all.
+
+        Parameters
+        ----------
+        output : str or None
+            Name of the output.
+        """
+        return self.error if output is None else self.errors[output][0]
+
+    @property
+    def rms(self) -> float:
+        """Largest root mean square error of all outputs."""
+        return max((mean for _, mean in self.errors.values()), default=np.nan)
+
+
+def rows_of(
+    measurements: Sequence[Measurement], reference: Reference, formulations: Sequence[Formulation]
+) -> tuple[Row, ...]:
+    """Compare measurements with the reference.
+
+    Parameters
+    ----------
+    measurements : sequence of Measurement
+        In the order of the rows.
+    reference : Reference
+        What is right.
+    formulations : sequence of Formulation
+        Those of the study.
+    """
+    rows = [_compared(m, reference) for m in measurements]
+    good = [row for row in rows if not row.remark]
+    forms = {form.name: form for form in formulations}
+    front = {row.point for row in pareto(good, reference.floor)}
+    return tuple(
+        row if row.remark else replace(row, limit=_limit(row, good, reference, forms), front=row.point in front)
+        for row in rows
+    )
+
+
+def pareto(rows: Sequence[Row], floor: float = 0.0, output: str | None = None) -> list[Row]:
+    """Return the rows that no other one beats in time and error, the fastest first.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        With errors.
+    floor : float
+        Errors below it are not told apart.
+    output : str, optional
+        Whose error; the largest of all outputs if not given.
+    """
+    known = {row.point: max(row.error_of(output), floor) for row in rows}
+    best: list[Row] = []
+    for row in sorted(rows, key=lambda r: (r.seconds, known[r.point])):
+        if not best or known[row.point] < known[best[-1].point]:
+            best.append(row)
+    return best
+
+
+def _compared(m: Measurement, reference: Reference) -> Row:
+    if m.error:
+        return Row(m, {}, remark=m.error)
+    row = Row(m, deviations(m.values, reference.values))
+    if row.error > RUNAWAY:
+        return replace(row, remark=f"it diverged: {row.error:.1g} times the range away from the reference")
+    return row
+
+
+def _limit(row: Row, good: Sequence[Row], reference: Reference, forms: Mapping[str, Formulation]) -> str:
+    """Tell what the error comes from: at least half of it goes with what is blamed."""
+    half, form = row.error / 2, forms[row.point.formulation]
+    exact = _has_its_limit(row.point, form, reference)
+    if reference.floor > half:
+        return REFERENCE
+    if _tolerance_error(row, good, reference) > half:
+        return TOLERANCE
+    if form.refine and (exact or _elements_error(row, good, form, reference) > half):
+        return ELEMENTS
+    return REFERENCE if exact else MODEL
+
+
+def _has_its_limit(point: Point, form: Formulation, reference: Reference) -> bool:
+    """Whether a point comes to the reference in the limit: an exact formulation, and no switch that changes the model."""
+    made = reference.point
+    if made is None:
+        return form.exact
+    own = {path: value for path, value in point.settings.items() if path not in (*form.settings, *form.refine)}
+    return (form.exact or form.name == made.formulation) and all(made.settings.get(p, v) == v for p, v in own.items())
+
+
+def _tolerance_error(row: Row, good: Sequence[Row], reference: Reference) -> float:
+    """Estimate what the tolerance does, from the same equations at another one."""
+    own = replace(row.point, tolerance=0.0)
+    series = sorted((r for r in good if replace(r.point, tolerance=0.0) == own), key=lambda r: r.point.tolerance)
+    if len(series) < 2:
+        return 0.0
+    if row.point != series[0].point:
+        return _between(row, series[0], reference)
+    return _between(row, series[1], reference) * (row.point.tolerance / series[1].point.tolerance) ** TOLERANCE_POWER
+
+
+def _elements_error(row: Row, good: Sequence[Row], form: Formulation, reference: Reference) -> float:
+    """Estimate what the number of elements does, from the same formulation with another one."""
+
+    def family(point: Point) -> Point:
+        settings = {path: value for path, value in point.settings.items() if path not in form.refine}
+        return replace(point, size="", settings=settings)
+
+    own = family(row.point)
+    series = sorted((r for r in good if family(r.point) == own), key=lambda r: -r.measurement.equations)
+    if len(series) < 2:
+        return 0.0
+    if row.point != series[0].point:
+        return _between(row, series[0], reference)
+    return _between(row, series[1], reference) * ELEMENTS_SHARE
+
+
+def _between(one: Row, other: Row, reference: Reference) -> float:
+    return worst(one.measurement.values, other.measurement.values, reference.values)

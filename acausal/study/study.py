@@ -1,0 +1,259 @@
+"""study(): what accuracy costs in time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.compiler.call import Call
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import Instantiation
+from acausal.language.component import Component
+from acausal.language.expression import Expr
+from acausal.result.files import whole
+from acausal.result.lookup import find, match
+from acausal.study import table as tables
+from acausal.study.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
+from acausal.study.formulation import Formulation, formulations_of
+from acausal.study.grid import TOLERANCES, Grid
+from acausal.study.journal import Journal, identity
+from acausal.study.point import Job, Point
+from acausal.study.reference import Reference, make, read
+from acausal.study.rows import Row, pareto, rows_of
+from acausal.study.session import Progress, Session
+from acausal.study.shipping import pack
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Study:
+    """Every point of a study against its reference.
+
+    Parameters
+    ----------
+    title : str
+        Name of the model.
+    rows : tuple of Row
+        One for each point.
+    reference : Reference
+        What they are compared with, and how well it is known.
+    switches : tuple of str
+        Paths that were varied beside the formulation.
+    """
+
+    title: str
+    rows: tuple[Row, ...]
+    reference: Reference
+    switches: tuple[str, ...] = ()
+
+    @property
+    def best(self) -> list[Row]:
+        """The rows that no other one beats in time and error, the fastest first."""
+        return pareto([row for row in self.rows if not row.remark], self.reference.floor)
+
+    @property
+    def columns(self) -> dict[str, list[Any]]:
+        """Everything that is known, by the names of the columns of the CSV."""
+        return tables.columns(self.rows, self.switches)
+
+    def table(self) -> str:
+        """Return reference, points and the price of each digit as text for a terminal."""
+        head, body = tables.cells(self.rows, self.reference, self.switches)
+        return "\n\n".join([self.title, str(self.reference), tables.text(head, body), "\n".join(self.price())])
+
+    def price(self) -> list[str]:
+        """Return what each digit costs: the fastest point within each power of ten of the error, a line each."""
+        lines = []
+        for power in range(-1, -13, -1):
+            within = [row for row in self.best if row.error <= 10.0**power]
+            if not within or self.reference.floor > 10.0**power:
+                break
+            lines.append(f"an error of {10.0**power:.0e} costs {1e3 * within[0].seconds:.3g} ms: {within[0].point}")
+        return lines
+
+    def document(self) -> dict[str, Any]:
+        """Return all as data."""
+        known, columns = self.reference, self.columns
+        told = {"text": known.text, "agreement": known.agreement, "asked": known.asked, "known_to": known.floors}
+        rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        return {"model": self.title, "reference": told, "rows": rows}
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write every column of every point.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file.
+        """
+        tables.write_table(path, self.rows, self.switches)
+
+    def to_markdown(self, path: str | Path) -> None:
+        """Write reference, points and the price of each digit as Markdown.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file.
+        """
+        head, body = tables.cells(self.rows, self.reference, self.switches)
+        price = "\n".join(f"- {line}" for line in self.price())
+        with whole(path) as file:
+            file.write("\n\n".join([str(self.reference), tables.markdown(head, body), price]).strip() + "\n")
+
+    def plot(self, path: str | Path | None = None, output: str | None = None) -> Figure:
+        """Draw error over time, both logarithmic.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Write the picture there; the ending tells the format.
+        output : str, optional
+            Whose error; the largest of all outputs if not given.
+        """
+        from acausal.result.plots import save
+        from acausal.study.picture import draw
+
+        figure = draw(self.rows, self.reference, self.title, output)
+        if path is not None:
+            save(figure, path)
+        return figure
+
+
+def study(
+    model: Component,
+    *,
+    stop_time: float | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] = (),
+    formulations: Sequence[Formulation] | None = None,
+    tolerances: Sequence[float] = TOLERANCES,
+    max_orders: Sequence[int | None] = (None,),
+    methods: Sequence[str | None] = (None,),
+    constraints: Sequence[str] | None = None,
+    switches: Mapping[str, Sequence[Any]] | None = None,
+    reference: str | Path | None = None,
+    accuracy: float = 1e-4,
+    intervals: int = 400,
+    initial: str = "fixed",
+    repeats: int = 3,
+    limit: float = 60.0,
+    workers: int | None = None,
+    executor: Executor | str | None = None,
+    journal: str | Path | None = None,
+    progress: Progress | None = None,
+) -> Study:
+    """Run a model in many ways, side by side, and tell the error and the cost of each.
+
+    Parameters
+    ----------
+    model : Component
+        An instance, such as SpinUp(omega=4).
+    stop_time : float, optional
+        In s; the model's own if not given.
+    parameters : mapping of str to value, optional
+        Values by path that all points have in common; what they fix is not varied.
+    outputs : sequence of str
+        Paths of what is compared, with * and ?; the model's outputs if empty.
+    formulations : sequence of Formulation, optional
+        Ways of discretising the model; those that it declares or that its fields tell if not given.
+    tolerances, max_orders, methods : sequence
+        Tolerances, limits of the order and methods, as of `simulate`.
+    constraints : sequence of str, optional
+        As of `simulate`; "states" and "projection" for a model with loops and a single formulation.
+    switches : mapping of str to sequence, optional
+        Other structural parameters and effects by path, with the values to be tried.
+    reference : str or Path, optional
+        A table as `simulate --csv` writes it; made from the model if not given.
+    accuracy : float
+        How well the reference is to be known, in parts of each output's range: the smallest error that is told.
+    intervals : int
+        Every run has intervals + 1 equidistant points.
+    initial : str
+        As of `simulate`.
+    repeats : int
+        Runs of a point whose median counts; what takes seconds is not repeated.
+    limit : float
+        Seconds after which a point is stopped.
+    workers : int, optional
+        Number of processes; one for each core if not given.
+    executor : Executor or str, optional
+        Where points run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
+        address of a Dask scheduler. Processes of this machine if not given.
+    journal : str or Path, optional
+        File that keeps what is done; an interrupted study goes on from it, a complete one removes it.
+    progress : callable, optional
+        Called with the number of points done, of points so far, and what is going on.
+
+    Returns
+    -------
+    Study
+        Table, picture and reference.
+
+    Raises
+    ------
+    DeclarationError
+        Where the input is wrong, before anything is run.
+    SimulationError
+        If there is no reference.
+    """
+    given = dict(parameters or {})
+    stop = stop_time_of(model, stop_time)
+    check_counts(intervals=intervals, repeats=repeats)
+    check_shares(1e-4, accuracy=accuracy)
+    check_limit(limit)
+    compiled = compile(model, given)
+    names = _scalars(compiled.tree, match(compiled.tree, outputs) or compiled.outputs)
+    forms = tuple(formulations or formulations_of(model, given))
+    loops = compiled.closing.size and len(forms) == 1 and not forms[0].refine
+    kinds = constraints or (("states", "projection") if loops else ("auto",))
+    grid = Grid(forms, tolerances, max_orders, methods, kinds, switches or {})
+    trees = [Instantiation(model, point.settings).root for point in grid.structures(given)]
+    own = {path: value for path in grid.switches if (value := _value(compiled, path)) is not None}
+    shipped = pack(model)
+    times = stop * np.linspace(0.0, 1.0, intervals + 1)
+    known = None if reference is None else read(reference, names, times)
+    common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
+    kept = Journal(journal, identity(model, trees, **common))
+
+    def job(point: Point) -> Job:
+        return Job(shipped, point, stop, intervals, names, repeats, limit, initial)
+
+    with executor_of(executor, workers) as pool:
+        session = Session(job, pool, kept, progress)
+        measured = session.measure(grid.points(given), "points")
+        if known is None:
+            exact = [form for form in forms if form.exact] or list(forms[:1])
+            base = Point("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
+            known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
+    kept.remove()
+    return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
+
+
+def _scalars(tree: Component, names: Sequence[str]) -> tuple[str, ...]:
+    """Name the entries of arrays one by one."""
+    found = tuple(name for path in names for _, name, _ in find(tree, path).entries)
+    if not found:
+        raise DeclarationError("the model has no outputs to compare; name some variables: outputs=(...).")
+    return found
+
+
+def _value(compiled: CompiledModel, path: str) -> Any:
+    """Value of a structural parameter, an effect or a parameter; None where the model as given does not have it."""
+    value: Any = compiled.tree
+    for name in path.replace("[", ".[").split("."):
+        value = value[int(name[1:-1])] if name.startswith("[") else getattr(value, name, None)
+    if not isinstance(value, Expr):
+        return value
+    function = ca.Function("own", [compiled.reduced.flat.parameters], [ca.densify(value.sx)])
+    numbers = Call(function)(compiled.parameter_values(None))[0].reshape(value.shape, order="F")
+    return numbers.tolist()
