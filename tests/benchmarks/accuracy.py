@@ -41,6 +41,7 @@ SWITCHED: Sequence[tuple[str, Any]] = (
     ("hinge.friction", False),
     ("tip.gyroscopic", False),
     ("world.gravity", None),
+    ("stand.n", (0, 0, 1)),
 )
 
 
