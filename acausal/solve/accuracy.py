@@ -111,6 +111,7 @@ class Search:
             "error_tolerance": found.tolerance,
             "error_elements": found.elements,
             "error_estimates": found.outputs,
+            "elements_kept": self.trials.keeps_elements,
             "chosen": {
                 "tolerance": state.choice.tolerance,
                 "max_order": stats["max_order"],
@@ -220,6 +221,8 @@ def chosen_text(stats: dict[str, Any]) -> str:
         f"{chosen['max_order']}{sizes}; estimated error {stats['error_estimate']:.1g} of the range of "
         f"`{stats['error_output']}`"
     )
+    if stats["elements_kept"]:
+        text += "; the numbers of elements are kept, and what they lack is not part of it (adaptive=True)"
     if sizes:
         text += f" (tolerance {stats['error_tolerance']:.1g}, elements {stats['error_elements']:.1g})"
     return text

@@ -47,6 +47,7 @@ class Trials:
         fixed = isinstance(model, CompiledModel)
         tree = model.tree if fixed else Instantiation(model, self.parameters).root
         self.adaptive = adaptive(tree)
+        self.keeps_elements = not self.adaptive and bool(adaptive(tree, whatever=True))
         if not any(isinstance(d, f.Variable) and d.causality == "output" for d in tree.fields.values()):
             raise DeclarationError(
                 "the model has no output whose error could be estimated. Declare what is looked at: "
@@ -109,13 +110,15 @@ class Trials:
         )
 
 
-def adaptive(tree: Component) -> dict[str, int]:
-    """Return path and least value of every structural parameter that accuracy may choose."""
+def adaptive(tree: Component, whatever: bool = False) -> dict[str, int]:
+    """Return path and least value of every number of elements that accuracy may choose, or of all, whatever it may."""
     return {
         join(component._path, name): int(declared.minimum or 1)
         for component in walk(tree)
         for name, declared in component.fields.items()
-        if isinstance(declared, f.Structural) and declared.refine is not None and declared.refine(component)
+        if isinstance(declared, f.Structural)
+        and declared.refine is not None
+        and (whatever or declared.refine(component))
     }
 
 

@@ -289,3 +289,10 @@ def test_command():
     run = CliRunner().invoke(app, ["simulate", "spin-up", "--accuracy", "1e-3", "--tolerance", "1e-6"])
     assert run.exit_code == 2
     assert "leave one out" in run.output
+
+
+def test_elements_that_are_kept_are_told():
+    run = CliRunner().invoke(app, ["simulate", "spin-up", "--stop-time", "2", "--accuracy", "0.1"])
+    assert "what they lack is not part of it" in run.output
+    run = CliRunner().invoke(app, ["simulate", "simple-pendulum", "--accuracy", "0.1"])
+    assert "what they lack" not in run.output
