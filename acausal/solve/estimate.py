@@ -42,7 +42,13 @@ def table(result: Result) -> tuple[list[str], np.ndarray]:
 
 
 def scale(values: np.ndarray) -> np.ndarray:
-    """Return what an error is compared with: the range of each column; where it rests, its size; where that is 0, 1."""
+    """Return what an error is compared with: the range over the times; where it rests, its size; where that is 0, 1.
+
+    Parameters
+    ----------
+    values : array, shape (times,) or (times, outputs)
+        What is right.
+    """
     size = np.max(np.abs(values), axis=0)
     moved = np.ptp(values, axis=0)
     rest = np.where(size > ROUNDING, size, 1.0)

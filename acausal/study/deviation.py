@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from acausal.solve.estimate import scale
+
 # Times the range of an output: beyond it, a solution has nothing to do with the reference.
 RUNAWAY = 10.0
-# What rounding leaves of quantities that should be 0.
-ROUNDING = 1e-13
 
 
 def deviations(
@@ -48,17 +48,3 @@ def worst(
         As of `deviations`.
     """
     return max((most for most, _ in deviations(values, reference, ranges).values()), default=0.0)
-
-
-def scale(exact: np.ndarray) -> float:
-    """Return what a deviation is compared with.
-
-    Parameters
-    ----------
-    exact : array, shape (times,)
-        Values of the reference.
-    """
-    span, size = float(np.ptp(exact)), float(np.max(np.abs(exact)))
-    if span > ROUNDING * max(size, 1.0):
-        return span
-    return size if size > ROUNDING else 1.0

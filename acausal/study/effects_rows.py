@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.study.deviation import deviations, scale
+from acausal.solve.estimate import scale
+from acausal.study.deviation import deviations
 from acausal.study.point import Measurement
 
 # Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.

@@ -74,7 +74,7 @@ def free_vibration() -> str:
 
 
 def slider_crank() -> str:
-    return _scene(SliderCrank(), "slider-crank")
+    return _scene(SliderCrank(), "slider-crank", ("slider_position", "rod_mid_deflection"))
 
 
 def order() -> str:
@@ -167,9 +167,9 @@ SECTIONS: Mapping[str, Callable[[], str]] = {
 }
 
 
-def _scene(model: Model, name: str) -> str:
+def _scene(model: Model, name: str, outputs: Sequence[str] = ()) -> str:
     """Study of a scene: its best points and its picture; the reference is kept for other sections."""
-    found = ac.study(model)
+    found = ac.study(model, outputs=outputs)
     found.plot(DOCUMENT.with_name(f"accuracy-{name}.png"))
     known = found.reference
     pd.DataFrame({"time": known.times, **known.values}).to_csv(_kept(name), index=False)
