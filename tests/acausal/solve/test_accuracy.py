@@ -81,7 +81,8 @@ CASES = {
     "free-vibration": Case(FreeVibration, lambda _, t: released(t, 10)[:, None]),
     "pendulum": Case(FlexiblePendulum, tight(tolerance=1e-9, **RESOLVED), (1e-2,), (1e-3, 1e-4)),
     "slider-crank, rigid": Case(lambda: SliderCrank(crank="rigid", rod="rigid"), lambda _, t: rigid_crank(t)),
-    "slider-crank": Case(SliderCrank, tight(tolerance=1e-8, constraints="projection", **RESOLVED), (), (1e-2, 1e-3)),
+    # Resolved runs at 1e-8 and 3e-9 differ by 7e-4 of the range of the rod's tip: nothing smaller can be judged.
+    "slider-crank": Case(SliderCrank, tight(tolerance=1e-8, constraints="projection", **RESOLVED), (), (1e-2,)),
 }
 QUICK = [(name, accuracy) for name, case in CASES.items() for accuracy in case.quick]
 SLOW = [(name, accuracy) for name, case in CASES.items() for accuracy in case.slow]
