@@ -105,7 +105,8 @@ def simulate(
         files.check()
         cls = find_scene(scene)
         model, values = make_scene(scene, cls, settings, effects)
-        compiled = compile_scene(scene, cls, settings, effects)
+        with blaming(cls):
+            compiled = ac.compile(model, parameters=values)
         match(compiled.tree, variables or ())  # refuse wrong patterns before any work
         again = accuracy is not None and bool(adaptive(compiled.tree))
         options = {

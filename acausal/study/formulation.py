@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import Instantiation, join
+from acausal.flatten.instantiate import Instantiation, join, members
 from acausal.language import fields as f
 from acausal.language.component import Component
 
@@ -131,9 +131,5 @@ def _elements(component: Component) -> Iterator[tuple[str, int]]:
         yield join(component._path, name), getattr(component, name)
     if own:
         return
-    for name, declared in component.fields.items():
-        if isinstance(declared, f.Part):
-            value = getattr(component, name)
-            for part in value if isinstance(value, list) else [value]:
-                if part is not None:
-                    yield from _elements(part)
+    for member in members(component):
+        yield from _elements(member)
