@@ -7,6 +7,7 @@ integrates them.
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,
+    AcausalWarning,
     ConnectError,
     DeclarationError,
     ExportError,
@@ -88,6 +89,7 @@ __all__ = [
     "NEVER",
     "PREFER",
     "AcausalError",
+    "AcausalWarning",
     "CompiledModel",
     "Component",
     "Condition",

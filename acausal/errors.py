@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
+from pathlib import Path
+
+PACKAGE = str(Path(__file__).parent)
+
 
 class AcausalError(Exception):
     """Base class of every error that acausal raises on purpose.
@@ -55,3 +61,21 @@ class UnitsError(AcausalError):
 
 class ExportError(AcausalError):
     """A result or a model cannot be written."""
+
+
+class AcausalWarning(UserWarning):
+    """A result is right for the equations, but may not be what the user wants; or a setting has no effect."""
+
+
+def caution(text: str) -> None:
+    """Warn with the user's line: the innermost one outside of this package.
+
+    Parameters
+    ----------
+    text : str
+        What is doubtful, in the user's names; where; the mend.
+    """
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(AcausalWarning(text), stacklevel=level - 1)

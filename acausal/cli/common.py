@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 
 from acausal.cli.scenes import brief, place_in, read_settings
-from acausal.errors import AcausalError, DeclarationError, SimulationError
+from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
 
@@ -58,7 +59,7 @@ def running(json: str | None = None) -> Iterator[IO[str]]:
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with redirect_stdout(sys.stderr) if json == "-" else nullcontext():
+        with _told(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
             yield standard_output
     except SimulationError as error:
         _stop(f"the simulation failed: {error}", FAILED)
@@ -66,6 +67,23 @@ def running(json: str | None = None) -> Iterator[IO[str]]:
         _stop(str(error), WRONG)
     except KeyboardInterrupt:
         _stop("interrupted.", INTERRUPTED)
+
+
+@contextmanager
+def _told() -> Iterator[None]:
+    """Print warnings of this package as a line on standard error, others as Python does."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", AcausalWarning)
+        plain = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
+            if issubclass(category, AcausalWarning):
+                typer.echo(f"Warning: {message}", err=True)
+            else:
+                plain(message, category, *place)
+
+        warnings.showwarning = show
+        yield
 
 
 @contextmanager
