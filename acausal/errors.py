@@ -78,4 +78,4 @@ def caution(text: str) -> None:
     level, frame = 2, sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
         level, frame = level + 1, frame.f_back
-    warnings.warn(AcausalWarning(text), stacklevel=level - 1)
+    warnings.warn(AcausalWarning(text), stacklevel=level)
