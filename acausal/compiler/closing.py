@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
-
-# Change of the multipliers in a Newton step, after which the next one would change rounding only: the rest is linear.
-SETTLED = 1e-6
-# Times at which equations are settled in one call.
-AT_ONCE = 8
 
 
 class Closing:
@@ -52,7 +45,6 @@ class Closing:
         self.size = len(multipliers)
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
-        self._settling: dict[int, Call] = {}
         self._many: dict[int, Call] = {}
         column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
         r = reduced
@@ -111,65 +103,6 @@ class Closing:
         if self.size:
             projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
         return projected
-
-    def settle(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
-        """Return algebraic unknowns for which all equations hold at every one of n times.
-
-        An integrator interpolates between its steps: the constraints then hold to its tolerance only.
-
-        Parameters
-        ----------
-        x, z : arrays, shapes (n, nx), (n, nz)
-            States, and algebraic unknowns nearly right.
-        p : array
-            Parameters.
-        t : array, shape (n,)
-            Times.
-        modes : array, shape (n, m)
-            Constants of the segment of each time.
-        """
-        z, rows, before = z.copy(), np.arange(len(t)), np.full(len(t), np.inf)
-        while rows.size:
-            settled = self._step(x[rows], z[rows], p, t[rows], modes[rows])
-            change = np.max(np.abs(settled - z[rows])[:, self.multipliers], axis=1, initial=0.0)
-            z[rows] = settled
-            again = (change > SETTLED) & (change < before[rows])
-            before[rows] = change
-            rows = rows[again]
-        return z
-
-    def _step(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
-        """One Newton step at every time; where the equations are singular, none."""
-        some = (slice(k, k + AT_ONCE) for k in range(0, len(t), AT_ONCE))
-        return np.concatenate([self._some(x[k], z[k], p, t[k], modes[k]) for k in some])
-
-    def _some(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
-        n, size = len(t), AT_ONCE if len(t) > 1 else 1
-        if size not in self._settling:
-            self._settling[size] = Call(self._newton.map(size))
-        call, rows = self._settling[size], np.minimum(np.arange(size), n - 1)
-        values = (x[rows].ravel(), z[rows].ravel(), np.tile(p, size), t[rows], modes[rows].ravel())
-        for array, value in zip(call.inputs, values, strict=True):
-            array[:] = value
-        done, _ = call.attempt()
-        found = call.outputs[0].reshape(size, -1)[:n].copy()
-        if done and np.all(np.isfinite(found)):
-            return found
-        if n == 1:
-            return z
-        each = (slice(k, k + 1) for k in range(n))
-        return np.concatenate([self._some(x[k], z[k], p, t[k], modes[k]) for k in each])
-
-    @cached_property
-    def _newton(self) -> ca.Function:
-        """One Newton step for the algebraic unknowns."""
-        r = self._reduced
-        arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
-        alg = ca.substitute(r.alg, initial.sx, 0)
-        both = ca.Function("alg", arguments, ca.cse([ca.densify(alg), ca.jacobian(alg, r.z)]))
-        symbols = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
-        value, J = both(*symbols)
-        return ca.Function("newton", symbols, [symbols[1] - ca.solve(J, value, "csparse")])
 
     def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""

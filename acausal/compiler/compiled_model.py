@@ -14,6 +14,7 @@ import scipy.sparse as sparse
 
 from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
+from acausal.compiler.dependence import Dependence
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
 from acausal.language import fields as f
@@ -127,6 +128,17 @@ class CompiledModel:
         """Function of ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
+    def many(self, n: int) -> Call:
+        """Function of ode, alg and conditions at n points, each input and output a row after the other."""
+        if ("many", n) not in self.cache:
+            self.cache["many", n] = Call(self.values.function.map(n))
+        return self.cache["many", n]
+
+    @cached_property
+    def dependence(self) -> Dependence:
+        """Which algebraic unknowns a value needs."""
+        return Dependence(ca.substitute(self.reduced.alg, initial.sx, 0), self.reduced.z)
+
     @cached_property
     def _equations(self) -> ca.SX:
         return ca.vertcat(self.reduced.ode, self.reduced.alg, self.conditions)
@@ -162,7 +174,7 @@ class CompiledModel:
     @cached_property
     def guards(self) -> Guards:
         """Conditions that are watched during the integration."""
-        return Guards(self.reduced, self.start.function, self.nominal)
+        return Guards(self.reduced, self.start.function, self.nominal, self.dependence)
 
     @property
     def breaks(self) -> Call:
@@ -214,6 +226,12 @@ class CompiledModel:
         """Supplied and dissipated power, in x, z, parameters and time."""
         energies = self.reduced.flat.energies
         return self.reduced.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
+
+    @cached_property
+    def power(self) -> Call:
+        """Function of x, z, parameters, time and modes: supplied and dissipated power."""
+        powers = ca.substitute(self.powers, initial.sx, 0)
+        return Call(ca.Function("power", self.arguments[:-1], [ca.densify(powers)]))
 
     @cached_property
     def stored(self) -> Call:

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.dependence import Dependence
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.language.functions import initial, time
@@ -27,6 +28,8 @@ class Guards:
         Start values of states and algebraic unknowns, of parameters and time.
     nominal : array
         Typical sizes of states and algebraic unknowns.
+    dependence : Dependence
+        Which algebraic unknowns a value needs.
 
     Attributes
     ----------
@@ -38,9 +41,12 @@ class Guards:
         Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
     """
 
-    def __init__(self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray) -> None:
+    def __init__(
+        self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray, dependence: Dependence
+    ) -> None:
         flat = reduced.flat
         self.reduced, self.guards, self._start, self._nominal = reduced, flat.guards, start, nominal
+        self._dependence = dependence
         self.n_switches, self.n_modes = len(flat.switches), flat.modes.numel()
         self.arguments = [reduced.x, reduced.z, flat.parameters, time.sx, reduced.modes]
         self._excess = self._resolve([g.excess for g in flat.guards])
@@ -106,20 +112,34 @@ class Guards:
         return Call(ca.Function("scale", self.arguments, [ca.densify(ca.fabs(J) @ ca.SX(ca.DM(self._nominal)))]))
 
     @cached_property
-    def _rates(self) -> ca.Function:
-        """Function of x, z, parameters, time and modes: watched excesses and their time derivatives."""
+    def _motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what tells the rates of these.
+
+        The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
+        """
         r, excess = self.reduced, self._excess[self.watched]
         ode, alg = (ca.substitute(e, initial.sx, 0) for e in (r.ode, r.alg))
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(ode, 1)
-        direct = ca.densify(ca.jtimes(excess, moving, seeds))
-        by_z = ca.sparsify(ca.jacobian(excess, r.z))
-        if not by_z.nnz():
+        unknowns, equations = (k.tolist() for k in self._dependence.closure(self._dependence.inside(excess)))
+        z, own = r.z[unknowns], alg[equations]
+        direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
+        return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
+
+    @cached_property
+    def needs(self) -> set[int]:
+        """Algebraic unknowns that watched excesses and their rates need."""
+        return self._dependence.inside(ca.veccat(self._excess[self.watched], *self._motion))
+
+    @cached_property
+    def _rates(self) -> ca.Function:
+        """Function of x, z, parameters, time and modes: watched excesses and their time derivatives."""
+        excess, (direct, by_z, inner, follows) = self._excess[self.watched], self._motion
+        if not by_z.shape[1]:
             return ca.Function("rates", self.arguments, [excess, direct])
-        follows = [ca.jacobian(alg, r.z), ca.densify(ca.jtimes(alg, moving, seeds))]
-        parts = ca.Function("parts", self.arguments, [excess, direct, by_z, *follows])
+        parts = ca.Function("parts", self.arguments, [excess, direct, by_z, inner, follows])
         inputs = [ca.MX.sym("i", a.numel()) for a in self.arguments]
-        value, rate, J, inner, right = parts(*inputs)
-        return ca.Function("rates", inputs, [value, rate - J @ ca.solve(inner, right, "qr")])
+        value, rate, J, own, right = parts(*inputs)
+        return ca.Function("rates", inputs, [value, rate - J @ ca.solve(own, right, "qr")])
 
     def along(
         self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray

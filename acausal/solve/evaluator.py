@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
+from acausal.errors import caution
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
+from acausal.solve.consistent import Consistent
 
 
 class Evaluator:
-    """Values of expressions of the model along a run.
+    """Values of expressions of the model along a run; each satisfies its equations at its time to rounding.
 
     Parameters
     ----------
@@ -23,31 +25,54 @@ class Evaluator:
     t : array, shape (n,)
         Times in s.
     x, z, modes : arrays, shape (n, ...)
-        States, algebraic unknowns and constants of segments at these times; with closed loops z is settled when the
-        first value is read.
-    p : array
-        Parameters.
+        States, algebraic unknowns and constants of segments at these times; what of z a value needs is solved for again
+        from the states when it is read first.
+    solver : Consistent
+        Solves for it, and counts.
+
+    Attributes
+    ----------
+    counts : dict
+        Where the number of evaluations of the equations is written.
     """
 
     def __init__(
-        self, compiled: CompiledModel, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, p: np.ndarray
+        self,
+        compiled: CompiledModel,
+        t: np.ndarray,
+        x: np.ndarray,
+        z: np.ndarray,
+        modes: np.ndarray,
+        solver: Consistent,
     ) -> None:
-        self.compiled = compiled
-        self.t, self.x, self.modes, self.p = t, x, modes, p
-        self._z = z
-
-    @cached_property
-    def z(self) -> np.ndarray:
-        """Algebraic unknowns for which all equations hold."""
-        closing = self.compiled.closing
-        return closing.settle(self.x, self._z, self.p, self.t, self.modes) if closing.size else self._z
+        self.compiled, self.solver = compiled, solver
+        self.t, self.x, self.z, self.modes = t, x, z, modes
+        self.counts: dict[str, Any] = {}
+        self._solved: set[int] = set()
 
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
         c = self.compiled
         resolved = ca.substitute(c.reduced.resolve(ca.densify(expression)), initial_flag.sx, 0)
+        self._solve(c.dependence.inside(resolved) - self._solved)
         arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
         n = len(self.t)
         call = Call(ca.Function("observe", arguments, [resolved]).map(n))
-        values = [self.x.ravel(), self.z.ravel(), np.tile(self.p, n), self.t, self.modes.ravel()]
+        values = [self.x.ravel(), self.z.ravel(), np.tile(self.solver.p, n), self.t, self.modes.ravel()]
         return call(*values)[0].reshape(n, -1).copy()
+
+    def _solve(self, wanted: set[int]) -> None:
+        """Make some algebraic unknowns right, and all that they need."""
+        if not wanted:
+            return
+        self.z = self.solver(self.x, self.z, self.t, self.modes, wanted)
+        self._solved.update(self.compiled.dependence.closure(wanted)[0].tolist())
+        self.counts["consistent_evaluations"] = self.solver.evaluations
+        if self.solver.unsolved:
+            names = ", ".join(f"`{self.compiled.algebraic[k]}`" for k in sorted(wanted)[:3])
+            caution(
+                f"at t = {min(self.solver.unsolved):.6g} s, and at {len(self.solver.unsolved)} output times in all, the "
+                f"equations of {names} have no unique solution near that of the integrator, whose values are returned "
+                "there: a position is singular, or a law has no value."
+            )
+            self.solver.unsolved.clear()

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from acausal.errors import InitializationError
+from acausal.errors import InitializationError, caution
 from acausal.solve.instant import Cycling, Instants, Point, places_text
 from acausal.solve.integrate import LONG, Failure, Integrator, Stretch
 from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
@@ -50,6 +50,7 @@ class Run:
         self.recent: deque[float] = deque(maxlen=MOST)
         self.weak, self.density, self.block = 0, 1, 0
         self.first: Point | None = None
+        self.hasty = False
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -99,12 +100,25 @@ class Run:
             if self.density < DENSEST:
                 self.density *= 4
                 return at
+            self._warn_of_haste(at)
             crossing = self.locator.first(at, stretch, depth=1)
+        except Failure:
+            return self._shorter(at, grid)
         if crossing is None:
             self.integrator.keep(stretch)
             self.block *= 2
             return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
         return self._event(at, stretch, crossing)
+
+    def _warn_of_haste(self, at: Point) -> None:
+        if not self.hasty:
+            self.hasty = True
+            guards = self.instants.watched.tolist()
+            caution(
+                f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {DENSEST} times an interval; one "
+                f"that changes and changes back in between is missed. One of these:\n"
+                f"{places_text(self.integrator.compiled, guards)}\nMore intervals look more often: simulate(..., intervals=...)."
+            )
 
     def _grid(self, now: float, end: float) -> np.ndarray:
         """Next times: all up to the end at first, blocks of equal intervals after an event."""
@@ -132,10 +146,13 @@ class Run:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            stretch = self.integrator.attempt(times, at.x, at.z, at.modes, LONG, careful=True)
+            stretch = self.integrator.passage(times, at.x, at.z, at.modes, hard=not k)
+            try:
+                crossing = self.locator.first(at, stretch, depth=1) if stretch else None
+            except Failure:
+                continue
             if stretch is None:
                 continue
-            crossing = self.locator.first(at, stretch, depth=1)
             if crossing:
                 return self._event(at, stretch, crossing)
             self.integrator.keep(stretch)

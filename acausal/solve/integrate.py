@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.solve.consistent import Consistent
 from acausal.solve.initialize import algebraic
 from acausal.solve.methods import multistep, one_step, rounding
 from acausal.solve.projection import WORN, choose_projection, worn
@@ -68,6 +69,7 @@ class Integrator:
         self.compiled, self.p, self.settings, self.span = compiled, p, settings, span
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = Trace()
+        self.consistent = Consistent(compiled, p)
         self.complaint = ""
         self.moves, self.worn = settings.constraints == "projection", False
         self.rings = settings.method == "rosenbrock"
@@ -168,12 +170,29 @@ class Integrator:
         """Go from output to output until the failure."""
         for k in range(len(times) - 1):
             here = times[k : k + 2]
-            stretch = self._stride(here, x, z, modes)
-            if stretch is not None:
-                self.keep(stretch)
-            elif not self._loosely(here, x, z, modes):
+            stretch = self.passage(here, x, z, modes, hard=True)
+            if stretch is None:
                 raise self.failure(*here)
+            self.keep(stretch)
             x, z = self._last()
+
+    def passage(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, hard: bool
+    ) -> Stretch | None:
+        """Go over one interval where a call over many failed; None if it cannot be done either.
+
+        Parameters
+        ----------
+        times : array, shape (2,)
+            Its ends in s.
+        x, z, modes : arrays
+            Where it begins.
+        hard : bool
+            Whether to try everything: new choices of states on the way, the other method, a larger tolerance.
+        """
+        if not hard:
+            return self.attempt(times, x, z, modes, LONG, careful=True)
+        return self._stride(times, x, z, modes) or self._loosely(times, x, z, modes)
 
     def _stride(
         self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, halvings: int = 6
@@ -191,20 +210,20 @@ class Integrator:
         last = self._stride(np.array([middle, times[1]]), first.x[-1], first.z[-1], modes, halvings - 1)
         return last and replace(last, energy=last.energy + first.energy[-1])
 
-    def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> bool:
+    def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch | None:
         """Pass a nearly singular position: with the other method, then with longer steps, which short ones cannot replace."""
         rings, auto = self.rings, self.settings.method == "auto"
         for factor in LOOSER:
             self.tolerance = min(factor * self.settings.tolerance, max(LOOSEST, self.settings.tolerance))
             for self.rings in (True, False) if auto else (rings,):
-                done = self._call(times, x, z, modes, PATIENT)
-                if done:
+                stretch = self.attempt(times, x, z, modes, PATIENT, careful=True)
+                if stretch is not None:
                     break
             self.rings, self.tolerance = rings, self.settings.tolerance
-            if done:
+            if stretch is not None:
                 self.trace.loosened += [float(times[0])] * (factor > 1)
-                return True
-        return False
+                return stretch
+        return None
 
     def _call(
         self,
@@ -255,11 +274,18 @@ class Integrator:
         if self.worn:
             return None
         found = Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts)
-        if not c.closing.size:
-            return found
-        # What goes on from here starts on the constraints; the other rows settle when somebody reads them.
-        last = c.closing.settle(found.x[-1:], found.z[-1:], self.p, found.times[-1:], modes[None])
-        return replace(found, z=np.vstack([found.z[:-1], last]))
+        return self._settled(found)
+
+    def _settled(self, stretch: Stretch) -> Stretch | None:
+        """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
+        last = slice(-1, None)
+        z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], stretch.modes[None])
+        lost, self.consistent.unsolved = self.consistent.unsolved, []
+        if lost and not self.consistent.holds(stretch.x[-1], z[-1], lost[0], stretch.modes, self.tolerance):
+            self.complaint = "At t = 1.0, the algebraic equations have no solution there"
+            self.worn = bool(self.compiled.closing.size)
+            return None
+        return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
 
     def keep(self, stretch: Stretch) -> None:
         """Append rows to the trace; integrals of power go on from the last one."""

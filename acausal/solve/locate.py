@@ -6,12 +6,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.solve.between import between
 from acausal.solve.crossing import Sides, dips, levels, root
 from acausal.solve.instant import Instants, Point
 from acausal.solve.integrate import Integrator, Stretch
 
 FINE, DEPTH, SUSPECTS, TRIALS = 8, 3, 4, 80
 TRIAL_STEPS = 20_000
+# Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
+FAITHFUL = 0.1
+# A condition may change within an interval that it could cross so much faster than it moves at the ends.
+REACH = 3.0
+# Times at which one stretch is looked at between its rows.
+LOOKS = 4000
 
 
 @dataclass(frozen=True)
@@ -62,8 +69,17 @@ class Locator:
         ------
         TooCoarse
             If the stretch needs more rows to tell.
+        Failure
+            If the motion cannot be followed up to the change.
         """
-        rows = self._rows(at, stretch)
+        rows = self._rows(
+            at,
+            np.concatenate([[at.time], stretch.times]),
+            np.vstack([at.x[None], stretch.x]),
+            np.vstack([at.z[None], stretch.z]),
+            np.vstack([np.zeros((1, 2)), stretch.energy]),
+            stretch.modes,
+        )
         sides = Sides(
             np.array([r.time for r in rows]), np.array([r.value for r in rows]), np.array([r.rate for r in rows])
         )
@@ -73,8 +89,10 @@ class Locator:
         end = int(np.argmax(out)) if out.any() else len(out)
         least, error = dips(sides)
         margin = least - level[:-1]
-        doubtful = np.any((margin < -width) | ((error > width) & (margin < 3 * error)), axis=1)[: end + 1]
+        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * _pace(sides)
+        doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
         doubtful[end:] = False
+        doubtful[:end] |= self._seen_between(at, rows[: end + 1], level[: end + 1])
         suspects = np.flatnonzero(doubtful)
         if depth == 0 and len(suspects) > max(SUSPECTS, len(out) // FINE):
             raise TooCoarse
@@ -89,27 +107,52 @@ class Locator:
 
     def row(self, at: Point, time: float, x: np.ndarray, z: np.ndarray, energy: np.ndarray, modes: np.ndarray) -> Row:
         """Values of the watched conditions at other states, on the side on which they are at `at`."""
-        value, rate = self.instants.rates(Point(time, x, z, modes, at.truth))
-        side = np.where(at.truth, -1.0, 1.0)
-        return Row(time, x, z, energy, value * side, rate * side, modes)
+        return self._rows(at, np.array([time]), x[None], z[None], energy[None], modes)[0]
 
-    def _rows(self, at: Point, stretch: Stretch) -> list[Row]:
-        times = np.concatenate([[at.time], stretch.times])
-        x, z = np.vstack([at.x[None], stretch.x]), np.vstack([at.z[None], stretch.z])
-        energy = np.vstack([np.zeros((1, 2)), stretch.energy])
-        value, rate = self.instants.guards.along(x, z, self.run.p, times, stretch.modes)
+    def _rows(
+        self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, energy: np.ndarray, modes: np.ndarray
+    ) -> list[Row]:
+        """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
+        run, guards = self.run, self.instants.guards
+        z = run.consistent(x, z, t, np.broadcast_to(modes, (len(t), len(modes))), guards.needs)
+        run.consistent.unsolved.clear()
+        value, rate = guards.along(x, z, run.p, t, modes)
         side = np.where(at.truth, -1.0, 1.0)
-        return [
-            Row(t, a, b, e, g, d, stretch.modes)
-            for t, a, b, e, g, d in zip(times.tolist(), x, z, energy, value * side, rate * side, strict=True)
-        ]
+        return [Row(*row, modes) for row in zip(t.tolist(), x, z, energy, value * side, rate * side, strict=True)]
+
+    def _seen_between(self, at: Point, rows: list[Row], level: np.ndarray) -> np.ndarray:
+        """In which intervals a condition changes and changes back, looked at closer where it turns fast enough for that."""
+        found = np.zeros(len(rows) - 1, dtype=bool)
+        todo = [(k, rows[k], rows[k + 1], level[k]) for k in _near(rows, level)]
+        looks = 0
+        while todo:
+            k, a, b, least = todo.pop()
+            if found[k] or b.time - a.time <= FINE * self.shortest:
+                continue
+            looks += FINE
+            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, FINE + 1)[1:-1])
+            if inner is None or looks > LOOKS or any(np.any(r.value < least) for r in inner):
+                found[k] = True
+                continue
+            parts = [a, *inner, b]
+            todo += [(k, parts[i], parts[i + 1], least) for i in _near(parts, np.tile(least, (len(parts), 1)))]
+        return found
+
+    def _interpolated(self, at: Point, a: Row, b: Row, times: np.ndarray) -> list[Row] | None:
+        """Rows between two others; None where the cubic does not follow the motion."""
+        ends = np.array([a.time, b.time])
+        x, z, energy = (np.array(pair) for pair in ((a.x, b.x), (a.z, b.z), (a.energy, b.energy)))
+        found = between(self.run, a.modes, ends, x, z, energy, times)
+        if np.any(found.defect > FAITHFUL):
+            return None
+        return self._rows(at, found.times, found.x, found.z, found.energy, a.modes)
 
     def _inside(self, at: Point, a: Row, b: Row, depth: int) -> Crossing | None:
         """Look closer between two rows."""
         times = np.linspace(a.time, b.time, FINE + 1)
-        stretch = self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful=False)
+        stretch = self._attempt(at, a, times)
         if stretch is None:
-            return None
+            raise self.run.failure(a.time, b.time)
         found = self.first(Point(a.time, a.x, a.z, at.modes, at.truth), stretch, depth + 1)
         if not found:
             return None
@@ -117,28 +160,44 @@ class Locator:
         return Crossing(before, after, found.peak)
 
     def _narrow(self, at: Point, a: Row, b: Row, slack: np.ndarray, peak: np.ndarray) -> Crossing:
-        """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near."""
+        """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
+
+        Raises
+        ------
+        Failure
+            If the motion cannot be followed up to the change.
+        """
         level = np.where(a.value > 0, 0.0, np.minimum(a.value, 0.0) - slack)
         shortest = max(self.shortest, 4 * float(np.spacing(abs(b.time))))
         guess, last, width = b.time, b.time, [np.inf, np.inf]
+        wall = np.inf  # a time that could not be reached: perhaps the law has no value beyond the change
         for _ in range(TRIALS):
-            span = b.time - a.time
+            span = min(b.time, wall) - a.time
             if span <= shortest:
                 break
             last, guess = guess, self._guess(a, b, level)
             aside = min(max(abs(guess - last), shortest / 3), span / 10)
             time = guess + aside if guess - a.time < b.time - guess else guess - aside
-            if span > 0.5 * width[-2] or not a.time < time < b.time:
-                time = (a.time + b.time) / 2
+            if span > 0.5 * width[-2] or not a.time < time < min(b.time, wall):
+                time = a.time + span / 2
             width.append(span)
-            middle = self._between(at, a, time)
-            if middle is None or np.any(middle.value < level):
-                b = middle or replace(b, time=time)
+            middle = self._between(at, a, b, time)
+            if middle is None:
+                wall = time
+            elif np.any(middle.value < level):
+                b = middle
             else:
                 a = middle
                 peak = np.maximum(peak, a.value)
                 level = np.where(a.value > 0, 0.0, level)
-        return Crossing(a, b, peak)
+        return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall), peak)
+
+    def _at_wall(self, at: Point, a: Row, b: Row, wall: float) -> Row:
+        """The last row that could be reached, where a condition is as near to its change as the tolerance can tell."""
+        due = (b.value <= 0) & (a.value <= self.instants.width(at))
+        if not due.any():
+            raise self.run.failure(a.time, wall)
+        return replace(a, time=wall, value=np.where(due, np.minimum(a.value, 0.0), a.value))
 
     def _guess(self, a: Row, b: Row, level: np.ndarray) -> float:
         out = np.flatnonzero(b.value < level)
@@ -147,10 +206,35 @@ class Locator:
         ]
         return min(found, default=b.time)
 
-    def _between(self, at: Point, a: Row, time: float) -> Row | None:
-        times = np.array([a.time, time])
-        stretch = self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful=False)
-        stretch = stretch or self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful=True)
+    def _between(self, at: Point, a: Row, b: Row, time: float) -> Row | None:
+        """The row at a time between two others: on their cubic if it follows the motion, else integrated."""
+        found = self._interpolated(at, a, b, np.array([time]))
+        if found:
+            return found[0]
+        stretch = self._attempt(at, a, np.array([a.time, time]))
         if stretch is None:
             return None
         return self.row(at, time, stretch.x[0], stretch.z[0], a.energy + stretch.energy[0], stretch.modes)
+
+    def _attempt(self, at: Point, a: Row, times: np.ndarray) -> Stretch | None:
+        tries = (self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful) for careful in (False, True))
+        return next((stretch for stretch in tries if stretch is not None), None)
+
+
+def _pace(sides: Sides) -> np.ndarray:
+    """How far each function goes in each interval at the greater of its rates at the ends."""
+    rate = np.abs(sides.rate)
+    return np.maximum(rate[1:], rate[:-1]) * np.diff(sides.times)[:, None]
+
+
+def _near(rows: list[Row], level: np.ndarray) -> list[int]:
+    """Intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
+
+    A convex function lies above its tangents: elsewhere it cannot change and change back.
+    """
+    times = np.array([r.time for r in rows])[:, None]
+    value, rate = np.array([r.value for r in rows]) - level, np.array([r.rate for r in rows])
+    h, turns = np.diff(times, axis=0), (rate[:-1] < 0) & (rate[1:] > 0)
+    bend = np.where(turns, rate[1:] - rate[:-1], 1.0)
+    tangents = (value[:-1] * rate[1:] - value[1:] * rate[:-1] + rate[:-1] * rate[1:] * h) / bend
+    return np.flatnonzero(np.any(turns & (tangents < 0), axis=1)).tolist()

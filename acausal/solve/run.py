@@ -14,7 +14,7 @@ from acausal.result import Result
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
-from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
+from acausal.solve.integrate import Failure, Integrator, Progress, Settings
 from acausal.solve.order import eigenvalues_of, order_limit
 
 
@@ -68,7 +68,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     stats |= {"events": len(events.events), "event_times": events.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     first = (events.first or at) if at is first else first
-    result = _result(compiled, integrator.trace, p, first, times, stats, task.energy)
+    result = _result(compiled, integrator, first, times, stats, task.energy)
     if failure is not None:
         _raise(failure, result, integrator, p)
     return result
@@ -120,21 +120,21 @@ def _stats(compiled: CompiledModel, run: Integrator, breaks: list[float]) -> dic
 
 def _result(
     compiled: CompiledModel,
-    trace: Trace,
-    p: np.ndarray,
+    run: Integrator,
     first: Point,
     times: np.ndarray,
     stats: dict[str, Any],
     energy: bool,
 ) -> Result:
+    trace = run.trace
     t = np.concatenate([[first.time], *trace.times])
     x = np.vstack([first.x[None], *trace.x])
     z = np.vstack([first.z[None], *trace.z])
     modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
-    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], p)
+    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
     if energy:
-        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], p)
+        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
         supplied, dissipated = trace.energy[-1][-1] if trace.energy else (0.0, 0.0)
         change = held[1] - held[0]
@@ -144,7 +144,10 @@ def _result(
             "energy_dissipated": float(dissipated),
             "energy_method": float(supplied - change - dissipated),
         }
-    return Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
+    stats["consistent_evaluations"] = run.consistent.evaluations
+    result = Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
+    evaluate.counts = result.stats
+    return result
 
 
 def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failure: Failure) -> str:

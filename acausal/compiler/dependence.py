@@ -1,0 +1,47 @@
+"""Which algebraic unknowns a value needs: those in it, and those that share equations with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import casadi as ca
+import numpy as np
+
+from acausal.structure.matching import maximum_matching
+from acausal.symbols import scalars
+
+
+class Dependence:
+    """Reachability among the algebraic equations.
+
+    Parameters
+    ----------
+    alg, z : casadi.SX
+        Residuals and algebraic unknowns, as many.
+    """
+
+    def __init__(self, alg: ca.SX, z: ca.SX) -> None:
+        n = z.numel()
+        self._place = {s.element_hash(): k for k, s in enumerate(scalars(z))}
+        self._rows: list[list[int]] = [[] for _ in range(n)]
+        pattern = ca.jacobian_sparsity(alg, z)  # type: ignore[attr-defined]
+        for row, column in zip(*pattern.get_triplet(), strict=True):
+            self._rows[row].append(column)
+        self._equation_of = maximum_matching(self._rows, n).equation_of
+
+    def inside(self, expression: ca.SX) -> set[int]:
+        """Return the positions of the algebraic unknowns that occur in an expression."""
+        found = (self._place.get(s.element_hash()) for s in ca.symvar(expression))
+        return {k for k in found if k is not None}
+
+    def closure(self, wanted: Iterable[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Return all unknowns that must be solved for to know the wanted ones, ascending, and their equations."""
+        stack = list(wanted)
+        seen = set(stack)
+        while stack:
+            for k in self._rows[self._equation_of[stack.pop()]]:
+                if k not in seen:
+                    seen.add(k)
+                    stack.append(k)
+        unknowns = sorted(seen)
+        return np.array(unknowns, dtype=int), np.array([self._equation_of[k] for k in unknowns], dtype=int)
