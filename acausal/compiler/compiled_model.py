@@ -128,11 +128,17 @@ class CompiledModel:
         """Function of ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
-    def many(self, n: int) -> Call:
-        """Function of ode, alg and conditions at n points, each input and output a row after the other."""
-        if ("many", n) not in self.cache:
-            self.cache["many", n] = Call(self.values.function.map(n))
-        return self.cache["many", n]
+    def newton(self, unknowns: np.ndarray, equations: np.ndarray, n: int) -> Call:
+        """Function of x, z, parameters, time and modes at n times: some unknowns among z after a step of Newton."""
+        key = ("newton", tuple(unknowns), n)
+        if key not in self.cache:
+            given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(self.arguments[:-1])]
+            value, J = self.local.function(*given, 0)
+            rows, columns = (self.nx + equations).tolist(), (self.nx + unknowns).tolist()
+            step = ca.solve(J[rows, columns], value[rows], "csparse")
+            one = ca.Function("newton", given, [given[1][unknowns.tolist()] - step])
+            self.cache[key] = Call(one.map(n))
+        return self.cache[key]
 
     @cached_property
     def dependence(self) -> Dependence:

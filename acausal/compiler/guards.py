@@ -41,9 +41,7 @@ class Guards:
         Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
     """
 
-    def __init__(
-        self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray, dependence: Dependence
-    ) -> None:
+    def __init__(self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray, dependence: Dependence) -> None:
         flat = reduced.flat
         self.reduced, self.guards, self._start, self._nominal = reduced, flat.guards, start, nominal
         self._dependence = dependence

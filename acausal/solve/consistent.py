@@ -1,7 +1,6 @@
 """Algebraic unknowns that satisfy their equations to rounding, for given states at many times at once.
 
-An integrator controls the error of states only: algebraic unknowns between its steps may be far off. They are solved
-for again, with one factorisation for as many times as it serves (simplified Newton iteration, Deuflhard 2004, 2.1).
+An integrator controls the error of states only: algebraic unknowns between its steps may be far off.
 """
 
 from __future__ import annotations
@@ -9,18 +8,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.solve.initialize import algebraic
 from acausal.solve.newton import TERMS
 
-# Times in one call; a group that one factorisation does not serve is split into so many.
-AT_ONCE, SPLIT = 32, 8
-# A factorisation serves as long as each iteration gains that factor: slower ones cost more than a new one.
-GAIN, ITERATIONS = 0.2, 20
-# Relative change below which an iteration that gains no more has reached rounding.
+# Times in one call.
+AT_ONCE = 16
+# Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
 SETTLED = 1e-8
 
 
@@ -72,111 +69,92 @@ class Consistent:
         unknowns, equations = c.dependence.closure(range(c.nz) if wanted is None else wanted)
         if not unknowns.size or not len(t):
             return z
-        group = _Group(self, x, z.copy(), t, modes, unknowns, equations + c.nx)
-        todo = [np.arange(len(t))]
-        while todo:
-            rows = todo.pop()
-            left = group.iterate(rows)
-            if len(rows) > 1:
-                todo += [part for part in np.array_split(left, min(SPLIT, len(left) or 1)) if part.size]
-            elif left.size and not group.alone(int(left[0])):
-                self.unsolved.append(float(t[left[0]]))
-        return group.z
+        z = z.copy()
+        first = z.copy()
+        size = np.max(np.abs(z[:, unknowns]), axis=0)
+        size[size == 0] = 1.0
+        rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), []
+        while rows.size:
+            found = self._newton(unknowns, equations, x[rows], z[rows], t[rows], modes[rows])
+            change = np.max(np.abs(found - z[np.ix_(rows, unknowns)]) / size, axis=1)
+            nearer = change < before[rows]
+            doubtful += rows[~nearer].tolist()
+            rows, found, change = rows[nearer], found[nearer], change[nearer]
+            z[np.ix_(rows, unknowns)] = found
+            before[rows] = change
+            rows = rows[change > SETTLED]
+        for row in doubtful:
+            if not self.holds(x[row], z[row], float(t[row]), modes[row], TERMS * np.finfo(float).eps, equations):
+                self._alone(row, x, z, first, t, modes)
+        return z
 
     def rates(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """Return the derivatives of the states, shape (n, nx)."""
-        return self.values(x, z, t, modes)[:, : self.compiled.nx]
+        self.evaluations += len(t)
+        values = (
+            self.compiled.values(a, b, self.p, time, m, 0.0)[0] for a, b, time, m in zip(x, z, t, modes, strict=True)
+        )
+        return np.array([value[: self.compiled.nx].copy() for value in values])
 
-    def values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
-        """Return derivatives of the states, then residuals, a row for each of n times."""
-        n, c = len(t), self.compiled
-        self.evaluations += n
-        size = AT_ONCE if n > 1 else 1
-        call, found = c.many(size), np.empty((n, c.nx + c.nz))
-        for first in range(0, n, size):
-            some = np.minimum(np.arange(first, first + size), n - 1)
-            given = (x[some], z[some], np.tile(self.p, size), t[some], modes[some])
-            for array, value in zip(call.inputs, given, strict=False):
-                array[:] = value.ravel()
-            call.evaluate()
-            found[first : first + size] = call.outputs[0].reshape(size, -1)[: n - first, : c.nx + c.nz]
-        return found
-
-    def holds(self, x: np.ndarray, z: np.ndarray, t: float, modes: np.ndarray, tolerance: float) -> bool:
-        """Whether all algebraic equations hold at one time, relative to the largest of their terms."""
+    def holds(
+        self,
+        x: np.ndarray,
+        z: np.ndarray,
+        t: float,
+        modes: np.ndarray,
+        tolerance: float,
+        equations: np.ndarray | None = None,
+    ) -> bool:
+        """Whether algebraic equations, all if not given, hold at one time, relative to the sizes of their terms."""
         c = self.compiled
         local = c.at(x, z, self.p, t, modes, 0.0)
-        rows = slice(c.nx, c.nx + c.nz)
-        terms = np.abs(local.jacobian[rows]).multiply(np.abs(np.concatenate([x, z]))).max(axis=1).toarray().ravel()
+        rows = c.nx + (np.arange(c.nz) if equations is None else equations)
+        terms = np.abs(local.jacobian[rows, : c.nx + c.nz]) @ np.abs(np.concatenate([x, z]))
         return bool(np.all(np.abs(local.value[rows]) <= tolerance * (1 + terms)))
 
-
-class _Group:
-    """One task: times, what is solved for, and how far it is."""
-
-    def __init__(
+    def _newton(
         self,
-        solver: Consistent,
+        unknowns: np.ndarray,
+        equations: np.ndarray,
         x: np.ndarray,
         z: np.ndarray,
         t: np.ndarray,
         modes: np.ndarray,
-        unknowns: np.ndarray,
-        equations: np.ndarray,
+    ) -> np.ndarray:
+        """One Newton step at every time; nan where the equations are singular."""
+        n = len(t)
+        self.evaluations += n
+        call = self.compiled.newton(unknowns, equations, AT_ONCE if n > 1 else 1)
+        size = len(call.inputs[3])
+        found = np.empty((n, len(unknowns)))
+        for first in range(0, n, size):
+            some = np.arange(first, min(first + size, n))
+            found[some] = self._some(call, x[some], z[some], t[some], modes[some])
+            bad = some[~np.all(np.isfinite(found[some]), axis=1)]
+            for k in bad if n > 1 else ():
+                # A singular one leaves nothing for the others of its call.
+                found[k] = self._newton(unknowns, equations, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
+        return found
+
+    def _some(self, call: Call, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        n, size = len(t), len(call.inputs[3])
+        rows = np.minimum(np.arange(size), n - 1)
+        given = (x[rows], z[rows], np.tile(self.p, size), t[rows], modes[rows])
+        for array, value in zip(call.inputs, given, strict=True):
+            array[:] = value.ravel()
+        done, _ = call.attempt()
+        found = call.outputs[0].reshape(size, -1)[:n].copy()
+        return found if done else np.full_like(found, np.nan)
+
+    def _alone(
+        self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, modes: np.ndarray
     ) -> None:
-        self.solver, self.x, self.z, self.t, self.modes = solver, x, z, t, modes
-        self.unknowns, self.equations = unknowns, equations
-        # What is 0 but for rounding never settles by this measure; its residuals tell then.
-        self.size = np.max(np.abs(z[:, unknowns]), axis=0)
-        self.size[self.size == 0] = 1.0
-
-    def residual(self, rows: np.ndarray) -> np.ndarray:
-        """Residuals at some times, shape (len(rows), equations)."""
-        return self.solver.values(self.x[rows], self.z[rows], self.t[rows], self.modes[rows])[:, self.equations]
-
-    def iterate(self, rows: np.ndarray) -> np.ndarray:
-        """Iterate with the factorisation at the middle of some times; return the times that it does not serve."""
-        c, middle = self.solver.compiled, rows[len(rows) // 2]
-        first = self.z[rows].copy()
-        J = c.at(self.x[middle], self.z[middle], self.solver.p, self.t[middle], self.modes[middle], 0.0).jacobian
-        J = J[self.equations]
+        """Solve at one time by the damped iteration, from what was given."""
+        nx = self.compiled.nx
         try:
-            solve = splu(J[:, c.nx + self.unknowns].tocsc()).solve
-        except (RuntimeError, ValueError):
-            return rows
-        active, before, left = np.arange(len(rows)), np.full(len(rows), np.inf), []
-        for _ in range(ITERATIONS):
-            value = self.residual(rows[active])
-            step = solve(value.T).T
-            change = np.max(np.abs(step) / self.size, axis=1)
-            gains = change <= GAIN * before[active]
-            settled = ~gains & (change <= SETTLED)
-            doubtful = np.flatnonzero(~gains & ~settled)
-            settled[doubtful] = self._is_rounding(rows[active[doubtful]], value[doubtful], J)
-            self.z[np.ix_(rows[active[gains]], self.unknowns)] -= step[gains]
-            left += active[~gains & ~settled].tolist()
-            before[active] = change
-            active = active[gains & (change > np.finfo(float).eps)]
-            if not active.size:
-                break
-        lost = np.array(sorted([*left, *active.tolist()]), dtype=int)
-        self.z[rows[lost]] = first[lost]
-        return rows[lost]
-
-    def _is_rounding(self, rows: np.ndarray, value: np.ndarray, J) -> np.ndarray:
-        """At which times all residuals are no larger than the rounding of their terms."""
-        if not rows.size:
-            return np.zeros(0, dtype=bool)
-        terms = abs(J[:, : self.solver.compiled.nx + self.z.shape[1]]) @ np.abs(np.hstack([self.x[rows], self.z[rows]])).T
-        return np.all(np.abs(value) <= TERMS * np.finfo(float).eps * (terms.T + 1), axis=1)
-
-    def alone(self, row: int) -> bool:
-        """Solve at one time by the damped iteration; whether that worked."""
-        c = self.solver.compiled
-        y = np.concatenate([self.x[row], self.z[row]])
-        try:
-            y = algebraic(c, y, self.solver.p, float(self.t[row]), self.modes[row])
+            y = algebraic(self.compiled, np.concatenate([x[row], first[row]]), self.p, float(t[row]), modes[row])
         except InitializationError:
-            return False
-        self.z[row] = y[c.nx :]
-        return True
+            z[row] = first[row]
+            self.unsolved.append(float(t[row]))
+        else:
+            z[row] = y[nx:]

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
-from acausal.solve.initialize import algebraic
+from acausal.solve.energy import ROWS, everywhere, refined
 from acausal.solve.methods import multistep, one_step, rounding
 from acausal.solve.projection import WORN, choose_projection, worn
 from acausal.solve.trace import Stretch, Trace
@@ -158,13 +158,8 @@ class Integrator:
         return bool(np.any(worn(c, x[some], self.p, times[some], modes) < WORN))
 
     def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:
-        """Go from output to output where there is nothing to integrate."""
-        found = []
-        for time in times[1:]:
-            z = algebraic(self.compiled, z, self.p, float(time), modes)
-            found.append(z)
-        n = len(found)
-        return Stretch(np.array(times[1:]), np.zeros((n, 0)), np.array(found), np.zeros((n, 2)), modes, 0)
+        tolerance = self.tolerance if self.settings.energy else None
+        return everywhere(self.compiled, self.consistent, times, z, modes, tolerance)
 
     def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
         """Go from output to output until the failure."""
@@ -176,9 +171,7 @@ class Integrator:
             self.keep(stretch)
             x, z = self._last()
 
-    def passage(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, hard: bool
-    ) -> Stretch | None:
+    def passage(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, hard: bool) -> Stretch | None:
         """Go over one interval where a call over many failed; None if it cannot be done either.
 
         Parameters
@@ -249,6 +242,10 @@ class Integrator:
             return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
         parts = -(-FINE // (len(times) - 1)) if c.closing.size and not self.moves else 1
+        watts = self.settings.energy and not c.powers.is_zero()
+        if watts:
+            more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
+            parts, max_steps = parts * more, -(-max_steps // more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span, n = times[-1] - times[0], len(times) - 1
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
@@ -273,8 +270,10 @@ class Integrator:
         self.worn = self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
-        found = Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts)
-        return self._settled(found)
+        if watts and steps < n:
+            rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
+            energy = refined(c, self.consistent, rows, np.vstack([np.zeros((1, 2)), energy]), self.tolerance)[1:]
+        return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
 
     def _settled(self, stretch: Stretch) -> Stretch | None:
         """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
