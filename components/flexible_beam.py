@@ -71,6 +71,7 @@ class FlexibleBeam(Beam):
         shape=lambda s: (len(s.free),),
         unit=lambda s: [("m", "m", "rad")[k % 3] for k in s.free],
         select=PREFER,
+        nominal=1.0,  # not what it reaches: vibrations much smaller than the machine would take the steps
     )
     qd: Any = variable(
         "der(q)",

@@ -107,6 +107,18 @@ class CompiledModel:
         return nominal[[*plan.states, *plan.algebraic]]
 
     @cached_property
+    def sizes(self) -> tuple[tuple[str, bool], ...]:
+        """Unit of each state, its name where that is not known, and whether its nominal value is declared."""
+        flat, plan = self.reduced.flat, self.reduced.plan
+        of = {p.state: p.coordinate for p in plan.constrained.projections}
+        places = [of.get(k, k) for k in plan.states]
+        known = [k < len(flat.units) for k in places]
+        units = [
+            str(flat.units[k] or self.reduced.names[k]) if there else "" for k, there in zip(places, known, strict=True)
+        ]
+        return tuple((u, not there or bool(flat.sized[k])) for u, k, there in zip(units, places, known, strict=True))
+
+    @cached_property
     def conditions(self) -> ca.SX:
         """Residuals of fixed start values and initial equations, in x, z, parameters and time."""
         entries = [condition.residual for condition in self.reduced.flat.initial]
@@ -180,7 +192,7 @@ class CompiledModel:
     @cached_property
     def guards(self) -> Guards:
         """Conditions that are watched during the integration."""
-        return Guards(self.reduced, self.start.function, self.nominal, self.dependence)
+        return Guards(self.reduced, self.start.function, self.dependence)
 
     @property
     def breaks(self) -> Call:

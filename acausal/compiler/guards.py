@@ -26,8 +26,6 @@ class Guards:
         The model.
     start : casadi.Function
         Start values of states and algebraic unknowns, of parameters and time.
-    nominal : array
-        Typical sizes of states and algebraic unknowns.
     dependence : Dependence
         Which algebraic unknowns a value needs.
 
@@ -41,9 +39,9 @@ class Guards:
         Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
     """
 
-    def __init__(self, reduced: ReducedModel, start: ca.Function, nominal: np.ndarray, dependence: Dependence) -> None:
+    def __init__(self, reduced: ReducedModel, start: ca.Function, dependence: Dependence) -> None:
         flat = reduced.flat
-        self.reduced, self.guards, self._start, self._nominal = reduced, flat.guards, start, nominal
+        self.reduced, self.guards, self._start = reduced, flat.guards, start
         self._dependence = dependence
         self.n_switches, self.n_modes = len(flat.switches), flat.modes.numel()
         self.arguments = [reduced.x, reduced.z, flat.parameters, time.sx, reduced.modes]
@@ -105,9 +103,10 @@ class Guards:
 
     @cached_property
     def scale(self) -> Call:
-        """Function of x, z, parameters, time and modes: how much each watched excess changes by nominal changes."""
+        """Function of x, z, parameters, time, modes and nominal changes: how much these change each watched excess."""
         J = ca.jacobian(self._excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
-        return Call(ca.Function("scale", self.arguments, [ca.densify(ca.fabs(J) @ ca.SX(ca.DM(self._nominal)))]))
+        nominal = ca.SX.sym("nominal", J.shape[1])
+        return Call(ca.Function("scale", [*self.arguments, nominal], [ca.densify(ca.fabs(J) @ nominal)]))
 
     @cached_property
     def _motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:

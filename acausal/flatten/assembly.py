@@ -19,6 +19,9 @@ from acausal.flatten.tape import Linear, Tape
 from acausal.language.fields import ALWAYS
 from acausal.language.functions import initial, time
 from acausal.symbols import scalars
+from acausal.units import parse
+
+SECOND = parse("s")
 
 
 class Assembly:
@@ -191,12 +194,20 @@ class Assembly:
         weights = column([ca.vec(a.nominal.sx) for a in arrays])
         inside = {s.element_hash() for s in ca.symvar(weights)}
         nominal = self._numbers(weights)
+        sized = [a.sized for a in arrays for _ in range(a.expr.sx.numel())]
+        units = [u for a in arrays for u in a.units]
+        for _ in self.chain.levels[1:]:
+            units.extend(u and u / SECOND for u in units[-self.size :])
         select = [a.declared.select for a in arrays for _ in range(a.expr.sx.numel())]
         for k in self._jumping():
             select[k] = ALWAYS
         extra = self.symbols.numel() - self.size
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
-        nominal, select = np.concatenate([nominal, np.ones(extra)]), select + [0] * extra
+        nominal, select, sized = (
+            np.concatenate([nominal, np.ones(extra)]),
+            select + [0] * extra,
+            sized + [False] * extra,
+        )
         for k in reversed(done.solved):
             c0, terms = done.solved[k]
             if not terms:
@@ -206,12 +217,14 @@ class Assembly:
                 start[other], guessed[other] = (start[k] - c0) / c, True
             if select[k] > select[other] and select[other] == 0:
                 select[other] = select[k]
-            if nominal[other] == 1 and nominal[k] != 1:
-                nominal[other] = nominal[k] / abs(c)
+            if sized[k] and not sized[other]:
+                nominal[other], sized[other] = nominal[k] / abs(c), True
         return {
             "start": column([start[k] for k in unknowns]),
             "guessed": np.array([guessed[k] for k in unknowns], dtype=bool),
             "nominal": nominal[unknowns],
+            "sized": np.array([sized[k] for k in unknowns], dtype=bool),
+            "units": tuple(units[k] for k in unknowns),
             "weighing": tuple(
                 name
                 for name, s in zip(self.raw.build.parameters.names, scalars(self.parameters), strict=True)

@@ -12,6 +12,7 @@ import numpy as np
 from acausal.flatten.discontinuities import Guard
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
+from acausal.units import Dimension
 
 
 @dataclass(frozen=True)
@@ -92,8 +93,9 @@ class FlatModel:
         Residual -> the declared unknown that it defines, or -1.
     origins : tuple of Origin
         Where each residual comes from.
-    preference, nominal, start, guessed : arrays
-        Attributes of the unknowns; `start` is a column of expressions of parameters.
+    preference, nominal, sized, units, start, guessed : arrays
+        Attributes of the unknowns; `sized` tells where a nominal value is declared, `start` is a column of expressions
+        of parameters.
     parameters : casadi.SX, parameter_names, parameter_values
         Free parameters.
     switches : tuple of (casadi.SX, casadi.SX)
@@ -131,6 +133,8 @@ class FlatModel:
     origins: tuple[Origin, ...]
     preference: tuple[int, ...]
     nominal: np.ndarray
+    sized: np.ndarray
+    units: tuple[Dimension | None, ...]
     start: ca.SX
     guessed: np.ndarray
     parameters: ca.SX

@@ -14,6 +14,7 @@ from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
+from acausal.units import Dimension
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,13 @@ class VariableArray:
     fixed: bool
     guessed: bool
     nominal: Expr
+    sized: bool
+
+    @property
+    def units(self) -> list[Dimension | None]:
+        """Unit of each entry, None where it is not known."""
+        n, unit = self.expr.sx.numel(), self.expr.unit
+        return list(unit) * (n // len(unit)) if isinstance(unit, tuple) else [unit] * n
 
     @property
     def names(self) -> list[str]:
@@ -91,6 +99,7 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
     given = owner._values.get(name)
     start = given if isinstance(given, f.Start) else f.Start(f.evaluate(declared.start, owner), declared.fixed)
     nominal = declared.nominal(owner) if callable(declared.nominal) else declared.nominal
+    nominal = start.nominal if start.nominal is not None else nominal
     arrays.append(
         VariableArray(
             path,
@@ -100,7 +109,8 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
             _fill(start.value, shape, path, "start"),
             start.fixed,
             isinstance(given, f.Start),
-            _fill(nominal, shape, path, "nominal"),
+            _fill(1.0 if nominal is None else nominal, shape, path, "nominal"),
+            nominal is not None,
         )
     )
     return expr

@@ -19,26 +19,30 @@ from acausal.language.fields import (
 )
 
 
-def fixed(value: Any) -> Any:
+def fixed(value: Any, *, nominal: Any = None) -> Any:
     """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
 
     Parameters
     ----------
     value : float, sequence or parameter
         Value of the variable at the start time, in its unit and shape.
+    nominal : float or array, optional
+        Typical size of the variable, in its unit.
     """
-    return Start(value, True)
+    return Start(value, True, nominal)
 
 
-def guess(value: Any) -> Any:
+def guess(value: Any, *, nominal: Any = None) -> Any:
     """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
 
     Parameters
     ----------
     value : float, sequence or parameter
         Guess in the unit and shape of the variable.
+    nominal : float or array, optional
+        Typical size of the variable, in its unit.
     """
-    return Start(value, False)
+    return Start(value, False, nominal)
 
 
 def structural(
@@ -133,7 +137,7 @@ def variable(
     start: Any = 0.0,
     fixed: bool = False,
     select: int = DEFAULT,
-    nominal: Any = 1.0,
+    nominal: Any = None,
     root: bool = False,
 ) -> Any:
     """Declare a variable.
@@ -153,7 +157,8 @@ def variable(
     select : int
         NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how gladly it becomes a state.
     nominal : float or array or callable
-        Typical size, in its unit; absolute tolerance = tolerance * nominal.
+        Typical size, in its unit; absolute tolerance = tolerance * nominal. If not given it is 1, or what all such
+        variables of the same unit reach in a run if that is less.
     root : bool
         True for a variable that a connector has only when it is chosen as a root.
     """
@@ -182,7 +187,7 @@ def input(description: str, *, unit: str | None = None, shape: Shape = None, sta
     return Variable(description, unit, shape, start=start, causality="input")
 
 
-def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = 1.0) -> Any:
+def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = None) -> Any:
     """Declare an output; those of the model are the columns of its table of results."""
     return Variable(description, unit, shape, nominal=nominal, causality="output")
 

@@ -86,7 +86,7 @@ def evaluate(value: Any, owner: Any) -> Any:
     if isinstance(value, Condition):
         return Condition(evaluate(value.excess, owner), value.kind)
     if isinstance(value, Start):
-        return Start(evaluate(value.value, owner), value.fixed)
+        return Start(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
     if isinstance(value, list | tuple):
         return type(value)(evaluate(item, owner) for item in value)
     return value
@@ -98,6 +98,7 @@ class Start:
 
     value: Any
     fixed: bool
+    nominal: Any = None
 
 
 @dataclass(eq=False)
@@ -148,7 +149,7 @@ class Variable(Field):
     start: Any = 0.0
     fixed: bool = False
     select: int = DEFAULT
-    nominal: Any = 1.0
+    nominal: Any = None
     causality: str = ""
     flow: bool = False
     root: bool = False

@@ -63,7 +63,7 @@ def between(
     guess = z[0] + s * (z[1] - z[0])
     inside = run.consistent(found, guess, times, inner)
     true = run.consistent.rates(found, inside, times, inner)
-    weights = run.tolerance * (np.abs(found) + c.nominal[: c.nx])
+    weights = run.tolerance * (np.abs(found) + run.settings.nominal[: c.nx])
     defect = np.max(np.abs(slope - true) * h / weights, axis=1, initial=0.0)
     if run.consistent.unsolved:
         run.consistent.unsolved.clear()

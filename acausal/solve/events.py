@@ -44,7 +44,8 @@ class Run:
         self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
         c, self.p = integrator.compiled, integrator.p
         self.guards, span = c.guards, float(times[-1] - times[0])
-        self.instants = Instants(c, self.p, integrator.settings.tolerance, span)
+        settings = integrator.settings
+        self.instants = Instants(c, self.p, settings.tolerance, span, settings.nominal)
         self.locator = Locator(integrator, self.instants)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=MOST)

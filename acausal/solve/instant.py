@@ -48,17 +48,21 @@ class Instants:
         Parameter values.
     tolerance, span : float
         Relative tolerance, and length of the run in s.
+    nominal : array
+        Typical sizes of states and algebraic unknowns.
     """
 
-    def __init__(self, compiled: CompiledModel, p: np.ndarray, tolerance: float, span: float) -> None:
-        self.compiled, self.p, self.tolerance, self.span = compiled, p, tolerance, span
+    def __init__(
+        self, compiled: CompiledModel, p: np.ndarray, tolerance: float, span: float, nominal: np.ndarray
+    ) -> None:
+        self.compiled, self.p, self.tolerance, self.span, self.nominal = compiled, p, tolerance, span, nominal
         self.guards = compiled.guards
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
 
     def width(self, at: Point) -> np.ndarray:
         """How far each watched excess may be off by the tolerance."""
-        scale = np.nan_to_num(self.guards.scale(at.x, at.z, self.p, at.time, at.modes)[0])
+        scale = np.nan_to_num(self.guards.scale(at.x, at.z, self.p, at.time, at.modes, self.nominal)[0])
         return self.tolerance * np.where(scale > 0, scale, 1.0)
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:

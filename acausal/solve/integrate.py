@@ -31,8 +31,13 @@ Progress = Callable[[float, int], None]
 
 @dataclass(frozen=True)
 class Settings:
-    """How to integrate; `fastest` is the size of the largest eigenvalue at the start in 1/s."""
+    """How to integrate.
 
+    `nominal` holds the sizes of states and algebraic unknowns, `fastest` the size of the largest eigenvalue at the start
+    in 1/s.
+    """
+
+    nominal: np.ndarray
     tolerance: float
     max_order: int
     energy: bool
@@ -63,12 +68,16 @@ class Integrator:
         Tolerance, order limit and what else to compute.
     span : (float, float)
         Start and stop time of the whole run, for the progress.
+    before : Trace
+        Of an earlier run whose counts go on.
     """
 
-    def __init__(self, compiled: CompiledModel, p: np.ndarray, settings: Settings, span: tuple[float, float]) -> None:
+    def __init__(
+        self, compiled: CompiledModel, p: np.ndarray, settings: Settings, span: tuple[float, float], before: Trace
+    ) -> None:
         self.compiled, self.p, self.settings, self.span = compiled, p, settings, span
         self.hoisted = compiled.hoist(p)[0].copy()
-        self.trace = Trace()
+        self.trace = before.emptied()
         self.consistent = Consistent(compiled, p)
         self.complaint = ""
         self.moves, self.worn = settings.constraints == "projection", False

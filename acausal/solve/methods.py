@@ -48,11 +48,12 @@ def multistep(
     """
     c, tolerance, span = run.compiled, run.tolerance, times[-1] - times[0]
     rates = c.values(x, z, run.p, times[0], modes, 0.0)[0][: c.nx]
-    weights = tolerance * (np.abs(x) + c.nominal[: c.nx])
+    nominal = run.settings.nominal
+    weights = tolerance * (np.abs(x) + nominal[: c.nx])
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
     options = {
         "reltol": tolerance,
-        "abstolv": np.maximum(tolerance * c.nominal, run.rounding(x, z, times[0], modes)).tolist(),
+        "abstolv": np.maximum(tolerance * nominal, run.rounding(x, z, times[0], modes)).tolist(),
         "max_multistep_order": run.settings.max_order,
         "suppress_algebraic": True,
         "max_num_steps": max_steps,
@@ -81,7 +82,7 @@ def one_step(
 ) -> Way:
     """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
     c, tolerance, fastest = run.compiled, run.tolerance, run.settings.fastest
-    size = c.nominal[: c.nx].copy()
+    size = run.settings.nominal[: c.nx].copy()
     for coordinate, rate in rates_of(c):
         size[rate] = max(size[rate], size[coordinate] * fastest)
     options = {

@@ -16,6 +16,8 @@ from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings
 from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
+from acausal.solve.trace import Trace
 
 
 @dataclass(frozen=True)
@@ -55,14 +57,22 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
     max_order = task.max_order or order_limit(rates, stop_time - start_time)
     fastest = float(np.max(np.abs(rates), initial=0.0))
-    settings = Settings(task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
-    integrator = Integrator(compiled, p, settings, (start_time, stop_time))
-    events = Run(integrator, times, breaks)
-    failure: BaseException | None = None
-    try:
-        events.go(at)
-    except (Failure, Chattering, KeyboardInterrupt) as caught:
-        failure = caught
+    span = stop_time - start_time
+    fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
+    nominal, counts = compiled.nominal, Trace()
+    for _ in range(PASSES):
+        integrator = Integrator(compiled, p, Settings(nominal, *fixed), (start_time, stop_time), counts)
+        events = Run(integrator, times, breaks)
+        failure: BaseException | None = None
+        try:
+            events.go(at)
+        except (Failure, Chattering, KeyboardInterrupt) as caught:
+            failure = caught
+        reached = np.vstack([at.x[None], *integrator.trace.x])
+        fitting = None if isinstance(failure, KeyboardInterrupt) else smaller_sizes(compiled, reached, nominal, span)
+        if fitting is None:
+            break
+        nominal, counts = fitting, integrator.trace
     waited = compiled.seconds.get("integrators", 0.0) - built
     stats = _stats(compiled, integrator, breaks)
     stats |= {"events": len(events.events), "event_times": events.events}
@@ -108,6 +118,7 @@ def _stats(compiled: CompiledModel, run: Integrator, breaks: list[float]) -> dic
         "integration_seconds": trace.seconds,
         "max_order": run.settings.max_order,
         "tolerance": run.settings.tolerance,
+        "sizes": absolute_sizes(compiled, run.settings.nominal),
         "method": " and ".join(trace.methods) or "none",
         "method_steps": dict(trace.methods),
         "fastest_rate": run.settings.fastest,

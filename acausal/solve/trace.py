@@ -26,6 +26,11 @@ class Trace:
     methods: dict[str, int] = field(default_factory=dict)
     loosened: list[float] = field(default_factory=list)
 
+    def emptied(self) -> Trace:
+        """Return a trace without rows in which the counts go on."""
+        names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds")
+        return Trace(**{name: getattr(self, name) for name in names}, methods=dict(self.methods))
+
     def count(self, stats: dict, plugin: str) -> int:
         """Add the counts of a call, and return its steps."""
         names = ("nsteps", "nlinsetups", "nfevals") if plugin == "idas" else ("n_steps", "n_jac", "n_rhs")

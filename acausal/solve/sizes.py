@@ -1,0 +1,57 @@
+"""Sizes of states that declare none: what they reach, so that the absolute part of the tolerance fits the machine."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.solve.methods import rates_of
+
+# States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
+SMALLER = 0.1
+# What reaches less, in SI units, rests but for rounding.
+REST = 1e-13
+# Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
+PASSES = 5
+
+
+def smaller_sizes(compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, span: float) -> np.ndarray | None:
+    """Return sizes of states and algebraic unknowns that fit a run better, or None if these do.
+
+    All states of one unit without a declared nominal value have one size, the most that any of them reaches; a rate
+    is not followed more closely than its coordinate, which it changes over the whole run.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    x : array, shape (n, nx)
+        States along the run.
+    nominal : array
+        Sizes in that run.
+    span : float
+        Length of the run in s.
+    """
+    reach = np.max(np.abs(x), axis=0, initial=0.0)
+    groups: dict[str, list[int]] = {}
+    for k, (unit, declared) in enumerate(compiled.sizes):
+        if not declared:
+            groups.setdefault(unit, []).append(k)
+    fitting = nominal.copy()
+    for members in groups.values():
+        most = float(np.max(reach[members]))
+        if most > REST:
+            fitting[members] = np.minimum(nominal[members], most)
+    for coordinate, rate in rates_of(compiled):
+        if not compiled.sizes[rate][1]:
+            fitting[rate] = min(nominal[rate], max(fitting[rate], fitting[coordinate] / span))
+    wrong = fitting < SMALLER * nominal
+    return np.where(wrong, fitting, nominal) if wrong.any() else None
+
+
+def absolute_sizes(compiled: CompiledModel, nominal: np.ndarray) -> dict[str, float]:
+    """Return the least size of the states of each unit: outputs below it are not known to the relative tolerance."""
+    found: dict[str, float] = {}
+    for (unit, _), size in zip(compiled.sizes, nominal[: compiled.nx].tolist(), strict=True):
+        found[unit] = min(size, found.get(unit, np.inf))
+    return found
