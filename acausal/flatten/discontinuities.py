@@ -78,7 +78,11 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
 
 def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
     """Start values of the discrete variables, a column each."""
-    return [with_place(d.start, Origin.of(d.owner, d.declared.name)) for d in discretes]
+    PENDING.get().watches = False
+    try:
+        return [with_place(d.start, Origin.of(d.owner, d.declared.name)) for d in discretes]
+    finally:
+        PENDING.get().watches = True
 
 
 def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Guard, ...]:

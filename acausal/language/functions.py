@@ -29,6 +29,7 @@ class Pending:
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
     `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
+    `watches` is false while start values are formed, which need no switches.
     """
 
     def __init__(self) -> None:
@@ -37,10 +38,11 @@ class Pending:
         self.places: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
         self.discrete: set[int] = set()
+        self.watches = True
 
     def mode(self, condition: Condition) -> ca.SX:
         """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
-        if all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
+        if not self.watches or all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
             return _truth(condition)
         for mode, other in self.switches:
             if other.kind == condition.kind and ca.is_equal(other.excess.sx, condition.excess.sx, 9):
@@ -108,8 +110,16 @@ def sqrt(x: Any) -> Any:
 
 @_deferrable
 def sign(x: Any) -> Any:
-    """Sign of an expression, entry by entry: -1, 0 or 1."""
-    return Expr(ca.sign(as_expr(x).sx), DIMENSIONLESS)
+    """Sign of an expression, entry by entry: -1, 0 or 1; the integration stops where it changes."""
+    x, pending = as_expr(x), PENDING.get(None)
+    if pending is None or x.sx.is_constant():
+        return Expr(ca.sign(x.sx), DIMENSIONLESS)
+    entries = [_watched_sign(Expr(entry), pending) for entry in ca.vec(x.sx).elements()]
+    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), DIMENSIONLESS)
+
+
+def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
+    return pending.mode(Condition(-x, "<")) - pending.mode(Condition(x, "<"))
 
 
 @_deferrable

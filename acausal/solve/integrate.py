@@ -79,7 +79,7 @@ class Integrator:
         self.hoisted = compiled.hoist(p)[0].copy()
         self.trace = before.emptied()
         self.consistent = Consistent(compiled, p)
-        self.complaint = ""
+        self.complaint, self.outputs = "", 1
         self.moves, self.worn = settings.constraints == "projection", False
         self.rings = settings.method == "rosenbrock"
         self._floor: np.ndarray | None = None
@@ -98,7 +98,7 @@ class Integrator:
         if not self.compiled.nx:
             self.keep(self._solve_everywhere(times, z, modes))
             return self._last()
-        n = len(times) - 1
+        n = self.outputs = len(times) - 1
         while not (done := self._call(times, x, z, modes, self.patience(times), careful=False)) and self.rescue(times):
             pass
         if done:
@@ -201,7 +201,7 @@ class Integrator:
     ) -> Stretch | None:
         """Go to the next output, with new choices of states on the way where one does not last."""
         # Loops that get stuck beside a singular position do so for ever.
-        most = LONG if self.compiled.closing.size else HOPELESS
+        most = LONG if self.compiled.closing.size else HOPELESS // min(self.outputs, HOPELESS // LONG)
         stretch = self.attempt(times, x, z, modes, most, careful=True)
         if stretch is not None or not self.worn or not halvings:
             return stretch
