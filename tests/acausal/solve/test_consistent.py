@@ -1,0 +1,201 @@
+"""Values between the steps of an integrator: algebraic variables, and events on them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import acausal as ac
+from acausal import Model, Scalar, der, discrete, piecewise, reinit, sin, time, variable, when
+from acausal.solve.integrate import Integrator
+from models import FourBarSpatial, NFourBar, SpinUp
+from tests.acausal.solve.machines import Axis, Fall, Tether, Two
+
+TOLERANCES = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10]
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_length_of_a_spring_is_the_distance_of_its_ends(tolerance, method):
+    result = ac.simulate(Fall(), stop_time=3.0, tolerance=tolerance, method=method)
+    apart = np.linalg.norm(result["spring.frame_b.r_0"] - result["spring.frame_a.r_0"], axis=1)
+    np.testing.assert_allclose(result["spring.s"], apart, rtol=1e-13)
+    np.testing.assert_allclose(result["spring.v"], np.gradient(apart, result.time), atol=0.5)
+    np.testing.assert_allclose(result["spring.f"], 1e-3 * apart, rtol=1e-12)
+
+
+class Implicit(Model):
+    """An algebraic loop that turns sharply, besides a motion that long steps follow."""
+
+    x: Scalar = variable("x", start=-1, fixed=True)
+    y: Scalar = variable("y", start=1)
+
+    def equations(self):
+        yield der(self.x) == 1
+        yield self.y**3 + 1e-3 * self.y == self.x
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_implicit_equation_holds_to_rounding(tolerance):
+    result = ac.simulate(Implicit(), stop_time=2.0, tolerance=tolerance, method="idas")
+    y, x = result["y"], result["x"]
+    np.testing.assert_allclose(y**3 + 1e-3 * y, x, atol=1e-14)
+
+
+def test_evaluations_are_counted_and_only_what_is_read_is_solved():
+    result = ac.simulate(SpinUp(volumes=3), stop_time=20.0, tolerance=1e-4)
+    before = result.stats["consistent_evaluations"]
+    _ = result["tip_deflection"]
+    assert result.stats["consistent_evaluations"] == before, "positions follow from the states alone"
+    _ = result["drive.flange.tau"]
+    assert before < result.stats["consistent_evaluations"] <= before + 5 * len(result.time)
+    known = result.stats["consistent_evaluations"]
+    _ = result["drive.flange.tau"] + result["tip_extension"]
+    assert result.stats["consistent_evaluations"] == known, "what is known is not solved again"
+
+
+@pytest.mark.parametrize("constraints", ["states", "projection"])
+def test_joints_of_a_loop_are_closed_at_each_output(constraints):
+    result = ac.simulate(FourBarSpatial(), stop_time=1.0, tolerance=1e-4, constraints=constraints, intervals=37)
+    gap = result["b3.frame_b.r_0"] - result["j5.frame_b.r_0"]
+    assert np.max(np.abs(gap)) < 1e-12
+
+
+def collision(tolerance: float = 1e-12) -> np.ndarray:
+    """Position of the second ball of `Two` at 2 s, from the equations of two mass points."""
+
+    def law(_: float, y: np.ndarray) -> np.ndarray:
+        r = y[2:4] - y[:2]
+        s = np.linalg.norm(r)
+        push = 1e4 * min(s - 0.1, 0.0) * r / s
+        return np.concatenate([y[4:], push, -push])
+
+    start = [0, 0, 1, 0.02, 1, 0, 0, 0]
+    return solve_ivp(law, (0, 2), start, "DOP853", rtol=tolerance, atol=tolerance, max_step=1e-3).y[2:4, -1]
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize("intervals", [400, 20, 7])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-10])
+def test_no_contact_is_missed(tolerance, intervals, method):
+    result = ac.simulate(Two(), stop_time=2.0, tolerance=tolerance, intervals=intervals, method=method, energy=True)
+    assert result.stats["events"] == 2
+    first = (1 - np.sqrt(0.1**2 - 0.02**2)) / 1
+    assert result.stats["event_times"][0] == pytest.approx(first, abs=1e-9)
+    np.testing.assert_allclose(result["b.r_0"][-1, :2], collision(), atol=1e2 * tolerance + 1e-6)
+    assert abs(result.stats["energy_method"]) < 1e2 * tolerance
+
+
+@pytest.mark.parametrize("speed", [10.0, 100.0])
+@pytest.mark.parametrize("intervals", [400, 20])
+def test_contact_shorter_than_an_interval(speed, intervals):
+    """Both ends of the contact lie between two outputs."""
+    stop = 2.0 / speed
+    result = ac.simulate(Two(speed=speed), stop_time=stop, intervals=intervals, method="idas", tolerance=1e-6)
+    assert result.stats["event_times"][0] == pytest.approx((1 - np.sqrt(0.1**2 - 0.02**2)) / speed, rel=1e-8)
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize("intervals", [400, 20])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-10])
+def test_rope_is_found_taut_when_it_is(tolerance, intervals, method):
+    result = ac.simulate(Tether(), stop_time=1.2, tolerance=tolerance, intervals=intervals, method=method)
+    taut = np.sqrt(2 * np.sqrt(1 - 0.3**2) / 9.80665)
+    assert result.stats["event_times"][0] == pytest.approx(taut, abs=1e-6)
+    assert result.stats["events"] == 4
+    np.testing.assert_allclose(result.stats["event_times"][2], 0.96525086, atol=max(1e-6, 1e2 * tolerance))
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-10])
+@pytest.mark.parametrize("intervals", [2000, 500, 100])
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+def test_friction_sticks_at_rest_only(intervals, tolerance, method):
+    result = ac.simulate(Axis(), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method)
+    stuck = np.abs(result["friction.mode"]) < 0.5
+    assert result.stats["events"] == 5 or stuck.any()
+    assert np.max(np.abs(result["motor.w"][stuck]), initial=0.0) < 1e-8
+    assert result.stats["event_times"][0] == pytest.approx(0.130478, abs=1e-6)
+
+
+@pytest.mark.parametrize("fails", [1, 2, 3])
+def test_a_time_that_was_not_reached_lends_its_values_to_no_event(monkeypatch, fails):
+    """Trials of the search that fail now and then change nothing, or end the run with an error: never the values."""
+    attempt, calls = Integrator.attempt, [0]
+
+    def unreliable(self, times, *rest, **named):
+        calls[0] += 1
+        short = len(times) == 2 and times[1] - times[0] < 1e-3
+        return None if short and calls[0] % 4 < fails else attempt(self, times, *rest, **named)
+
+    monkeypatch.setattr(Integrator, "attempt", unreliable)
+    try:
+        result = ac.simulate(Axis(), stop_time=1.0, tolerance=1e-8)
+    except ac.SimulationError as error:
+        result = error.result
+    stuck = np.abs(result["friction.mode"]) < 0.5
+    assert np.max(np.abs(result["motor.w"][stuck]), initial=0.0) < 1e-6
+
+
+class Never(NFourBar):
+    """A condition that never holds changes nothing."""
+
+    hit: Scalar = discrete("hits", unit="1")
+
+    def equations(self):
+        yield from super().equations()
+        yield when(self.b0_x > 100, reinit(self.hit, 1))
+
+
+@pytest.mark.slow
+def test_a_condition_far_away_costs_no_run():
+    """30 s through flat positions again and again, watched or not; the angle from minimal coordinates."""
+    turn = solve_ivp(lambda _, y: [y[1], -1.2 * 9.81 * np.cos(y[0])], (0, 30), [np.pi / 2, -1], "DOP853", rtol=1e-12)
+    result = ac.simulate(Never(N=1), stop_time=30.0, tolerance=1e-8)
+    assert result.stats["events"] == 0
+    assert result["b0_x"][-1] == pytest.approx(np.cos(turn.y[0, -1]), abs=5e-3)
+
+
+def test_a_watched_loop_goes_where_an_unwatched_one_goes():
+    watched, plain = (ac.simulate(m(N=1), stop_time=4.0, tolerance=1e-8) for m in (Never, NFourBar))
+    np.testing.assert_allclose(watched["b0_x"], plain["b0_x"], atol=1e-4)
+
+
+class Pulses(Model):
+    """A guard that turns far faster than outputs and steps show."""
+
+    x: Scalar = variable("x", start=0, fixed=True)
+    n: Scalar = discrete("count", unit="1")
+
+    def equations(self):
+        yield der(self.x) == 1
+        yield when(sin(2000 * self.x) > 0.5, reinit(self.n, self.n + 1))
+
+
+def test_conditions_faster_than_they_are_looked_at_are_told():
+    with pytest.warns(ac.AcausalWarning, match=r"turn faster than they are looked at[\s\S]*intervals"):
+        ac.simulate(Pulses(), stop_time=10.0, intervals=20, method="idas")
+
+
+@pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
+@pytest.mark.parametrize("law", [lambda x: -3 * ac.sign(x), lambda x: -piecewise((3, x > 0), -3)])
+def test_sliding_on_a_jump_ends(law, method):
+    class Slides(Model):
+        x: Scalar = variable("x", start=1, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == law(self.x)
+
+    with pytest.raises(ac.SimulationError, match="switch back and forth"):
+        ac.simulate(Slides(), stop_time=1.0, method=method)
+
+
+def test_sign_of_a_passing_quantity_is_exact():
+    class Passes(Model):
+        x: Scalar = variable("x", start=0, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == ac.sign(time - 0.3 + 0 * self.x) + ac.sign(self.x + 0.1)
+
+    result = ac.simulate(Passes(), stop_time=1.0, tolerance=1e-6)
+    np.testing.assert_allclose(result["x"], np.maximum(0, 2 * (result.time - 0.3)), atol=1e-8)

@@ -1,0 +1,52 @@
+"""Whatever is read satisfies the equations of the model: all scenes and small machines, methods and tolerances."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model
+from acausal.language.functions import initial, time
+from models import SCENES
+from tests.acausal.solve.machines import Axis, Fall, Tether, Two
+
+SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank": 0.75, "bricard": 2.0}
+# Where one method alone takes minutes to follow vibrations, or does not get past a flat position.
+RINGS = {(1e-5, "idas"), (1e-8, "idas")}
+FLAT = {(tolerance, "rosenbrock") for tolerance in (1e-3, 1e-5, 1e-8)}
+CHOOSY = {"slider-crank": RINGS, "pendulum": RINGS, "free-vibration": RINGS, "n-four-bar": FLAT}
+MACHINES: dict[str, tuple[type[Model], float]] = {c.__name__: (c, 1.0) for c in (Axis, Fall, Tether, Two)}
+MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in SCENES.items()}
+
+
+def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
+    """Largest residual of any equation as it was stated, in parts of the sizes of its terms."""
+    flat = compiled.reduced.flat
+    column = ca.vertcat(flat.residuals, flat.unknowns)
+    found = result._evaluate(column)
+    residuals, values = np.split(found, [flat.residuals.numel()], axis=1)
+    J = ca.jacobian(flat.residuals, flat.unknowns)
+    arguments = [flat.unknowns, flat.parameters, time.sx, flat.modes, initial.sx]
+    slopes = ca.Function("slopes", arguments, [ca.fabs(J)], {"allow_free": True})
+    free = ca.Function("slopes", [*arguments, *slopes.free_sx()], [ca.fabs(J)]) if slopes.free_sx() else slopes
+    modes = result._evaluate.modes[:, : flat.modes.numel()]
+    p, worst = compiled.parameter_values(None), 0.0
+    for k in range(0, len(result.time), 7):
+        terms = np.array(free(values[k], p, result.time[k], modes[k], 0)) @ np.abs(values[k]) + 1
+        worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
+    return worst
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-8])
+@pytest.mark.parametrize("name", MODELS)
+def test_every_equation_holds_at_every_output(name, tolerance, method):
+    cls, stop = MODELS[name]
+    compiled = ac.compile(cls())
+    options = {"tolerance": tolerance, "intervals": 60, "method": method}
+    if name in CHOOSY and (tolerance, method) in CHOOSY[name]:
+        options["method"] = "auto"
+    result = ac.simulate(compiled, stop_time=stop, **options)
+    assert worst_equation(result, compiled) < 1e-10
