@@ -84,7 +84,7 @@ def evaluate(value: Any, owner: Any) -> Any:
     if isinstance(value, Deferrable):
         return value.evaluate(owner)
     if isinstance(value, Condition):
-        return Condition(evaluate(value.excess, owner), value.kind)
+        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind))
     if isinstance(value, Start):
         return Start(evaluate(value.value, owner), value.fixed)
     if isinstance(value, list | tuple):
