@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
 from acausal.flatten.instantiate import join
-from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.origin import Origin, bounded, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
@@ -55,11 +56,11 @@ class Equations:
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph) -> Equations:
-    """Return the equations of all components, connection sets, roots and cuts."""
+def collect(components: list[Component], graph: Graph, most: int) -> Equations:
+    """Return the equations of all components, at most so many of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.equations, found)
+        _run(component, component.equations, found, most)
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.Start):
@@ -69,7 +70,7 @@ def collect(components: list[Component], graph: Graph) -> Equations:
                 )
                 PENDING.get().place(origin)
     for connector in graph.roots:
-        _run(connector, connector.root_equations, found)
+        _run(connector, connector.root_equations, found, most)
     for cut in graph.cuts:
         _close(cut, graph, found)
     for balance in graph.balances:
@@ -77,11 +78,11 @@ def collect(components: list[Component], graph: Graph) -> Equations:
     return found
 
 
-def collect_initial(components: list[Component]) -> Equations:
-    """Return the initial equations of all components."""
+def collect_initial(components: list[Component], most: int) -> Equations:
+    """Return the initial equations of all components, at most so many of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.initial_equations, found)
+        _run(component, component.initial_equations, found, most)
     return found
 
 
@@ -94,9 +95,9 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
             flows = [getattr(c, name) * sign for c, sign in balance if c in side]
-            setattr(sent, name, sum(flows[1:], flows[0]))
+            vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
-    for statement, dual in sent.residual(b):
+    for statement, dual in bounded(sent.residual(b), a, "residual()"):
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
         for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
@@ -116,18 +117,19 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
             found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations) -> None:
+def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations, most: int) -> None:
     name = type(component).__name__
     here = Origin(component._path, name, f"{type(component).__module__}.{name}")
     said = with_place(generate, here)
     if not isinstance(said, Iterable) or isinstance(said, Expr):
         raise DeclarationError(f"{here}: {generate.__name__}() returns {_shown(said)}; write `yield`, not `return`.")
     generator = iter(said)
-    while True:
+    for count in itertools.count():
         statement = with_place(lambda: next(generator, _END), here)
         if statement is _END:
             return
         origin = Origin(component._path, name, line_of(generator) or here.where)
+        refuse_endless(count, origin, f"{generate.__name__}()", most)
         PENDING.get().place(origin)
         if isinstance(statement, When) and generate.__name__ == "equations":
             PENDING.get().whens.append((statement, origin))

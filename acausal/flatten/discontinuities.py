@@ -81,7 +81,7 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
                 path = join(component._path, name)
                 shape = declared.shape if isinstance(declared.shape, tuple) else ()
                 expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path)
-                setattr(component, name, expr)
+                vars(component)[name] = expr
                 found.append(Discrete(expr, declared, component))
                 PENDING.get().discrete.update(s.element_hash() for s in scalars(ca.vec(expr.sx)))
     return found
