@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.instantiate import join
+from acausal.flatten.instantiate import join, walk
 from acausal.flatten.origin import Origin, bounded, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.language import fields as f
@@ -109,12 +109,14 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
     if len(balance) == 1 and (outside < 0 or first._owner is None):
         return  # nothing inside uses this port of a composite, or the component itself does
     text = " + ".join(c._path for c, _ in balance) if len(balance) > 1 else f"{first._path} is not connected"
-    for name, declared in first.fields.items():
-        if isinstance(declared, f.Variable) and declared.flow:
-            total: Any = sum((getattr(c, name).sx * s for c, s in balance[1:]), getattr(first, name).sx * outside)
-            zero = Expr(ca.SX.zeros(*total.shape))
-            origin = Origin(join(first._path, name), type(first).__name__, "flows of a connection", text)
-            found.add(Equation(Expr(total), zero), origin)
+    for same in zip(*(walk(c) for c, _ in balance), strict=True):
+        for name, declared in same[0].fields.items():
+            if isinstance(declared, f.Variable) and declared.flow:
+                flows = [getattr(c, name).sx * sign for c, (_, sign) in zip(same, balance, strict=True)]
+                total: Any = sum(flows[1:], flows[0])
+                zero = Expr(ca.SX.zeros(*total.shape))
+                origin = Origin(join(same[0]._path, name), type(same[0]).__name__, "flows of a connection", text)
+                found.add(Equation(Expr(total), zero), origin)
 
 
 def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations, most: int) -> None:
