@@ -29,9 +29,9 @@ class Path:
     def __setattr__(self, name: str, value: Any) -> None:
         raise DeclarationError(refuse_path(f"{self._path}.{name}", self._class, name, value))
 
-    def __getitem__(self, index: int) -> Path:
-        few = self._make if isinstance(self._make, list) and isinstance(index, int) else []
-        return Path(f"{self._path}[{index}]", few[index] if -len(few) <= index < len(few) else None)
+    def __getitem__(self, index: Any) -> Path:
+        known = isinstance(self._make, list) and isinstance(index, int) and -len(self._make) <= index < len(self._make)
+        return Path(f"{self._path}[{index}]", self._make[index] if known else None)
 
     def __setitem__(self, index: Any, value: Any) -> None:
         whole = (
