@@ -72,10 +72,12 @@ def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[An
 
 
 def _brief(error: Exception) -> str:
-    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
         names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
         near = difflib.get_close_matches(error.name or "", names, 1)
         return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+        return str(error)
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from copy import copy
 from types import FunctionType, GeneratorType
 from typing import Any
@@ -111,8 +112,15 @@ def _named(field: f.Field, name: str) -> f.Field:
 
 
 def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
-    """Whether `joint = Prismatic` means a part: not a class that is defined here, nor a name like that of a class."""
-    return name[0].islower() and value.__qualname__ != f"{cls.__qualname__}.{value.__name__}"
+    """Whether `joint = Prismatic` means a part.
+
+    It does not for a class that is defined here, a name like that of a class, and an attribute that is plain in a base
+    or annotated as a type.
+    """
+    here = value.__qualname__ == f"{cls.__qualname__}.{value.__name__}"
+    plain = any(name in vars(base) for base in cls.__mro__[1:])
+    is_type = str(inspect.get_annotations(cls).get(name, "")).lower().startswith(("type", "<class 'type'", "classvar"))
+    return name[0].islower() and not here and not plain and not is_type
 
 
 def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:

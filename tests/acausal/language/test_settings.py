@@ -147,15 +147,31 @@ class Plain(Model):
         """A class that is defined here is no part."""
 
     Joint = Revolute
+    kind: type = Revolute
+    made_of = None
 
     def connections(self):
         yield chain(self.world, self.hinge, self.tip)
 
 
+class Data(Plain):
+    made_of = Revolute
+
+
+class Early(Plain):
+    early: Scalar = parameter("needs what is not there yet", default=lambda s: s.tip.m)
+
+
 def test_a_class_as_a_new_part():
     tree = ac.compile(Plain()).tree
     assert [c._path for c in (tree.world, tree.hinge)] == ["world", "hinge"]
-    assert not {"Inner", "Joint"} & set(Plain.fields)
+    assert not {"Inner", "Joint", "kind", "made_of"} & set(Data.fields)
+    assert (Data.kind, Data().made_of) == (Revolute, Revolute)
+
+
+def test_a_default_of_a_part_is_refused():
+    with pytest.raises(DeclarationError, match=r"Early.* does not have its `tip` yet: it exists in connections"):
+        ac.compile(Early())
 
 
 class Method(Rate):
