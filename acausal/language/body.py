@@ -73,7 +73,9 @@ def _read(
         setattr(cls, name, own[name])
     elif isinstance(value, f.Template):
         own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
-        setattr(cls, name, value)
+        # A template tells its name by being in the class: under a second name it is a second one.
+        twice = any(v is value for base in cls.__mro__ for n, v in vars(base).items() if n != name)
+        setattr(cls, name, copy(value) if twice else value)
     elif is_part_class(value) and (isinstance(old, f.Part) or _stands_for_a_part(cls, name, value)):
         part = instance(value)
         own[name] = f.Part("", make=part, is_port=part._is_port, name=name)

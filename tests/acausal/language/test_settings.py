@@ -169,6 +169,17 @@ def test_a_class_as_a_new_part():
     assert (Data.kind, Data().made_of) == (Revolute, Revolute)
 
 
+class Twice(Plain):
+    left = right = Body(m=2, r_0=fixed((0, 0, 0)))
+    third = Plain.hinge
+
+
+def test_one_template_under_two_names():
+    model = Twice()
+    paths = [str(p) for p in (model.left.m, model.right.m, model.hinge.phi, model.third.phi)]
+    assert paths == ["left.m", "right.m", "hinge.phi", "third.phi"]
+
+
 def test_a_default_of_a_part_is_refused():
     with pytest.raises(DeclarationError, match=r"Early.* does not have its `tip` yet: it exists in connections"):
         ac.compile(Early())

@@ -121,6 +121,57 @@ def test_what_is_not_linear_in_time_is_watched():
     np.testing.assert_allclose(result.stats["event_times"], [np.pi / 6, 5 * np.pi / 6, 13 * np.pi / 6], atol=1e-5)
 
 
+class Through(Model):
+    """A pulse that is a variable itself, and one that a discrete variable lets through."""
+
+    a: Scalar = parameter("begin", unit="s", default=10.0)
+    pulse: Scalar = variable("1 during the pulse")
+    x: Scalar = variable("while the pulse lasts", start=0, fixed=True)
+    y: Scalar = variable("while the gate is open", start=0, fixed=True)
+    gate: Scalar = discrete("1: open", start=1)
+
+    def equations(self):
+        on = (time > self.a) & (time < self.a + 1e-3)
+        yield self.pulse == piecewise((1, on), 0)
+        yield der(self.x) == piecewise((1e3, (self.pulse > 0.5) & (self.x > -1)), 0)
+        yield der(self.y) == piecewise((1e3, (self.gate > 0.5) & on), 0)
+        yield when((self.pulse > 0.5) & (time > 20), reinit(self.gate, 0))
+
+
+def test_pulses_that_go_through_variables():
+    compiled = ac.compile(Through())
+    early, late = (ac.simulate(compiled, stop_time=100, parameters={"a": a}) for a in (10.0, 33.3))
+    for result, open_gate in ((early, 1), (late, 0)):
+        np.testing.assert_allclose([result["x"][-1], result["y"][-1]], [1, open_gate], atol=1e-6)
+        assert result["gate"][-1] == open_gate
+
+
+class Stop(Model):
+    """A stop that is there from 1 s to 30 s, and a drive that changes twice."""
+
+    s: Scalar = variable("position", unit="m", start=0, fixed=True)
+    v: Scalar = variable("speed", unit="m/s", start=0, fixed=True)
+
+    def equations(self):
+        touches = (self.s > 0.5) & (time < 30) & (time > 1)
+        drive = piecewise((2, time < 5), (-1, (time > 6) | (self.s > 3)), 0)
+        yield der(self.s) == self.v
+        yield der(self.v) == piecewise((-1000 * (self.s - 0.5), touches), drive)
+
+
+def test_mixed_conditions_against_segments_by_hand():
+    # At 1 s the stop appears while the body is 0.5 m inside of it, and throws it out at s = 0.5.
+    rate = np.sqrt(1000)
+    size, phase = np.hypot(0.5, 2 / rate), np.arctan2(2 / rate, 0.5)
+    out = 1 + (np.pi / 2 + phase) / rate
+    speed, rest = -size * rate, 5 - out
+    s5, v5 = 0.5 + speed * rest + rest**2, speed + 2 * rest
+    exact = s5 + v5 * 1 + v5 * 2 - 2.0
+    result = ac.simulate(Stop(), stop_time=8, tolerance=1e-9)
+    np.testing.assert_allclose(result["s"][-1], exact, rtol=1e-7)
+    assert result.stats["break_times"] == [1.0, 5.0, 6.0]
+
+
 class Fields(Model):
     begin: Scalar = parameter("begin", unit="s", default=3.3)
     force: Scalar = ac.input("force")
