@@ -5,13 +5,10 @@ from __future__ import annotations
 import difflib
 import sys
 from collections.abc import Iterable
-from pathlib import Path as File
 from typing import Any
 
-from acausal.errors import DeclarationError
+from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import fields as f
-
-PACKAGE = str(File(__file__).parents[1])
 
 
 def check_value(cls: Any, name: str, value: Any) -> Any:
