@@ -48,6 +48,7 @@ def run(a: float, b: float, stop: float = 150.0, **values: Any):
     ("a", "b"),
     [
         (40.013, 40.063),  # shorter than any step
+        (77.77, 77.770001),
         (30.0, 30.75),  # begins and ends at outputs
         (33.0, 33.0),  # of no length
         (60.0, 50.0),  # ends before it begins
@@ -80,6 +81,32 @@ def test_pulses_at_the_start_of_a_run_that_begins_later():
     np.testing.assert_allclose([late["alone"][-1], late["mixed"][-1]], 500, rtol=1e-9)
     within = ac.simulate(COMPILED, start_time=40.063 - 1e-3, stop_time=50)
     np.testing.assert_allclose([within["alone"][-1], within["mixed"][-1]], 10, rtol=1e-8)
+
+
+class Single(Model):
+    """The shortest way to write a pulse."""
+
+    a: Scalar = parameter("begin", unit="s", default=40.02)
+    width: Scalar = parameter("length", unit="s", default=0.05)
+    x: Scalar = variable("x", start=0, fixed=True)
+    n: Scalar = discrete("n")
+
+    def equations(self):
+        yield der(self.x) == piecewise((1e4, (time > self.a) & (time < self.a + self.width)), 0)
+
+
+class SingleWhen(Single):
+    def equations(self):
+        yield der(self.x) == 0
+        yield when((time > self.a) & (time < self.a + self.width), reinit(self.n, 1), reinit(self.x, 500))
+
+
+@pytest.mark.parametrize("model", [Single, SingleWhen])
+@pytest.mark.parametrize("a", [40.02, 12.34, 99.9])
+@pytest.mark.parametrize("width", [0.05, 1e-3, 1e-6])
+def test_a_single_pulse(model, a, width):
+    result = ac.simulate(model(a=a, width=width), stop_time=100)
+    assert result["x"][-1] == pytest.approx(1e4 * width if model is Single else 500, rel=1e-7)
 
 
 def test_break_times_are_those_of_all_comparisons():
