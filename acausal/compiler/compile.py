@@ -6,6 +6,7 @@ import time as clock
 from collections.abc import Mapping
 from typing import Any
 
+from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.flatten import flatten
 from acausal.language.component import Component
@@ -45,7 +46,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     lap("flatten")
     plan, linear = plan_of(flat)
     lap("analyse")
-    reduced = reduce(flat, plan, linear)
+    reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
     compiled = CompiledModel(reduced, seconds)
     compiled.parameter_values(None)

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.clock import by_clock
 from acausal.compiler.dependence import Dependence
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
@@ -32,7 +33,7 @@ class Guards:
     Attributes
     ----------
     timed : list of int
-        Guards that compare time with parameters: their instants are known before.
+        Guards that compare time with parameters and nothing else: their instants are known before.
     watched : list of int
         All others.
     n_switches, n_modes : int
@@ -53,13 +54,14 @@ class Guards:
                     f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
-        free = {s.element_hash() for s in scalars(ca.vertcat(flat.parameters, time.sx))}
-        curved = ca.which_depends(self._excess, time.sx, 2, True) if flat.guards else []
-        self.timed = [
-            k
-            for k, (e, bent) in enumerate(zip(scalars(self._excess), curved, strict=True))
-            if not bent and all(s.element_hash() in free for s in ca.symvar(e))
-        ]
+        decided, compared = by_clock(reduced, [g.condition for g in flat.guards])
+        self.timed, rows, row = [], [], 0
+        for k, guard in enumerate(flat.guards):
+            own = range(row, row := row + len(guard.condition.comparisons))
+            if all(decided[r] for r in own):
+                self.timed.append(k)
+                rows += own
+        self._compared = compared[rows]
         self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
@@ -68,8 +70,8 @@ class Guards:
 
     @cached_property
     def breaks(self) -> Call:
-        """Function of parameters: break time of each timed guard."""
-        p, excess = self.reduced.flat.parameters, self._excess[self.timed]
+        """Function of parameters: break times, one of each comparison of the timed guards."""
+        p, excess = self.reduced.flat.parameters, self._compared
         if not self.timed:
             return Call(ca.Function("breaks", [p], [ca.SX(0, 1)]))
         at_zero = ca.substitute(excess, time.sx, 0)
@@ -86,7 +88,11 @@ class Guards:
         flat, r = self.reduced.flat, self.reduced
         head = self._head()
         starts = self._start(flat.parameters, time.sx) if head.numel() else ca.SX(0, 1)
-        head = ca.substitute([head], [r.modes], [ca.SX.zeros(r.modes.numel())])[0] if head.numel() else head
+        modes = ca.SX.zeros(r.modes.numel())
+        for k in self.timed:
+            if k < self.n_switches:
+                modes[k] = head[k]
+        head = ca.substitute([head], [r.modes], [modes])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
         return Call(ca.Function("modes", [flat.parameters, time.sx], [ca.densify(head)]))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass, field
@@ -12,8 +13,8 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.instantiate import join
-from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.instantiate import join, walk
+from acausal.flatten.origin import Origin, bounded, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
@@ -55,11 +56,11 @@ class Equations:
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph) -> Equations:
-    """Return the equations of all components, connection sets, roots and cuts."""
+def collect(components: list[Component], graph: Graph, most: int) -> Equations:
+    """Return the equations of all components, at most so many of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.equations, found)
+        _run(component, component.equations, found, most)
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.Start):
@@ -69,7 +70,7 @@ def collect(components: list[Component], graph: Graph) -> Equations:
                 )
                 PENDING.get().place(origin)
     for connector in graph.roots:
-        _run(connector, connector.root_equations, found)
+        _run(connector, connector.root_equations, found, most)
     for cut in graph.cuts:
         _close(cut, graph, found)
     for balance in graph.balances:
@@ -77,11 +78,11 @@ def collect(components: list[Component], graph: Graph) -> Equations:
     return found
 
 
-def collect_initial(components: list[Component]) -> Equations:
-    """Return the initial equations of all components."""
+def collect_initial(components: list[Component], most: int) -> Equations:
+    """Return the initial equations of all components, at most so many of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.initial_equations, found)
+        _run(component, component.initial_equations, found, most)
     return found
 
 
@@ -94,9 +95,9 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
             flows = [getattr(c, name) * sign for c, sign in balance if c in side]
-            setattr(sent, name, sum(flows[1:], flows[0]))
+            vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
-    for statement, dual in sent.residual(b):
+    for statement, dual in bounded(sent.residual(b), a, "residual()"):
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
         for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
@@ -108,26 +109,29 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
     if len(balance) == 1 and (outside < 0 or first._owner is None):
         return  # nothing inside uses this port of a composite, or the component itself does
     text = " + ".join(c._path for c, _ in balance) if len(balance) > 1 else f"{first._path} is not connected"
-    for name, declared in first.fields.items():
-        if isinstance(declared, f.Variable) and declared.flow:
-            total: Any = sum((getattr(c, name).sx * s for c, s in balance[1:]), getattr(first, name).sx * outside)
-            zero = Expr(ca.SX.zeros(*total.shape))
-            origin = Origin(join(first._path, name), type(first).__name__, "flows of a connection", text)
-            found.add(Equation(Expr(total), zero), origin)
+    for same in zip(*(walk(c) for c, _ in balance), strict=True):
+        for name, declared in same[0].fields.items():
+            if isinstance(declared, f.Variable) and declared.flow:
+                flows = [getattr(c, name).sx * sign for c, (_, sign) in zip(same, balance, strict=True)]
+                total: Any = sum(flows[1:], flows[0])
+                zero = Expr(ca.SX.zeros(*total.shape))
+                origin = Origin(join(same[0]._path, name), type(same[0]).__name__, "flows of a connection", text)
+                found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations) -> None:
+def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations, most: int) -> None:
     name = type(component).__name__
     here = Origin(component._path, name, f"{type(component).__module__}.{name}")
     said = with_place(generate, here)
     if not isinstance(said, Iterable) or isinstance(said, Expr):
         raise DeclarationError(f"{here}: {generate.__name__}() returns {_shown(said)}; write `yield`, not `return`.")
     generator = iter(said)
-    while True:
+    for count in itertools.count():
         statement = with_place(lambda: next(generator, _END), here)
         if statement is _END:
             return
         origin = Origin(component._path, name, line_of(generator) or here.where)
+        refuse_endless(count, origin, f"{generate.__name__}()", most)
         PENDING.get().place(origin)
         if isinstance(statement, When) and generate.__name__ == "equations":
             PENDING.get().whens.append((statement, origin))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import casadi as ca
 
@@ -12,6 +13,7 @@ from acausal.flatten.instantiate import join, unit_of
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import PENDING, Pending
 from acausal.symbols import scalars
@@ -54,11 +56,20 @@ class Guard:
     The guards of a model are those of its switches, then one for each `when`, with its jumps.
     """
 
-    excess: ca.SX
-    inclusive: bool
+    condition: Condition
     origin: Origin
     jumps: tuple[Jump, ...] = ()
     at_start: bool = False
+
+    @cached_property
+    def excess(self) -> ca.SX:
+        """Negative while the condition holds."""
+        return self.condition.excess.sx
+
+    @property
+    def inclusive(self) -> bool:
+        """Whether it holds where the excess is 0."""
+        return self.condition.kind == "<="
 
 
 def create_discretes(components: list[Component]) -> list[Discrete]:
@@ -70,7 +81,7 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
                 path = join(component._path, name)
                 shape = declared.shape if isinstance(declared.shape, tuple) else ()
                 expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path)
-                setattr(component, name, expr)
+                vars(component)[name] = expr
                 found.append(Discrete(expr, declared, component))
                 PENDING.get().discrete.update(s.element_hash() for s in scalars(ca.vec(expr.sx)))
     return found
@@ -99,16 +110,14 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     """
     place = {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(ca.vec(d.expr.sx)))}
     conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
-    excess = resolve([condition.excess.sx for condition in conditions])
-    found = [
-        Guard(e, c.kind == "<=", origin)
-        for e, c, origin in zip(excess, conditions, pending.places, strict=False)  # whens follow below
-    ]
-    for e, (when, origin) in zip(excess[len(found) :], pending.whens, strict=True):
+    excess = iter(resolve([part.excess.sx for condition in conditions for part in condition.comparisons]))
+    conditions = [c.replaced(lambda part: Condition(Expr(next(excess)), part.kind)) for c in conditions]
+    found = [Guard(c, origin) for c, origin in zip(conditions, pending.places, strict=False)]  # whens follow below
+    for condition, (when, origin) in zip(conditions[len(found) :], pending.whens, strict=True):
         jumps = []
         for jump in when.jumps:
             target, value = resolve([ca.densify(ca.vec(s.sx)) for s in (jump.variable, jump.value)])
             for t, v in zip(scalars(target), scalars(value), strict=True):
                 jumps.append(Jump(t, v, place.get(t.element_hash()) if t.is_symbolic() else None))
-        found.append(Guard(e, when.condition.kind == "<=", origin, tuple(jumps), when.at_start))
+        found.append(Guard(condition, origin, tuple(jumps), when.at_start))
     return tuple(found)

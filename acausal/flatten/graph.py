@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from networkx.utils import UnionFind
 
 from acausal.errors import ConnectError
-from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.origin import Origin, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
@@ -45,8 +46,13 @@ def build_graph(components: list[Component]) -> Graph:
     connects: list[tuple[Component, Connect, str]] = []
     branches: list[Branch] = []
     roots: list[Root] = []
+    connectors = [c for c in components if isinstance(c, Connector)]
+    own = {id(c) for c in connectors}
     for component in components:
         for statement, where in _statements(component):
+            origin = Origin(component._path, type(component).__name__, where)
+            if isinstance(statement, Connect | Branch | Root):
+                _refuse_strangers(statement, own, origin)
             if isinstance(statement, Connect):
                 connects.append((component, statement, where))
             elif isinstance(statement, Branch):
@@ -55,11 +61,10 @@ def build_graph(components: list[Component]) -> Graph:
                 roots.append(statement)
             else:
                 raise ConnectError(
-                    f"{Origin(component._path, type(component).__name__, where)}: connections() yields {statement!r}; "
+                    f"{origin}: connections() yields {statement!r}; "
                     "yield connect(...), chain(...), branch(...), root(...) or potential_root(...)."
                 )
     _refuse_doubles(connects)
-    connectors = [c for c in components if isinstance(c, Connector)]
     cuts, chosen = spanning_tree(connectors, connects, branches, roots)
     for cut in cuts:
         for part in cut.loop:
@@ -81,18 +86,33 @@ def _statements(component: Component) -> Iterator[tuple[Any, str]]:
     """Yield each statement with the line that it comes from."""
     here = Origin.of(component)
     said = with_place(component.connections, here)
-    stack = [iter(said if isinstance(said, Iterable) else (said,))]
-    while stack:
+    stack = [iter(said if isinstance(said, _SEVERAL) else (said,))]
+    for count in itertools.count():
+        where = line_of(stack[0]) or here.where
+        refuse_endless(count, Origin(component._path, type(component).__name__, where), "connections()")
         item = with_place(lambda: next(stack[-1], _END), here)
         if item is _END:
             stack.pop()
-        elif isinstance(item, Iterable):
+            if not stack:
+                return
+        elif isinstance(item, _SEVERAL):
             stack.append(iter(item))
         else:
             yield item, line_of(stack[0]) or here.where
 
 
 _END: Any = object()
+_SEVERAL = (Iterator, list, tuple)  # not all that Python can go through: an entry of a string is a string
+
+
+def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
+    """Refuse ports of another built model."""
+    for port in (statement.connector,) if isinstance(statement, Root) else (statement.a, statement.b):
+        if id(port) not in own:
+            raise ConnectError(
+                f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Write the component that has "
+                "it in the class body, and connect the port of that."
+            )
 
 
 def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from acausal.errors import AcausalError, DeclarationError
 from acausal.language.component import Component
 
 PACKAGE = str(Path(__file__).parents[1])
+MOST = 100_000  # statements of one generator; more are an endless loop
 
 
 @dataclass(frozen=True)
@@ -46,17 +47,37 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
         return call()
     except AcausalError as error:
         raise type(error)(f"{_place(error, origin)}: {error}") from None
-    except RecursionError:
-        raise
+    except RecursionError as error:
+        raise DeclarationError(f"{_place(error, origin)}: a call of itself without end.") from None
     except Exception as error:
         raise DeclarationError(f"{_place(error, origin)}: {_brief(error)}") from error
 
 
+def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> None:
+    """Raise DeclarationError if one generator has said more than any component can mean."""
+    if count >= most:
+        raise DeclarationError(
+            f"{origin}: {what} has {most:,} entries and goes on: a loop such as `while True` does not end. "
+            "Go through a range or a list of parts."
+        )
+
+
+def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[Any]:
+    """Yield what a generator of a component says, as long as that can be meant."""
+    generator = iter(said)
+    for count, item in enumerate(generator):
+        here = Origin(component._path, type(component).__name__, line_of(generator) or component._origin)
+        refuse_endless(count, here, what)
+        yield item
+
+
 def _brief(error: Exception) -> str:
-    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
         names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
         near = difflib.get_close_matches(error.name or "", names, 1)
         return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+        return str(error)
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
 
 

@@ -13,7 +13,7 @@ from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.origin import Origin, bounded, with_place
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
@@ -51,9 +51,12 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         arrays = create_variables(components, graph.same)
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
-        equations = collect(components, graph)
-        starts = collect_initial(components)
-        declared = [pair for group in graph.same for pair in group[0].declared_derivatives()]
+        # Far more statements than any component can mean, few enough to count them quickly.
+        most = 10_000 + 10 * sum(a.expr.sx.numel() for a in arrays)
+        equations = collect(components, graph, most)
+        starts = collect_initial(components, most)
+        leads = [group[0] for group in graph.same]
+        declared = [p for c in leads for p in bounded(c.declared_derivatives(), c, "declared_derivatives()")]
         energies = {
             name: sum(
                 (_power(c, name) for c in components if getattr(type(c), name) is not getattr(Component, name)),

@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import join, unit_of
+from acausal.flatten.instantiate import join, unit_of, walk
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
@@ -57,7 +57,7 @@ def create_variables(components: list[Component], same: list[tuple[Connector, ..
         if id(component) not in inside:
             for name, declared in component.fields.items():
                 if isinstance(declared, f.Variable) and name not in vars(component):
-                    setattr(component, name, _create(component, name, declared, arrays))
+                    vars(component)[name] = _create(component, name, declared, arrays)
     return arrays
 
 
@@ -70,21 +70,17 @@ def _connectors(group: tuple[Connector, ...], is_root: bool, arrays: list[Variab
                 continue
             if declared.flow:
                 for connector in others:
-                    setattr(connector, name, _create(connector, name, declared, arrays))
+                    vars(connector)[name] = _create(connector, name, declared, arrays)
                 continue
             given = next((c for c in others if name in c._values), lead)
             shared = _create(given, name, declared, arrays)
             for connector in others:
-                setattr(connector, name, shared)
+                vars(connector)[name] = shared
 
 
 def _members(connector: Component) -> list[Component]:
     """Return a connector and its records."""
-    members = [connector]
-    for name, declared in connector.fields.items():
-        if isinstance(declared, f.Part):
-            members.extend(_members(getattr(connector, name)))
-    return members
+    return list(walk(connector))
 
 
 def _create(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:

@@ -2,40 +2,25 @@
 
 from __future__ import annotations
 
-import difflib
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, ClassVar, dataclass_transform
 
 from acausal.errors import DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
-from acausal.language.types import shape_of_annotation
-
-
-class Path:
-    """Name of a member of a model that is not built: `model.beam.frame_b.r_0`; results are read by it."""
-
-    def __init__(self, path: str, member: Any) -> None:
-        self._path = path
-        make = member.make if isinstance(member, f.Part) else member
-        self._class = make if isinstance(make, type) else type(make)
-
-    def __getattr__(self, name: str) -> Path:
-        return Path(f"{self._path}.{name}", getattr(self._class, name, None))
-
-    def __getitem__(self, index: int) -> Path:
-        return Path(f"{self._path}[{index}]", None)
-
-    def __str__(self) -> str:
-        return self._path
+from acausal.language.body import read_body
+from acausal.language.path import Path
+from acausal.language.refusals import refuse_attribute, refuse_value
+from acausal.language.values import check_value
 
 
 @dataclass_transform(
     kw_only_default=True,
     field_specifiers=(declare.structural, declare.effect, declare.parameter),
 )
-class Component:
+class Component(f.Template):
     """A part of a machine: class fields for what it has, connections() for the graph, equations() for the physics.
 
     Parameters
@@ -53,49 +38,32 @@ class Component:
     fields: ClassVar[dict[str, f.Field]] = {}
     ends: ClassVar[tuple[str, str]] = ("", "")
     start_words: ClassVar[dict[str, str]] = {}
+    _own_fields: ClassVar[dict[str, f.Field]] = {}
+    _own_values: ClassVar[dict[str, Any]] = {}
+    _class_values: ClassVar[dict[str, Any]] = {}
+    _as_read: ClassVar[dict[str, Any]] = {}
+    _values: Mapping[str, Any] = MappingProxyType({})
+    _origin = ""
     _path: str = ""
     _ports: tuple[Any, ...] = ()
+    _demand: Callable[[str], Any] | None = None
     _is_bound = False
     _in_loop = False
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        own = {}
-        for name, value in list(vars(cls).items()):
-            if isinstance(value, f.Field):
-                own[name] = value
-            elif isinstance(value, Component):
-                own[name] = f.Part("", make=value, is_port=isinstance(value, Connector), name=name)
-        cls.fields = {**cls.fields, **own}
-        for name, field in own.items():
-            if field.shape is None and not isinstance(field, f.Part | f.Outer):
-                field.shape = shape_of_annotation(cls, name)
+        read_body(cls)
 
     def __init__(self, **values: Any) -> None:
-        self._values = values
-        frame = sys._getframe(1)
-        self._origin = f"{frame.f_code.co_filename}:{frame.f_lineno}"
-        for name, value in values.items():
-            self._check_value(name, value)
+        self._origin = _constructed_at(self)
+        self._values = {name: check_value(type(self), name, value) for name, value in values.items()}
 
-    def _check_value(self, name: str, value: Any) -> None:
-        cls = type(self)
-        field = cls.fields.get(name)
-        if field is None:
-            near = difflib.get_close_matches(name, cls.fields, 1) or _described(cls, name)
-            mend = f"did you mean `{near[0]}`?" if near else f"its fields are {', '.join(cls.fields)}."
-            raise DeclarationError(f"{cls.__name__} has no field `{name}`; {mend}")
-        if isinstance(field, f.Part) and value is not None and not isinstance(value, Component | list | tuple):
-            raise DeclarationError(f"{cls.__name__}.{name} is a part; give a component, not {value!r}.")
-        if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.Start):
-            raise DeclarationError(
-                f"{cls.__name__}.{name} is a variable: write {name}=fixed({value!r}) for a value at the start, "
-                f"or {name}=guess({value!r}) for a guess."
-            )
-        if isinstance(value, f.Start) and not isinstance(field, f.Variable):
-            raise DeclarationError(
-                f"{cls.__name__}.{name} is no variable: it takes a value, not fixed(...) or guess(...)."
-            )
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in self.fields:
+            raise DeclarationError(refuse_value(self, name, value))
+        if not self._is_bound and name[0] != "_":
+            refuse_attribute(self, name, value)
+        object.__setattr__(self, name, value)
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
         """A part read through a template that is not built gives its path."""
@@ -105,9 +73,12 @@ class Component:
         return owner._member_path(name, self)
 
     def _member_path(self, name: str, member: Any) -> Path:
-        if self._is_bound:
-            raise AttributeError(f"{self!r} does not have its `{name}` yet: variables exist in equations() only")
-        return Path(name, member)
+        if not self._is_bound:
+            return Path(name, member)
+        if self._demand is not None and isinstance(member, f.Structural | f.Parameter):
+            return self._demand(name)
+        when = "equations() only" if isinstance(member, f.Variable) else "connections() and equations()"
+        raise AttributeError(f"{self!r} does not have its `{name}` yet: it exists in {when}")
 
     def __repr__(self) -> str:
         return f"{self._path or 'model'} ({type(self).__name__})" if self._is_bound else f"{type(self).__name__}()"
@@ -140,10 +111,12 @@ class Component:
         return 0
 
 
-def _described(cls: type[Component], word: str) -> list[str]:
-    """Fields whose description has the word: `mass` for `m`."""
-    values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
-    return [name for name, field in values.items() if word in field.description.lower().split()]
+def _constructed_at(component: Component) -> str:
+    """Return file and line of the call of a constructor, also from a constructor of the user's own."""
+    frame: Any = sys._getframe(2)
+    while frame.f_code.co_name == "__init__" and any(v is component for v in frame.f_locals.values()):
+        frame = frame.f_back
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 
 
 class Connector(Component):
@@ -153,6 +126,7 @@ class Connector(Component):
     root_equations().
     """
 
+    _is_port = True
     _is_root = False
     _owner: Any = None
     _parents: tuple[Any, ...] = ()

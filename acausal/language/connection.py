@@ -9,6 +9,7 @@ from typing import Any
 
 from acausal.errors import ConnectError
 from acausal.language.component import Component, Connector
+from acausal.language.path import Path
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +45,7 @@ def connect(a: Any, b: Any) -> Connect:
         If one of them is not a port, or their classes differ.
     """
     for port in (a, b):
-        if not isinstance(port, Connector):
-            raise ConnectError(f"connect() joins two ports, but {_describe(port)} is none. {_ports_of(port)}")
+        _port(port, "connect")
     if type(a) is not type(b):
         raise ConnectError(
             f"{_describe(a)} and {_describe(b)} cannot be connected: a port connects only to a port of its own class."
@@ -71,17 +71,17 @@ def chain(*items: Any) -> Iterator[Connect]:
 
 def branch(a: Any, b: Any) -> Branch:
     """State that the component relates the over-determined records of two of its connectors."""
-    return Branch(a, b)
+    return Branch(_port(a, "branch"), _port(b, "branch"))
 
 
 def root(connector: Any) -> Root:
     """State that the component defines the over-determined record of this connector."""
-    return Root(connector)
+    return Root(_port(connector, "root"))
 
 
 def potential_root(connector: Any, priority: int = 0) -> Root:
     """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
-    return Root(connector, priority)
+    return Root(_port(connector, "potential_root"), priority)
 
 
 def is_root(connector: Any) -> bool:
@@ -101,7 +101,36 @@ def in_loop(component: Any) -> bool:
     return component._in_loop
 
 
+def _port(item: Any, word: str) -> Connector:
+    """Return a port of a built model, or raise ConnectError."""
+    _refuse_outsider(item)
+    if not isinstance(item, Connector):
+        what = {"connect": "joins two ports", "branch": "relates two ports"}.get(word, "takes a port")
+        raise ConnectError(f"{word}() {what}, but {_describe(item)} is none. {_ports_of(item)}")
+    return item
+
+
+def _refuse_outsider(item: Any) -> None:
+    """Raise ConnectError for a part, or a port of one, that belongs to no built model."""
+    if isinstance(item, Component) and not item._is_bound:
+        name, kind = type(item).__name__.lower(), type(item).__name__
+        raise ConnectError(
+            f"{kind}() is made in connections(), where it does not become a part of the model. Write it in the class body, "
+            f"`{name} = {kind}(...)`, and connect self.{name}."
+        )
+    if isinstance(item, Path):
+        raise ConnectError(
+            f"`{item}` belongs to a component that is not part of this model. Write that component in the class body, "
+            f"`part = ...`, and connect self.part.{item}."
+        )
+
+
 def _end(item: Any, which: int) -> Any:
+    _refuse_outsider(item)
+    if isinstance(item, list | tuple):
+        raise ConnectError(
+            "chain() joins parts and ports, not lists of them: write chain(self.a, *self.links, self.b)."
+        )
     if isinstance(item, Connector):
         return item
     if not isinstance(item, Component):
@@ -121,5 +150,5 @@ def _describe(item: Any) -> str:
 def _ports_of(item: Any) -> str:
     if item is None:
         return "A port that an option adds is there only with it, such as use_axis_flange=True."
-    ports = getattr(item, "_ports", ())
+    ports = item._ports if isinstance(item, Component) else ()
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -16,6 +16,12 @@ MISSING: Any = type("Missing", (), {"__repr__": lambda self: "no default", "__bo
 Shape = tuple[int, ...] | Callable[[Any], tuple[int, ...]] | None
 
 
+class Template:
+    """What a part is made from: base of all components."""
+
+    _is_port = False
+
+
 class Deferrable:
     """Something in a class body whose value is known only in an instance; arithmetic with it waits as well."""
 
@@ -28,6 +34,12 @@ class Deferrable:
 
     def __getitem__(self, index: Any) -> Deferred:
         return Deferred(operator.getitem, (self, index))
+
+    def __iter__(self) -> Any:
+        raise DeclarationError(
+            "a field has no entries to go through in the class body, where its value is not known yet. Name them, such as "
+            "(r[0], r[1], r[2]), or go through self.<name> in equations()."
+        )
 
     def __neg__(self) -> Deferred:
         return Deferred(operator.neg, (self,))
@@ -84,10 +96,10 @@ def evaluate(value: Any, owner: Any) -> Any:
     if isinstance(value, Deferrable):
         return value.evaluate(owner)
     if isinstance(value, Condition):
-        return Condition(evaluate(value.excess, owner), value.kind)
+        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind))
     if isinstance(value, Start):
         return Start(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
-    if isinstance(value, list | tuple):
+    if type(value) in (list, tuple):
         return type(value)(evaluate(item, owner) for item in value)
     return value
 
@@ -112,7 +124,8 @@ class Field(Deferrable):
     name: str = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
+        # Under a second name it is a reference to the first: `load = R.spare`.
+        self.name = self.name or name
 
     def __get__(self, owner: Any, cls: type | None = None) -> Any:
         """Give the field in a class, and its path in a template that is not built."""

@@ -175,8 +175,8 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     ----------
     *cases : (value, Condition) pairs, then a value
         The last argument, without a condition, holds otherwise. Where a condition compares `time` with an expression
-        of parameters, the instant is a break time: the integration stops there exactly. Any other condition is watched:
-        the integration stops where it changes, located to about the tolerance.
+        of parameters, alone or joined with others, the instant is a break time: the integration stops there exactly.
+        Any other condition is watched: the integration stops where it changes, located to about the tolerance.
     smooth : bool
         True promises that value and first two derivatives are continuous, so that no stop is needed.
 

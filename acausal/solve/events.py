@@ -55,24 +55,32 @@ class Run:
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
-        excess = self.guards.timed_excess(self.p, at.time)[0]
-        acts = [k for k, e in zip(self.guards.timed, excess, strict=True) if e <= 0 and self.guards.guards[k].at_start]
+        ends = [*self.breaks, float(self.times[-1])]
+        held = self._by_clock(at.time, ends[0])
+        now = self.guards.timed_excess(self.p, at.time)[0]
+        acts = [
+            k
+            for k, e, soon in zip(self.guards.timed, now, held, strict=True)
+            if self.guards.guards[k].at_start and (soon or e < 0 or (e == 0 and self.guards.guards[k].inclusive))
+        ]
         self.first = at = self._happen(at, event=False, fired=acts)
-        for end in [*self.breaks, float(self.times[-1])]:
+        for end in ends:
             if at.time != self.times[0]:
-                at = self._at_break(at, end)
+                at = self._at_break(at, end, held)
+                held = self._by_clock(at.time, end)
             at = self._segment(at, end)
 
-    def _at_break(self, at: Point, end: float) -> Point:
-        """Switch what the clock switches."""
-        after = self.guards.timed_excess(self.p, (at.time + end) / 2)[0] < 0
-        due = np.isclose(self.guards.breaks(self.p)[0], at.time, rtol=1e-12, atol=0)
-        modes = at.modes.copy()
-        fired = []
-        for k, holds, is_due in zip(self.guards.timed, after, due, strict=True):
+    def _by_clock(self, begin: float, end: float) -> np.ndarray:
+        """Which timed guards hold between two breaks."""
+        return self.guards.timed_excess(self.p, (begin + end) / 2)[0] < 0
+
+    def _at_break(self, at: Point, end: float, held: np.ndarray) -> Point:
+        """Switch what the clock switches; `held` tells which timed guards held before."""
+        modes, fired = at.modes.copy(), []
+        for k, holds, before in zip(self.guards.timed, self._by_clock(at.time, end), held, strict=True):
             if k < self.guards.n_switches:
                 modes[k] = holds
-            elif is_due and holds:
+            elif holds and not before:
                 fired.append(k)
         return self._happen(at, event=False, fired=fired, modes=modes)
 

@@ -19,6 +19,8 @@ from acausal.solve.order import eigenvalues_of, order_limit
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
 
+APART = 1e-12  # of the time: less is no room for an integration
+
 
 @dataclass(frozen=True)
 class Task:
@@ -95,8 +97,12 @@ def _raise(failure: BaseException, result: Result, integrator: Integrator, p: np
 
 
 def _breaks(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> list[float]:
-    inside = compiled.breaks(p)[0]
-    return sorted({float(b) for b in inside if start < b < stop})
+    """Break times inside of a run; those that are but a few rounding errors apart are one."""
+    found: list[float] = []
+    for b in sorted(float(b) for b in compiled.breaks(p)[0] if start < b < stop):
+        if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):
+            found.append(b)
+    return found
 
 
 def _middle(start: float, breaks: list[float], stop: float) -> float:

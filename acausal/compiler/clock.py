@@ -1,0 +1,113 @@
+"""Comparisons of time with parameters inside of joined conditions: each switches by the clock, at a break time.
+
+A condition that also compares other things is watched, but what the clock decides in it must not be left to a search: a
+pulse may begin and end between two looks. So each such comparison becomes a switch of its own, whose instants are
+break times, and the condition is watched with what these modes leave of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import casadi as ca
+
+from acausal.flatten.discontinuities import Guard
+from acausal.language.condition import Condition, Joined
+from acausal.language.expression import Expr
+from acausal.language.functions import initial, time
+from acausal.reduce import ReducedModel
+from acausal.symbols import scalars
+
+
+def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], ca.SX]:
+    """Tell which comparisons are linear in time and hold nothing else but parameters; their excesses, a column.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+    conditions : iterable of Condition
+        Of their comparisons, in order.
+    """
+    entries = [part.excess.sx for condition in conditions for part in condition.comparisons]
+    if not entries:
+        return [], ca.SX(0, 1)
+    excess = ca.substitute(reduced.resolve(ca.vertcat(*entries)), initial.sx, 0)
+    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.flat.parameters, time.sx))}
+    curved = ca.which_depends(excess, time.sx, 2, True)
+    timed = [
+        not bent and all(s.element_hash() in free for s in ca.symvar(e))
+        for e, bent in zip(scalars(excess), curved, strict=True)
+    ]
+    return timed, excess
+
+
+def split_clock(reduced: ReducedModel) -> ReducedModel:
+    """Return the model with a switch for every comparison with time in a condition that is not decided by time alone."""
+    flat = reduced.flat
+    joined = [guard for guard in flat.guards if isinstance(guard.condition, Joined)]
+    timed, excess = by_clock(reduced, [guard.condition for guard in joined])
+    known, switches, own = iter(zip(timed, scalars(excess), strict=True)), list[tuple[ca.SX, Guard]](), {}
+    for guard in joined:
+        parts = [(part, *next(known)) for part in guard.condition.comparisons]
+        if all(t for _, t, _ in parts) or not any(t for _, t, _ in parts):
+            continue
+        modes = {id(part): _mode(Condition(Expr(e), part.kind), guard, switches) for part, t, e in parts if t}
+        own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, modes).condition())
+    if not own:
+        return reduced
+    n = len(flat.switches)
+    guards = [own.get(id(guard), guard) for guard in flat.guards]
+    return replace(
+        reduced,
+        flat=replace(
+            flat,
+            switches=(
+                *((mode, guard.excess) for (mode, _), guard in zip(flat.switches, guards, strict=False)),
+                *((mode, guard.excess) for mode, guard in switches),
+            ),
+            guards=(*guards[:n], *(guard for _, guard in switches), *guards[n:]),
+        ),
+    )
+
+
+def _mode(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]]) -> ca.SX:
+    """Return the mode of a comparison, the same for the same comparison."""
+    for mode, other in switches:
+        if other.condition.kind == condition.kind and ca.is_equal(other.excess, condition.excess.sx, 9):
+            return mode
+    switches.append((ca.SX.sym("clock"), Guard(condition, guard.origin)))
+    return switches[-1][0]
+
+
+@dataclass(frozen=True)
+class _Left:
+    """What modes leave of a condition: where it certainly holds, where it certainly does not, and what decides else."""
+
+    yes: ca.SX
+    no: ca.SX
+    rest: Condition | None
+
+    def condition(self) -> Condition:
+        """Return it as one comparison."""
+        assert self.rest is not None
+        excess = ca.if_else(self.yes, -1, ca.if_else(self.no, 1, self.rest.excess.sx))
+        return Condition(Expr(excess), self.rest.kind)
+
+
+def _what_is_left(condition: Condition, modes: dict[int, ca.SX]) -> _Left:
+    if not isinstance(condition, Joined):
+        mode = modes.get(id(condition))
+        return _Left(ca.SX(0), ca.SX(0), condition) if mode is None else _Left(mode, 1 - mode, None)
+    a, b = _what_is_left(condition.a, modes), _what_is_left(condition.b, modes)
+    every = condition.every
+    yes = a.yes * b.yes if every else ca.fmax(a.yes, b.yes)
+    no = ca.fmax(a.no, b.no) if every else a.no * b.no
+    if a.rest is None or b.rest is None:
+        return _Left(yes, no, b.rest if a.rest is None else a.rest)
+    # One that is settled without settling the whole has no say.
+    silent_a, silent_b = (a.yes, b.yes) if every else (a.no, b.no)
+    both = Joined(a.rest, b.rest, every)
+    excess = ca.if_else(silent_a, b.rest.excess.sx, ca.if_else(silent_b, a.rest.excess.sx, both.excess.sx))
+    return _Left(yes, no, Condition(Expr(excess), both.kind))

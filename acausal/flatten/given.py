@@ -1,0 +1,222 @@
+"""Values of the fields of a bound component: given by path, constructor or class, or by default."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError, UnitsError
+from acausal.flatten.origin import Origin, with_place
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.language.expression import Expr, as_expr
+from acausal.units import Dimension, parse
+
+
+@dataclass
+class Parameters:
+    """The free parameters of a model: scalar symbols with their values, and every bound that must hold.
+
+    `structural_zeros` are the entries that were exactly 0 and have no symbol; `bound` are the paths of parameters
+    that follow others.
+    """
+
+    names: list[str] = field(default_factory=list)
+    symbols: list[ca.SX] = field(default_factory=list)
+    values: list[float] = field(default_factory=list)
+    structural_zeros: list[str] = field(default_factory=list)
+    bound: dict[str, str] = field(default_factory=dict)
+    limits: list[tuple[str, ca.SX, f.Parameter]] = field(default_factory=list)
+
+
+class Given:
+    """Gives bound components the values of their structural parameters, parameters and inputs at the top.
+
+    A value is formed when it is asked for: defaults may use each other in any order, but not in a circle.
+
+    Parameters
+    ----------
+    overrides : mapping of str to value, optional
+        Values by path that replace those of the model; those that were used are taken out.
+    """
+
+    def __init__(self, overrides: Mapping[str, Any] | None) -> None:
+        self.overrides = dict(overrides or {})
+        self.parameters = Parameters()
+        self._open: list[tuple[Component, str]] = []
+
+    def fill(self, bound: Component, owner: Component | None) -> None:
+        """Set the structural parameters and parameters of a component, and its inputs if it is the whole model."""
+        own = vars(bound)
+        own["_demand"] = lambda name: self._value(bound, name)
+        for kind in (f.Structural, f.Parameter):
+            for name, declared in bound.fields.items():
+                if isinstance(declared, kind):
+                    self._value(bound, name)
+        del own["_demand"]
+        for name, declared in bound.fields.items():
+            if isinstance(declared, f.Variable):
+                if name in bound._class_values and name not in own["_values"]:
+                    own["_values"][name] = self._of_class(bound, name)
+                if owner is None and declared.causality == "input":
+                    self._top_input(bound, name, declared)
+
+    def _value(self, bound: Component, name: str) -> Any:
+        own, here = vars(bound), (bound, name)
+        if name in own:
+            return own[name]
+        if here in self._open:
+            circle = " -> ".join(n for _, n in (*self._open[self._open.index(here) :], here))
+            raise DeclarationError(
+                f"the values of {owner_text(bound)} follow each other in a circle: {circle}. "
+                f"Give one of them: {type(bound).__name__}(..., {name}=...)."
+            )
+        self._open.append(here)
+        try:
+            declared = bound.fields[name]
+            make: Any = self._structural if isinstance(declared, f.Structural) else self._parameter
+            own[name] = make(bound, name, declared)
+        finally:
+            self._open.pop()
+        return own[name]
+
+    def _of_class(self, bound: Component, name: str) -> Any:
+        """Value that a class body gives to an inherited field."""
+        return self._evaluated(bound, name, bound._class_values[name])
+
+    def _evaluated(self, bound: Component, name: str, value: Any) -> Any:
+        """Value of a default, or of what stands in its place."""
+
+        def call() -> Any:
+            return f.evaluate(value(bound) if callable(value) else value, bound)
+
+        # A default that another one asked for is placed by that one.
+        return call() if len(self._open) > 1 else with_place(call, Origin.of(bound, f"default of {name}"))
+
+    def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
+        value = self.overrides.pop(join(bound._path, name), f.MISSING)
+        if value is f.MISSING:
+            value = bound._values.get(name, f.MISSING)
+        if value is f.MISSING:
+            value = self._evaluated(bound, name, bound._class_values.get(name, declared.default))
+        if value is f.MISSING:
+            raise DeclarationError(
+                f"{owner_text(bound)} needs a value for `{name}` ({declared.description}): "
+                f"{type(bound).__name__}(..., {name}=...)."
+            )
+        return value
+
+    def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
+        value = self._given(bound, name, declared)
+        where = f"`{name}` of {owner_text(bound)}"
+        if _symbolic(value):
+            raise DeclarationError(
+                f"{where} is structural: it cannot follow the parameter {value!r}, which may change after compiling. "
+                "Declare that one structural(...) as well."
+            )
+        if declared.choices is not None and not any(value is c or value == c for c in declared.choices):
+            raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
+        if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
+            raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
+        whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+        if type(declared.default) is int and value is not None and not whole:
+            raise DeclarationError(f"{where} is {value!r}; it must be a whole number.")
+        if isinstance(declared.shape, tuple):
+            value = numeric(value, declared.shape, where)
+        return value
+
+    def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
+        value = self._given(bound, name, declared)
+        path = join(bound._path, name)
+        where = f"`{name}` of {owner_text(bound)}"
+        shape = declared.shape(bound) if callable(declared.shape) else declared.shape
+        unit = unit_of(declared, bound)
+        if not _symbolic(value):
+            expression = self._free(path, numeric(value, shape or (), where), unit)
+        else:
+            given = as_expr(value)
+            if given.shape != (shape or ()):
+                raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
+            if isinstance(given.unit, Dimension) and isinstance(unit, Dimension) and given.unit != unit:
+                raise UnitsError(f"{where} is in [{unit}], but {given!r} is in [{given.unit}].")
+            self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
+            expression = Expr(given.sx, unit, path)
+        if declared.positive or declared.minimum is not None:
+            self.parameters.limits.append((path, expression.sx, declared))
+        return expression
+
+    def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
+        """An input at the top of the model is a parameter, whatever its value."""
+        shape = declared.shape if isinstance(declared.shape, tuple) else ()
+        given = self.overrides.pop(name, vars(bound)["_values"].pop(name, declared.start))
+        value = np.broadcast_to(numeric(given, np.shape(given), f"`{name}` of {owner_text(bound)}"), shape)
+        vars(bound)[name] = self._free(name, value, unit_of(declared, bound), fold=False)
+
+    def _free(self, path: str, value: np.ndarray, unit: Any, fold: bool = True) -> Expr:
+        """Make a symbol for each entry that is not exactly 0."""
+        entries = []
+        for index in np.ndindex(value.shape):
+            name = path + (f"[{','.join(map(str, index))}]" if index else "")
+            if fold and value[index] == 0:
+                self.parameters.structural_zeros.append(name)
+                entries.append(ca.SX(0))
+                continue
+            symbol = ca.SX.sym(name)
+            self.parameters.names.append(name)
+            self.parameters.symbols.append(symbol)
+            self.parameters.values.append(float(value[index]))
+            entries.append(symbol)
+        sx = ca.vertcat(*entries)
+        return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
+
+
+def join(path: str, name: str) -> str:
+    """Return the path of a member."""
+    return f"{path}.{name}" if path else name
+
+
+def unit_of(declared: f.Field, owner: Component) -> Any:
+    """Return the Dimension, or tuple of them, that a field declares; None where it declares none."""
+    unit = declared.unit(owner) if callable(declared.unit) else declared.unit
+    if unit is None or isinstance(unit, str):
+        return None if unit is None else parse(unit)
+    return tuple(parse(u) for u in unit)
+
+
+def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
+    """Return the value as an array of finite numbers of the given shape, or raise DeclarationError."""
+    try:
+        if _has_no_number(value):
+            raise TypeError
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        wanted = f"an array of numbers of shape {shape}" if shape else "a number"
+        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}.") from None
+    if array.shape != shape:
+        raise DeclarationError(f"{where} has shape {array.shape}; it must have shape {shape}.")
+    if not all(math.isfinite(x) for x in array.flat):
+        raise DeclarationError(f"{where} is {value!r}; it must be finite.")
+    return array
+
+
+def _has_no_number(value: Any) -> bool:
+    if isinstance(value, list | tuple):
+        return any(_has_no_number(item) for item in value)
+    return value is None or isinstance(value, bool | str)
+
+
+def _symbolic(value: Any) -> bool:
+    if isinstance(value, list | tuple):
+        return any(_symbolic(item) for item in value)
+    return isinstance(value, Expr)
+
+
+def owner_text(component: Component) -> str:
+    """Return path, class and line of a component, for messages."""
+    kind = type(component).__name__
+    return f"{component._path} ({kind}, {component._origin})" if component._path else kind

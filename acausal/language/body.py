@@ -1,0 +1,137 @@
+"""What a class body says: new fields, parts in any form, and new values of inherited fields."""
+
+from __future__ import annotations
+
+import inspect
+from copy import copy
+from types import FunctionType, GeneratorType
+from typing import Any
+
+from acausal.errors import DeclarationError
+from acausal.language import fields as f
+from acausal.language.refusals import shown
+from acausal.language.types import shape_of_annotation
+from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class
+
+
+def read_body(cls: Any) -> None:
+    """Give a class its `fields`, those of its bases and its own, and new values of inherited fields.
+
+    Parameters
+    ----------
+    cls : Component class
+        A class whose body was executed.
+    """
+    fields: dict[str, f.Field] = {}
+    settings: dict[str, Any] = {}
+    plain: dict[str, Any] = {}
+    for base in reversed(cls.__mro__[1:]):
+        if "_own_fields" in vars(base):
+            fields.update(vars(base)["_own_fields"])
+            settings = {name: v for name, v in settings.items() if name not in vars(base)["_own_fields"]}
+            settings.update(vars(base)["_own_values"])
+            plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
+        else:
+            plain.update(vars(base))
+    # A base that is no component says its values as if they stood here.
+    said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
+    own: dict[str, f.Field] = {}
+    new: dict[str, Any] = {}
+    cls._own_fields, cls._own_values, cls.fields = own, new, fields
+    for name, value in said.items():
+        if not name.startswith("__"):
+            _read(cls, name, value, fields.get(name), own, new)
+    for name, field in own.items():
+        if field.shape is None and not isinstance(field, f.Part | f.Outer):
+            field.shape = shape_of_annotation(cls, name)
+    cls.fields = {**fields, **own}
+    cls._class_values = {**{n: v for n, v in settings.items() if n not in own}, **new}
+    cls._as_read = {name: vars(cls)[name] for name in (*own, *new)}
+
+
+def refuse_late_fields(cls: Any) -> None:
+    """Raise DeclarationError for what was set on a class, or one of its bases, after it was made: nothing reads it."""
+    for base in cls.__mro__:
+        raw: dict[str, Any] = vars(base).get("_as_read", {})
+        for name, value in vars(base).items() if "_as_read" in vars(base) else ():
+            late = (name in cls.fields or isinstance(value, f.Field) or holds_parts(value)) and not name.startswith("_")
+            if late and raw.get(name) is not value:
+                mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
+                raise DeclarationError(
+                    f"{base.__name__}.{name} = {shown(value)} was set after the class was made, when it changes no model. "
+                    f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
+                )
+
+
+def _read(
+    cls: Any, name: str, value: Any, old: f.Field | None, own: dict[str, f.Field], settings: dict[str, Any]
+) -> None:
+    """Read one attribute of a class body; `old` is the inherited field of this name."""
+    where = f"{cls.__name__}.{name}"
+    if isinstance(value, f.Field) and (value.name == name or not _has_value(old)):
+        own[name] = value if value.name == name and value is not old else _named(copy(value), name)
+        setattr(cls, name, own[name])
+    elif isinstance(value, f.Template):
+        own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
+        # A template tells its name by being in the class: under a second name it is a second one.
+        twice = any(v is value for base in cls.__mro__ for n, v in vars(base).items() if n != name)
+        setattr(cls, name, copy(value) if twice else value)
+    elif is_part_class(value) and (isinstance(old, f.Part) or _stands_for_a_part(cls, name, value)):
+        part = instance(value)
+        own[name] = f.Part("", make=part, is_port=part._is_port, name=name)
+        setattr(cls, name, part)
+    elif isinstance(value, list | tuple) and (isinstance(old, f.Part) or (holds_parts(value) and name[0] != "_")):
+        own[name] = f.Part("", make=instances(value, where), many=True, name=name)
+        setattr(cls, name, own[name])
+    elif name[0] != "_" and (holds_parts(value) or isinstance(value, GeneratorType)):
+        raise DeclarationError(
+            f"{where} is a {type(value).__name__}; parts are named one by one, or stand in a list: "
+            f"`{name} = [Body(m=1), Body(m=2)]`, whose paths are `{name}[0]`, `{name}[1]`."
+        )
+    elif isinstance(old, f.Part):
+        own[name] = _part_instead(where, name, value, old)
+        setattr(cls, name, own[name])
+    elif old is not None:
+        if isinstance(value, FunctionType | property | staticmethod | classmethod) and not _is_default(value, old):
+            mark = "@observed" if isinstance(old, f.Observed) else "a name of its own"
+            raise DeclarationError(f"{where} is a field of {cls.__name__}; give this method {mark}.")
+        settings[name] = check_value(cls, name, value)
+        setattr(cls, name, copy(old))  # a path is read through it, as through the inherited one
+
+
+def _has_value(field: f.Field | None) -> bool:
+    return isinstance(field, f.Parameter | f.Structural | f.Variable)
+
+
+def _is_default(value: Any, old: f.Field) -> bool:
+    """Whether a function computes the value of a field, as `default=` takes one."""
+    return isinstance(value, FunctionType) and isinstance(old, f.Parameter | f.Structural)
+
+
+def _named(field: f.Field, name: str) -> f.Field:
+    field.name = name
+    return field
+
+
+def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
+    """Whether `joint = Prismatic` means a part.
+
+    It does not for a class that is defined here, a name like that of a class, and an attribute that is plain in a base
+    or annotated as a type.
+    """
+    here = value.__qualname__ == f"{cls.__qualname__}.{value.__name__}"
+    plain = any(name in vars(base) for base in cls.__mro__[1:])
+    is_type = str(inspect.get_annotations(cls).get(name, "")).lower().startswith(("type", "<class 'type'", "classvar"))
+    return name[0].islower() and not here and not plain and not is_type
+
+
+def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
+    """What stands in place of an inherited part."""
+    if value is None:
+        return f.Part(old.description, make=None, is_port=old.is_port, name=name)
+    if isinstance(value, FunctionType):
+        return f.Part(value.__doc__ or old.description, make=value, many=old.many, is_port=old.is_port, name=name)
+    raise DeclarationError(
+        f"{where} is a part; put a component in its place, `{name} = Body(m=1)`, or None to leave it out, "
+        f"not {shown(value)}."
+    )
