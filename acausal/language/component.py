@@ -22,6 +22,8 @@ class Path:
         self._class = make if isinstance(make, type) else type(make)
 
     def __getattr__(self, name: str) -> Path:
+        if name.startswith("__"):
+            raise AttributeError(name)  # what copies and pickles ask for
         return Path(f"{self._path}.{name}", getattr(self._class, name, None))
 
     def __getitem__(self, index: int) -> Path:

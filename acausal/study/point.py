@@ -14,6 +14,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import AcausalError
+from acausal.locks import alone
 from acausal.result import Result
 from acausal.solve import simulate
 from acausal.study.limit import TooLong, stopping_after
@@ -159,6 +160,7 @@ class Measurement:
     error: str = ""
 
 
+@alone
 def measure(job: Job) -> Measurement:
     """Compile and run a point; whatever goes wrong with the model is told in the measurement.
 
