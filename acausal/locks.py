@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import wraps
 from threading import RLock
@@ -12,6 +13,9 @@ R = TypeVar("R")
 
 # Of the whole process, not of a model: a call binds memory of its own model, but also takes the standard error stream.
 LOCK = RLock()
+if hasattr(os, "register_at_fork"):
+    # A child has no other threads: one that held the lock would hold it for ever there.
+    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=LOCK.release)
 
 
 def alone(function: Callable[P, R]) -> Callable[P, R]:

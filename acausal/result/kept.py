@@ -70,9 +70,10 @@ class Kept:
             If there is none of that name, or the key is an expression.
         """
         if isinstance(key, Expr):
+            mend = f"result[{key.name!r}]" if key.name in self.quantities else "result['a'] - result['b']"
             raise DeclarationError(
-                f"`{key.name or repr(key)}` is an expression of symbols, and this result was loaded without its model: "
-                "read quantities by name and compute with the arrays, as in result['a'] - result['b']; or simulate again."
+                f"`{key!r}` is an expression of symbols, and this result was loaded without its model: read quantities by "
+                f"name and compute with the arrays, as in {mend}; or simulate again."
             )
         if not isinstance(key, str | Path):
             raise DeclarationError(f"a result is read by a path such as 'beam.frame_b.r_0', not by {key!r}.")
@@ -92,11 +93,17 @@ class Kept:
         if name in self.refused:
             raise DeclarationError(self.refused[name])
         if name not in self.quantities:
-            inside = f"{self._part(name, indices)}."
+            many = name in self.lists and not indices
+            inside = f"{self._part(name, indices)}{'[' if many else '.'}"
             example = next((n for n in self.quantities if n.startswith(inside)), "")
             if not example:
                 raise LookupError
-            raise DeclarationError(f"`{path}` is a part; name one of its variables, such as `{example}`.")
+            what = (
+                f"a list of {self.lists[name]} parts; name a variable of one"
+                if many
+                else "a part; name one of its variables"
+            )
+            raise DeclarationError(f"`{path}` is {what}, such as `{example}`.")
         quantity = self.quantities[name]
         for index in indices:
             try:
