@@ -98,16 +98,18 @@ def _terminable() -> Iterator[None]:
 
 @contextmanager
 def _told() -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, others as Python does."""
+    """Print warnings of this package as a line on standard error, each text once, others as Python does."""
+    told: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
         plain = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
-            if issubclass(category, AcausalWarning):
-                typer.echo(f"Warning: {message}", err=True)
-            else:
+            if not issubclass(category, AcausalWarning):
                 plain(message, category, *place)
+            elif str(message) not in told:
+                told.add(str(message))
+                typer.echo(f"Warning: {message}", err=True)
 
         warnings.showwarning = show
         yield

@@ -146,7 +146,10 @@ def keep(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -
             key = values[:1].tobytes() if constant else values.tobytes()
             if key not in known:
                 known[key] = ~len(constants) if constant else len(varying)
-                (constants if constant else varying).append(float(values[0]) if constant else values)  # type: ignore[arg-type]
+                if constant:
+                    constants.append(float(values[0]))
+                else:
+                    varying.append(values)
             places.append(known[key])
     numbers = np.array(places, dtype=int)
     numbers[numbers < 0] = len(varying) + ~numbers[numbers < 0]
@@ -178,7 +181,7 @@ def _blocks(quantities: list[Quantity]) -> Iterator[ca.SX]:
     block: list[ca.SX] = []
     size = 0
     for quantity in quantities:
-        block.append(quantity.column)  # type: ignore[arg-type]
+        block.append(quantity.column)
         size += quantity.size
         if size >= AT_ONCE:
             yield ca.vertcat(*block)

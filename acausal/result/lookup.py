@@ -44,7 +44,7 @@ class Quantity:
     """
 
     name: str
-    column: ca.SX | np.ndarray
+    column: Any
     shape: tuple[int, ...]
     units: tuple[str, ...]
     declared: bool = True
@@ -249,8 +249,6 @@ def _example(parts: list[Component]) -> str:
 
 def unknown(path: str, known: list[str]) -> str:
     """Return the message for a path that does not exist."""
-    if not path.strip():
-        return "the name of a variable is empty; give one, or a pattern with * and ?."
     near = [name for name in known if name.endswith(f".{path}")]
     near += [name for name in difflib.get_close_matches(path, known, 3, 0.5) if name not in near]
     mend = f"; did you mean {', '.join(f'`{name}`' for name in near[:3])}?" if near else "."

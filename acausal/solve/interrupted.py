@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -60,8 +60,8 @@ def keep_reached(
         integrator.keep(before)
 
 
-def _leading(holds: np.ndarray) -> int:
-    """Number of entries before the first that does not hold."""
+def _leading(holds: Any) -> int:
+    """Number of entries of an array before the first that does not hold."""
     return len(holds) if holds.all() else int(np.argmin(holds))
 
 

@@ -49,7 +49,7 @@ class Switched(Fast):
         yield self.s == piecewise((1.0, self.a > self.late), 2.0)
 
 
-def interrupted(cls, after=0.7, values=None, **options):
+def interrupted(cls, after=2.0, values=None, **options):
     compiled = ac.compile(cls(x=fixed(1.0), v=fixed(0.0)), values)
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
     ac.simulate(compiled, stop_time=1e-4, intervals=2, **options)
@@ -57,11 +57,11 @@ def interrupted(cls, after=0.7, values=None, **options):
     began = clock.perf_counter()
     try:
         with pytest.raises(KeyboardInterrupt) as caught:
-            ac.simulate(compiled, stop_time=1e3, intervals=400_000, **options)
+            ac.simulate(compiled, stop_time=30.0, intervals=120_000, **options)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-    assert clock.perf_counter() - began < after + 10
+    assert clock.perf_counter() - began < after + 20
     return caught.value.result
 
 
@@ -69,15 +69,15 @@ def interrupted(cls, after=0.7, values=None, **options):
 @pytest.mark.parametrize("cls", [Fast, Watched])
 def test_rows_are_kept(cls, method):
     result = interrupted(cls, method=method)
-    assert 10 < result.time.size < 400_000
-    np.testing.assert_allclose(np.diff(result.time), 1e3 / 400_000, rtol=1e-6)
+    assert 2 < result.time.size < 120_000
+    np.testing.assert_allclose(np.diff(result.time), 30.0 / 120_000, rtol=1e-6)
     assert np.all(np.isfinite(result["x"]))
     assert np.max(np.abs(result["x"])) < 1.01
 
 
 def test_rows_are_those_of_a_complete_run():
     result = interrupted(Fast, method="idas")
-    n = 10
+    n = min(40, result.time.size - 1)
     whole = ac.simulate(
         ac.compile(Fast(x=fixed(1.0), v=fixed(0.0))),
         stop_time=float(result.time[n]),
@@ -88,7 +88,7 @@ def test_rows_are_those_of_a_complete_run():
     np.testing.assert_allclose(result["x"][: n + 1], whole["x"], atol=0.1)
 
 
-@pytest.mark.parametrize("late", [1e-3, 0.1])
+@pytest.mark.parametrize("late", [1.1e-4, 0.0101])
 def test_rows_beyond_a_change_of_a_condition_are_not_kept(late):
     result = interrupted(Switched, values={"late": late}, method="idas")
     assert np.array_equal(result["s"] == 1.0, result.time > late)
