@@ -25,7 +25,7 @@ from acausal.cli.common import (
 from acausal.cli.output import Files, Progress, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import find_scene, scenes
 from acausal.errors import DeclarationError, InitializationError, SimulationError
-from acausal.result import Result, match
+from acausal.result import Result, check_columns, match
 from acausal.solve.trials import adaptive
 
 if TYPE_CHECKING:
@@ -107,10 +107,14 @@ def simulate(
         model, values = make_scene(scene, cls, settings, effects)
         with blaming(cls):
             compiled = ac.compile(model, parameters=values)
-        match(compiled.tree, variables or ())  # refuse wrong patterns before any work
+            stop = stop_time_of(model, values, stop_time)
+        # Wrong names are refused before any work.
+        chosen = match(compiled.tree, variables or ())
+        if csv is not None:
+            check_columns(compiled.tree, (*compiled.outputs, *chosen))
         again = accuracy is not None and bool(adaptive(compiled.tree))
         options = {
-            "stop_time": stop_time_of(cls, stop_time),
+            "stop_time": stop,
             "tolerance": tolerance,
             "accuracy": accuracy,
             "parameters": values if again else None,

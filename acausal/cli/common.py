@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import inspect
+import signal
 import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
+from threading import current_thread, main_thread
 from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from acausal.cli.scenes import brief, place_in, read_settings
+from acausal.cli.scenes import brief, ended, place_in, read_settings
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
+from acausal.solve.stop_time import own_stop_time
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
-FAILED, WRONG, INTERRUPTED = 1, 2, 130
+FAILED, WRONG, INTERRUPTED, TERMINATED = 1, 2, 130, 143
 STOP_TIME = 1.0  # of a model that does not tell its own, in s
 
 Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
@@ -59,28 +62,54 @@ def running(json: str | None = None) -> Iterator[IO[str]]:
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
+        with _told(), _terminable(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
             yield standard_output
     except SimulationError as error:
         _stop(f"the simulation failed: {error}", FAILED)
     except AcausalError as error:
         _stop(str(error), WRONG)
+    except Terminated:
+        _stop("terminated.", TERMINATED)
     except KeyboardInterrupt:
         _stop("interrupted.", INTERRUPTED)
 
 
+class Terminated(KeyboardInterrupt):
+    """The process was asked to end: what was computed is kept, as after an interrupt."""
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Take SIGTERM like an interrupt from the keyboard, once: the second one ends the process at once."""
+
+    def terminate(*_: Any) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        raise Terminated("terminated")
+
+    takes = current_thread() is main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+    if takes:
+        signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    finally:
+        if takes:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
 @contextmanager
 def _told() -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, others as Python does."""
+    """Print warnings of this package as a line on standard error, each text once, others as Python does."""
+    told: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
         plain = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
-            if issubclass(category, AcausalWarning):
-                typer.echo(f"Warning: {message}", err=True)
-            else:
+            if not issubclass(category, AcausalWarning):
                 plain(message, category, *place)
+            elif str(message) not in told:
+                told.add(str(message))
+                typer.echo(f"Warning: {message}", err=True)
 
         warnings.showwarning = show
         yield
@@ -98,6 +127,8 @@ def blaming(cls: type[Model]) -> Iterator[None]:
         if not place:
             raise  # no fault of the user's file: whoever mends the engine needs the traceback
         raise DeclarationError(f"{place}: {brief(error)}") from error
+    except SystemExit as error:
+        raise ended(error, Path(inspect.getfile(cls))) from None
 
 
 def make_scene(
@@ -107,7 +138,7 @@ def make_scene(
     values: dict[str, Any] = read_settings(settings or ())
     with blaming(cls):
         model = cls()
-        if effects:
+        if effects is not None:
             from acausal.study.effects_file import with_effects
 
             values = with_effects(model, scene, effects, values)
@@ -123,12 +154,10 @@ def compile_scene(scene: str, cls: type[Model], settings: list[str] | None, effe
         return ac.compile(model, parameters=values)
 
 
-def stop_time_of(cls: type[Model], given: float | None) -> float:
+def stop_time_of(model: Model, values: dict[str, Any], given: float | None) -> float:
     """Return the stop time that was given, or the scene's own."""
-    if given is not None:
-        return given
-    own = getattr(cls, "stop_time", None)
-    return float(own) if isinstance(own, int | float) else STOP_TIME
+    own = own_stop_time(model, values) if given is None else given
+    return STOP_TIME if own is None else own
 
 
 def _stop(message: str, status: int) -> NoReturn:

@@ -48,13 +48,15 @@ def effects(
         from acausal.study import effects as study
         from acausal.study.effects_file import choices_document
 
-        for path in filter(None, (apply, csv, markdown)):
-            check_writable(path)
+        for path in (apply, csv, markdown):
+            if path is not None:
+                check_writable(path)
         cls, values = find_scene(scene), read_settings(settings or ())
         with blaming(cls), runs_bar(not quiet) as show:
+            model = cls()
             found = study(
-                cls(),
-                stop_time=stop_time_of(cls, stop_time),
+                model,
+                stop_time=stop_time_of(model, values, stop_time),
                 accuracy=accuracy,
                 tolerance=tolerance,
                 outputs=outputs,

@@ -42,19 +42,22 @@ class Files:
 
     def check(self) -> None:
         """Refuse what cannot be written before any work is done."""
-        if self.csv:
+        if self.csv is not None:
             check_writable(self.csv)
-        if self.plot:
+        if self.plot is not None:
             check_picture(self.plot)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
         """Write outputs and chosen variables; `more` goes into the JSON document."""
+        wrong = result.not_finite(*result.outputs, *chosen)
         if self.csv:
             result.to_csv(self.csv, *result.outputs, *chosen)
         if self.plot:
             result.plot(*chosen, path=self.plot)
         if self.json:
-            write_json({"scene": self.scene, **result.stats, **more}, self.json, self.standard_output)
+            write_json(
+                {"scene": self.scene, **result.stats, "not_finite": wrong, **more}, self.json, self.standard_output
+            )
 
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:

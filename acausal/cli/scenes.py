@@ -57,6 +57,14 @@ def place_in(error: BaseException, path: Path) -> str:
     return f"{path}:{lines[-1]}" if lines else ""
 
 
+def ended(error: SystemExit, path: Path) -> DeclarationError:
+    """Return the error for a file that ends the program while it is read."""
+    return DeclarationError(
+        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it is only to "
+        'tell a model. Put what runs, sys.exit as well, under `if __name__ == "__main__":`.'
+    )
+
+
 def brief(error: BaseException) -> str:
     """Return kind and first line of an error."""
     if isinstance(error, AcausalError):
@@ -131,4 +139,6 @@ def _load(path: Path) -> ModuleType:
         exec(compile(path.read_bytes(), str(path), "exec"), vars(module))
     except Exception as error:
         raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
+    except SystemExit as error:
+        raise ended(error, path) from None
     return module

@@ -76,9 +76,10 @@ def study(
     with running(json) as standard_output:
         from acausal.study import study as run
 
-        for path in filter(None, (csv, markdown)):
-            check_writable(path)
-        if plot:
+        for path in (csv, markdown):
+            if path is not None:
+                check_writable(path)
+        if plot is not None:
             check_picture(plot)
         cls, values = find_scene(scene), read_settings(settings or ())
         options = {
@@ -94,9 +95,10 @@ def study(
         journal = f"{csv}.journal" if csv else None
         try:
             with blaming(cls), runs_bar(not quiet) as show:
+                model = cls()
                 found = run(
-                    cls(),
-                    stop_time=stop_time_of(cls, stop_time),
+                    model,
+                    stop_time=stop_time_of(model, values, stop_time),
                     formulations=_chosen(cls, values, formulations),
                     reference=reference,
                     workers=workers,

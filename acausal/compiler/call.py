@@ -4,10 +4,28 @@ from __future__ import annotations
 
 import contextlib
 import io
+import sys
+from threading import get_ident
 from typing import Any
 
 import casadi as ca
 import numpy as np
+
+from acausal.compiler.signals import Signals
+
+
+class _Noise(io.StringIO):
+    """Keeps what this thread writes; what others write meanwhile goes where it always goes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._thread, self._others = get_ident(), sys.stderr
+
+    def write(self, text: str) -> int:
+        """Write a text."""
+        if get_ident() == self._thread:
+            return super().write(text)
+        return self._others.write(text) if self._others else len(text)
 
 
 class Call:
@@ -38,14 +56,17 @@ class Call:
         return self.outputs
 
     def attempt(self) -> tuple[bool, str]:
-        """Evaluate in place; return whether that worked, and what the solver complained about."""
-        noise = io.StringIO()
+        """Evaluate in place; return whether that worked, and what the solver complained about.
+
+        What is not reached, because of a failure or an interrupt, is NaN in the outputs.
+        """
+        for array in self.outputs:
+            array.fill(np.nan)
+        noise = _Noise()
         try:
-            with contextlib.redirect_stderr(noise):
+            with Signals(), contextlib.redirect_stderr(noise):
                 self.evaluate()
         except RuntimeError:
-            if "KeyboardInterrupt" in noise.getvalue():
-                raise KeyboardInterrupt from None
             return False, noise.getvalue()
         return not self.buffer.ret(), noise.getvalue()
 

@@ -8,11 +8,14 @@ from typing import Any
 
 from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.source import Source
 from acausal.flatten import flatten
 from acausal.language.component import Component
+from acausal.locks import alone
 from acausal.reduce import plan_of, reduce
 
 
+@alone
 def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> CompiledModel:
     """Compile a model: flatten, analyse, reduce and generate code.
 
@@ -48,7 +51,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
-    compiled = CompiledModel(reduced, seconds)
+    compiled = CompiledModel(reduced, seconds, Source(model, dict(parameters or {})))
     compiled.parameter_values(None)
     _ = (
         compiled.local,

@@ -17,8 +17,10 @@ from acausal.compiler.closing import Closing
 from acausal.compiler.dependence import Dependence
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
+from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
+from acausal.locks import alone
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
@@ -47,12 +49,27 @@ class CompiledModel:
         The equations.
     seconds : dict of str to float
         Time of each stage of compiling.
+    source : Source, optional
+        What it was compiled from: a pickle holds that alone.
     """
 
     reduced: ReducedModel
     seconds: dict[str, float] = field(default_factory=dict)
+    source: Source | None = None
     integrators: dict[tuple, Call] = field(default_factory=dict)
     cache: dict[Any, Any] = field(default_factory=dict)
+
+    @alone
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the model, which is compiled again by whoever reads it."""
+        return pickled(self.source)
+
+    def __copy__(self) -> CompiledModel:
+        # The equations are never changed; everything that is computed from them is made anew.
+        return CompiledModel(self.reduced, dict(self.seconds), self.source)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
+        return self.__copy__()
 
     @property
     def tree(self) -> Any:
@@ -70,12 +87,14 @@ class CompiledModel:
         return self.reduced.z.numel()
 
     @property
+    @alone
     def report(self) -> dict[str, Any]:
         """Sizes at each stage, states, what was removed, and seconds."""
         from acausal.compiler.report import report
 
         return report(self)
 
+    @alone
     def summary(self) -> str:
         """Return the report as text."""
         from acausal.compiler.report import summary
@@ -279,6 +298,7 @@ class CompiledModel:
             dae["quad"] = T * powers
         return dae
 
+    @alone
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes; see `Settable`."""
         return self._settable.values(changes)

@@ -38,6 +38,18 @@ class Expr:
         self.unit = unit
         self.name = name
 
+    def __copy__(self) -> Expr:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Expr:
+        return self  # a symbol is itself by its identity
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Write an expression of time and numbers as text; other symbols mean nothing elsewhere."""
+        from acausal.language.shipped import expression, text
+
+        return expression, (text(self.sx), self.unit, self.name)
+
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape as numpy would give it: (), (n,) or (n, m)."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextvars import ContextVar
 from fractions import Fraction
-from functools import wraps
+from functools import partial, wraps
 from typing import Any
 
 import casadi as ca
@@ -73,7 +73,7 @@ def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(function)
     def call(*arguments: Any) -> Any:
         if is_deferred(*arguments):
-            return Deferred(function, arguments)
+            return Deferred(call, arguments)
         return function(*arguments)
 
     return call
@@ -86,7 +86,7 @@ def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any],
             raise UnitsError(f"{name} needs a number or an angle, but {x!r} is in [{x.unit}]")
         return Expr(operate(x.sx), DIMENSIONLESS if x.unit is not None else None)
 
-    function.__name__ = name
+    function.__name__ = function.__qualname__ = name
     function.__doc__ = f"{name.capitalize()} of an expression, entry by entry; the argument is dimensionless or in rad."
     return _deferrable(function)
 
@@ -191,7 +191,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     """
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
-        return Deferred(lambda *c: piecewise(*c, smooth=smooth), cases)
+        return Deferred(partial(piecewise, smooth=smooth), cases)
     value = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):
         if not isinstance(condition, Condition):

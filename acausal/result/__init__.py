@@ -3,6 +3,6 @@
 from acausal.result.files import check_writable
 from acausal.result.lookup import match, names
 from acausal.result.plots import check_picture
-from acausal.result.result import Result
+from acausal.result.result import Result, check_columns
 
-__all__ = ["Result", "check_picture", "check_writable", "match", "names"]
+__all__ = ["Result", "check_columns", "check_picture", "check_writable", "match", "names"]

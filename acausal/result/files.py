@@ -87,7 +87,11 @@ def write_csv(path: str | Path, columns: dict[str, np.ndarray]) -> None:
 
 def _target(path: str | Path) -> Path:
     """Return the file that is meant, links followed, or raise ExportError where there can be none."""
+    if not str(path).strip():
+        raise ExportError("cannot write: the name of the file is empty; give one, such as out.csv.")
     target = Path(path).expanduser().resolve()
+    if not target.is_dir() and os.path.basename(path) in ("", ".", ".."):  # a Path forgets the slash at the end
+        raise ExportError(f"cannot write {path}: that is the name of a directory; add the name of a file.")
     if target.is_dir():
         raise ExportError(f"cannot write {path}: it is a directory; add the name of a file.")
     if not target.parent.is_dir():

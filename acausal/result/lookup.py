@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from typing import Any
+from typing import Any, Protocol
 
 import casadi as ca
 import numpy as np
@@ -33,8 +33,8 @@ class Quantity:
     ----------
     name : str
         The key in the user's words.
-    column : casadi.SX, shape (n, 1)
-        The entries in column-major order.
+    column : casadi.SX, shape (n, 1), or array of int, shape (n,)
+        The entries in column-major order: expressions, or places in a table of values.
     shape : tuple of int
         Shape as numpy gives it.
     units : tuple of str
@@ -44,7 +44,7 @@ class Quantity:
     """
 
     name: str
-    column: ca.SX
+    column: Any
     shape: tuple[int, ...]
     units: tuple[str, ...]
     declared: bool = True
@@ -57,6 +57,11 @@ class Quantity:
         return Quantity(name, self.column[picked], at.shape, tuple(self.units[k] for k in picked))
 
     @property
+    def size(self) -> int:
+        """Number of entries."""
+        return int(np.prod(self.column.shape))
+
+    @property
     def entries(self) -> list[tuple[tuple[int, ...], str, str]]:
         """Index, name and unit of each entry, the last index running fastest."""
         units = np.array(self.units, dtype=object).reshape(self.shape, order="F")
@@ -65,8 +70,26 @@ class Quantity:
         ]
 
 
-def names(tree: Component) -> list[str]:
+class Catalogue(Protocol):
+    """What can be read where there is no bound model any more."""
+
+    @property
+    def names(self) -> list[str]:
+        """Paths of all quantities."""
+        ...
+
+    def find(self, key: Key) -> Quantity:
+        """Return the quantity that a key means."""
+        ...
+
+
+Tree = Component | Catalogue
+
+
+def names(tree: Tree) -> list[str]:
     """Return the paths of all variables, parameters and observed quantities of a bound model."""
+    if not isinstance(tree, Component):
+        return list(tree.names)
     return [
         join(component._path, name)
         for component in walk(tree)
@@ -75,13 +98,13 @@ def names(tree: Component) -> list[str]:
     ]
 
 
-def match(tree: Component, patterns: Iterable[str]) -> list[str]:
+def match(tree: Tree, patterns: Iterable[str]) -> list[str]:
     """Return the names that match a pattern, in the order of the model.
 
     Parameters
     ----------
-    tree : Component
-        The bound model.
+    tree : Component or Catalogue
+        The bound model, or what a result that was loaded knows of it.
     patterns : iterable of str
         Paths in which `*` stands for any text and `?` for any character; brackets mean themselves.
 
@@ -100,7 +123,7 @@ def match(tree: Component, patterns: Iterable[str]) -> list[str]:
     return list(found)
 
 
-def find(tree: Component, key: Key) -> Quantity:
+def find(tree: Tree, key: Key) -> Quantity:
     """Return the quantity that a key means.
 
     Raises
@@ -108,6 +131,8 @@ def find(tree: Component, key: Key) -> Quantity:
     DeclarationError
         If the model has no such variable; the message tells the nearest names.
     """
+    if not isinstance(tree, Component):
+        return tree.find(key)
     if isinstance(key, Expr):
         return _of_expression(tree, key)
     if not isinstance(key, str | Path):
@@ -115,7 +140,7 @@ def find(tree: Component, key: Key) -> Quantity:
     try:
         return _walk(tree, str(key))
     except LookupError:
-        raise DeclarationError(_unknown(str(key), names(tree))) from None
+        raise DeclarationError(unknown(str(key), names(tree))) from None
 
 
 def _of_expression(tree: Component, expr: Expr) -> Quantity:
@@ -138,13 +163,13 @@ def _walk(tree: Component, path: str) -> Quantity:
     if path == "time" and path not in tree.fields:
         return Quantity("time", time.sx, (), ("s",))
     owner: Any = tree
-    *parents, (last, indices) = _parse(path)
+    *parents, (last, indices) = parse(path)
     for name, places in parents:
-        owner = _choose(_member(owner, name), name, places)
+        owner = choose(_member(owner, name), name, places)
     value = _member(owner, last)
     declared = type(owner).fields[last]
     if not isinstance(declared, READABLE):
-        raise DeclarationError(_not_readable(path, _choose(value, last, indices)))
+        raise DeclarationError(not_readable(path, choose(value, last, indices)))
     quantity = _quantity(owner, last, declared, value)
     for index in indices:
         try:
@@ -154,7 +179,7 @@ def _walk(tree: Component, path: str) -> Quantity:
     return quantity
 
 
-def _parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
+def parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
     """Split a path into names with their indices."""
     steps = []
     for segment in path.split("."):
@@ -167,7 +192,7 @@ def _parse(path: str) -> list[tuple[str, list[tuple[int, ...]]]]:
     return steps
 
 
-def _choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
+def choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
     """Return the part that indices choose from a list of parts."""
     for index in indices:
         if not isinstance(value, list):
@@ -205,7 +230,8 @@ def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
     return tuple(str(u) or "1" for u in each) * columns
 
 
-def _not_readable(path: str, value: Any) -> str:
+def not_readable(path: str, value: Any) -> str:
+    """Return the message for a member that has no course over time."""
     if isinstance(value, list):
         return (
             f"`{path}` is a list of {len(value)} parts; name a variable of one, such as `{path}[0].{_example(value)}`."
@@ -221,7 +247,8 @@ def _example(parts: list[Component]) -> str:
     return inside[0].removeprefix(f"{parts[0]._path}.") if inside else "..."
 
 
-def _unknown(path: str, known: list[str]) -> str:
+def unknown(path: str, known: list[str]) -> str:
+    """Return the message for a path that does not exist."""
     near = [name for name in known if name.endswith(f".{path}")]
     near += [name for name in difflib.get_close_matches(path, known, 3, 0.5) if name not in near]
     mend = f"; did you mean {', '.join(f'`{name}`' for name in near[:3])}?" if near else "."

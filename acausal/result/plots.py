@@ -96,7 +96,7 @@ def check_picture(path: str | Path) -> None:
     from matplotlib.backend_bases import FigureCanvasBase
 
     known = FigureCanvasBase.get_supported_filetypes()
-    if _ending(path) not in known:
+    if str(path).strip() and _ending(path) not in known:
         raise ExportError(f"cannot write {path}: a picture's name ends in .png, .svg or .pdf.")
     check_writable(path)
 

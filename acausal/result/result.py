@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
 
+from acausal.errors import DeclarationError, caution
 from acausal.language.component import Component
+from acausal.locks import alone
 from acausal.result.files import write_csv
-from acausal.result.lookup import Key, Quantity, find, names
+from acausal.result.kept import Kept, keep
+from acausal.result.lookup import Key, Quantity, Tree, find, names
 from acausal.result.plots import Series, draw, save
 
 if TYPE_CHECKING:
@@ -22,14 +26,16 @@ if TYPE_CHECKING:
 class Result:
     """Every variable and parameter of a run over time.
 
+    It can be pickled, and is read without the model's classes then, by name alone.
+
     Parameters
     ----------
     time : array, shape (times,)
         In s.
     evaluate : callable
         From a column of n expressions in the model's symbols to an array of shape (times, n).
-    tree : Component
-        The bound model, whose attributes hold the symbols.
+    tree : Component or Kept
+        The bound model, whose attributes hold the symbols; or what was kept of it.
     outputs : tuple of str
         Names of the model's outputs, the columns of its table.
     stats : mapping
@@ -47,8 +53,8 @@ class Result:
     def __init__(
         self,
         time: np.ndarray,
-        evaluate: Callable[[ca.SX], np.ndarray],
-        tree: Component,
+        evaluate: Callable[[Any], np.ndarray],
+        tree: Any,
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
@@ -59,12 +65,32 @@ class Result:
         self.stats = dict(stats)
         self.title = title
         self._evaluate = evaluate
-        self._arrays = {"time": self.time} if "time" not in tree.fields else {}
+        self._arrays = {"time": self.time} if not _has_time(tree) else {}
+        self._told: set[str] = set()
 
     def __repr__(self) -> str:
         span = f", {self.time[0]:g} to {self.time[-1]:g} s" if self.time.size else ""
-        return f"Result({self.title or type(self.tree).__name__}: {self.time.size} times{span})"
+        return f"Result({self.title or self._model}: {self.time.size} times{span})"
 
+    @property
+    def _model(self) -> str:
+        return self.tree.model if isinstance(self.tree, Kept) else type(self.tree).__name__
+
+    @alone
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keep the values of all quantities, and nothing of the model."""
+        kept = keep(self.tree, self._evaluate, self.time.size) if isinstance(self.tree, Component) else self.tree
+        return _loaded, (self.time, kept, self.outputs, self.stats, self.title)
+
+    def __copy__(self) -> Result:
+        return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Result:
+        # The model and its values are never changed.
+        own = deepcopy(self.stats, memo)
+        return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title)
+
+    @alone
     def __getitem__(self, key: Key) -> np.ndarray:
         """Return a quantity over time.
 
@@ -83,11 +109,12 @@ class Result:
         DeclarationError
             If the model has no such variable; the message tells the nearest names.
         """
-        return self._read([find(self.tree, key)])[0]
+        return self._look([key])[0][1]
 
     def _ipython_key_completions_(self) -> list[str]:
         return names(self.tree)
 
+    @alone
     def series(self, *keys: Key) -> list[Series]:
         """Return scalars with name and unit; arrays entry by entry, `name[0]`, `name[1]`, ...
 
@@ -96,12 +123,23 @@ class Result:
         *keys : str, Path or Expr
             What to read; the outputs if there is none.
         """
-        quantities = [find(self.tree, key) for key in keys or self.outputs]
         return [
             Series(name, unit, array[(slice(None), *index)])
-            for quantity, array in zip(quantities, self._read(quantities), strict=True)
+            for quantity, array in self._look(keys or self.outputs)
             for index, name, unit in quantity.entries
         ]
+
+    def not_finite(self, *keys: Key) -> dict[str, float]:
+        """Return the first time in s at which each scalar that is not a number, or infinite, is so.
+
+        Parameters
+        ----------
+        *keys : str, Path or Expr
+            What to look at; the outputs if there is none.
+        """
+        return {
+            s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
+        }
 
     def to_csv(self, path: str | Path, *keys: Key) -> None:
         """Write a table, `time` first, then the outputs or `keys`, with all digits.
@@ -119,6 +157,7 @@ class Result:
 
         return pd.DataFrame(self._columns(keys))
 
+    @alone
     def plot(self, *keys: Key, path: str | Path | None = None, show: bool | None = None) -> Figure:
         """Draw the outputs or `keys` over time, one axes for each unit.
 
@@ -144,21 +183,74 @@ class Result:
         return figure
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
+        check_columns(self.tree, keys or self.outputs)
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
+
+    def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
+        """Return quantities with their arrays for a user, who is told of values that are no numbers."""
+        quantities = [find(self.tree, key) for key in keys]
+        found = list(zip(quantities, self._read(quantities), strict=True))
+        for quantity, array in found:
+            if quantity.name not in self._told and not np.isfinite(array).all():
+                self._told.add(quantity.name)
+                caution(_no_numbers(quantity, array, self.time))
+        return found
 
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
         arrays: dict[Quantity, np.ndarray] = {}
-        column = ca.vertcat(*[q.column for q in new])
-        values = np.asarray(self._evaluate(column)) if column.numel() else np.empty((self.time.size, 0))
-        ends = np.cumsum([q.column.numel() for q in new], dtype=int)
+        ends = np.cumsum([q.size for q in new], dtype=int)
+        columns = [q.column for q in new]
+        column: Any = np.concatenate(columns) if isinstance(self.tree, Kept) and new else ca.vertcat(*columns)
+        values = np.asarray(self._evaluate(column)) if new and ends[-1] else np.empty((self.time.size, 0))
         for q, block in zip(new, np.split(values, ends[:-1], axis=1), strict=False):
             arrays[q] = block.reshape(self.time.size, *q.shape, order="F")
             arrays[q].flags.writeable = False
             if q.declared:
                 self._arrays[q.name] = arrays[q]
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
+
+
+def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
+    """Refuse a table in which a quantity would have the name of the column of time.
+
+    Parameters
+    ----------
+    tree : Component or Kept
+        As of a result.
+    keys : iterable of str, Path or Expr
+        The other columns.
+    """
+    if _has_time(tree) and any(find(tree, key).name.partition("[")[0] == "time" for key in keys):
+        raise DeclarationError(
+            "a table cannot hold `time`: its first column has that name. Give the variable of the model another one, "
+            "for instance `clock`."
+        )
+
+
+def _has_time(tree: Any) -> bool:
+    """Whether the model has something of its own by the name of time."""
+    return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)
+
+
+def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
+    """Tell where a quantity stops being a number."""
+    wrong = ~np.isfinite(array)
+    row = int(np.argmax(wrong.reshape(time.size, -1).any(axis=1)))
+    name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
+    nan = bool(np.isnan(array[wrong]).any())
+    what = "not a number (NaN)" if nan else "infinite"
+    count = int(wrong.reshape(time.size, -1).any(axis=1).sum())
+    cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
+    return (
+        f"`{name}` is {what} at t = {time[row]:.6g} s for the first time, at {count} of {time.size} times in all. "
+        f"Look at the equation that gives it: {cause}."
+    )
+
+
+def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: dict[str, Any], title: str) -> Result:
+    return Result(time, kept.evaluate, kept, outputs, stats, title)
 
 
 def _open(figure: Figure, path: str | Path | None) -> None:

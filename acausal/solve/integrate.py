@@ -12,6 +12,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
 from acausal.solve.energy import ROWS, everywhere, refined
+from acausal.solve.interrupted import keep_reached
 from acausal.solve.methods import multistep, one_step, rounding
 from acausal.solve.projection import WORN, choose_projection, worn
 from acausal.solve.trace import Stretch, Trace
@@ -267,7 +268,11 @@ class Integrator:
             if name in given:
                 call.inputs[k][:] = given[name]
         started = clock.perf_counter()
-        done, self.complaint = call.attempt()
+        try:
+            done, self.complaint = call.attempt()
+        except KeyboardInterrupt:
+            keep_reached(self, call, times, modes, x_size, z_size, parts)
+            raise
         trace.seconds += clock.perf_counter() - started
         steps = trace.count(call.stats, way.plugin)
         if not done:

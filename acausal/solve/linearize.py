@@ -14,6 +14,7 @@ from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.locks import alone
 from acausal.solve.instant import start
 from acausal.solve.order import state_matrix
 from acausal.solve.tangent import tangent
@@ -69,6 +70,7 @@ class Linearization:
         return np.linalg.eig(self.A)
 
 
+@alone
 def linearize(
     model: Component | CompiledModel,
     *,

@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
+from acausal.locks import alone
 from acausal.result import Result
 from acausal.solve.accuracy import reach
 from acausal.solve.integrate import Progress
@@ -21,6 +22,7 @@ CONSTRAINTS = ("auto", "states", "projection")
 TOLERANCE = 1e-6
 
 
+@alone
 def simulate(
     model: Component | CompiledModel,
     *,

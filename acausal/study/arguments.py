@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
-import numpy as np
-
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
+from acausal.solve.stop_time import check_stop_time, own_stop_time
 from acausal.study.pool import cluster, processes
 
 
@@ -28,7 +28,7 @@ def executor_of(executor: Executor | str | None, workers: int | None) -> Abstrac
     return cluster(executor, workers) if isinstance(executor, str) else nullcontext(executor)
 
 
-def stop_time_of(model: Component, given: float | None) -> float:
+def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any]) -> float:
     """Return the stop time that is given, or that of the model, in s.
 
     Parameters
@@ -37,11 +37,13 @@ def stop_time_of(model: Component, given: float | None) -> float:
         Its attribute `stop_time` is its own.
     given : float, optional
         In s.
+    values : mapping of str to value
+        Values by path that replace those of the model.
     """
-    stop = getattr(model, "stop_time", None) if given is None else given
-    if isinstance(stop, bool) or not isinstance(stop, int | float) or not np.isfinite(stop) or stop <= 0:
-        raise DeclarationError(f"stop_time is {stop!r}; it must be a number of seconds greater than 0.")
-    return float(stop)
+    own = own_stop_time(model, values) if given is None else given
+    if own is None:
+        raise DeclarationError(f"{type(model).__name__} tells no stop_time; give one: stop_time=2.0.")
+    return check_stop_time(own)
 
 
 def check_counts(least: int = 1, **counts: Any) -> None:

@@ -95,7 +95,7 @@ def effects(
         If neither the fullest scene nor the scene as it stands can be integrated.
     """
     given = dict(parameters or {})
-    stop = stop_time_of(model, stop_time)
+    stop = stop_time_of(model, stop_time, given)
     check_counts(intervals=intervals, repeats=repeats)
     check_counts(0, pairs=pairs)
     check_shares(1e-2, accuracy=accuracy)

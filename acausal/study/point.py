@@ -6,6 +6,7 @@ import hashlib
 import json
 import statistics
 import time as clock
+import warnings
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
@@ -13,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel, compile
-from acausal.errors import AcausalError
+from acausal.errors import AcausalError, AcausalWarning
+from acausal.locks import alone
 from acausal.result import Result
 from acausal.solve import simulate
 from acausal.study.limit import TooLong, stopping_after
@@ -159,6 +161,7 @@ class Measurement:
     error: str = ""
 
 
+@alone
 def measure(job: Job) -> Measurement:
     """Compile and run a point; whatever goes wrong with the model is told in the measurement.
 
@@ -198,9 +201,13 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
         method=stats["method"],
         constraints=stats["constraints"],
     )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AcausalWarning)  # the measurement tells it
+        wrong = result.not_finite(*job.outputs)
+    if wrong:
+        name, time = next(iter(wrong.items()))
+        return replace(found, error=f"`{name}` is not finite from t = {time:.6g} s on")
     values = {s.name: np.array(s.values) for s in result.series(*job.outputs)}
-    if not all(np.all(np.isfinite(v)) for v in values.values()):
-        return replace(found, error="it diverged: values are not finite")
     return replace(found, times=result.time, values=values)
 
 

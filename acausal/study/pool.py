@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import signal
 from collections.abc import Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -12,9 +11,12 @@ from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
 from acausal.study.point import Job, Measurement, measure
+from acausal.study.workers import Workers, initialise, without_main
 
 # Many points at once on few cores would share threads of linear algebra, and no time would mean anything.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+
+LOOPBACK = "127.0.0.1"
 
 
 def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
@@ -53,9 +55,7 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
         raise DeclarationError(f"workers is {workers!r}; it must be a whole number of at least 1.")
     before = set(multiprocessing.active_children())
-    # An interrupt from the terminal reaches everybody; the workers leave it to this process.
-    ignore: dict[str, Any] = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
-    pool = ProcessPoolExecutor(workers or _cores(), multiprocessing.get_context("spawn"), **ignore)
+    pool = ProcessPoolExecutor(workers or _cores(), Workers(), initialise)
     with _one_thread():
         try:
             yield pool
@@ -94,8 +94,11 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         with client:
             yield client.get_executor(pure=False)
         return
-    alone: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": ":0"}
-    with LocalCluster(n_workers=workers or _cores(), **alone) as local, Client(local) as client:
+    # Whoever reaches a scheduler may run code on its workers: nobody but this machine reaches this one.
+    here: dict[str, Any] = {"host": LOOPBACK, "dashboard_address": f"{LOOPBACK}:0"}
+    with without_main():
+        local = LocalCluster(n_workers=workers or _cores(), threads_per_worker=1, processes=True, **here)
+    with local, Client(local) as client:
         yield client.get_executor(pure=False)
 
 

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import ModuleType
 from typing import Any
 
 import casadi as ca
@@ -15,9 +15,11 @@ import cloudpickle
 
 from acausal.language.component import Component
 from acausal.language.fields import MISSING
-from acausal.language.functions import initial, time
+from acausal.language.shipped import symbols, text
+from acausal.locks import alone
 
 
+@alone
 def pack(model: Component) -> bytes:
     """Turn a model that is not built into bytes.
 
@@ -46,40 +48,33 @@ def unpack(data: bytes) -> Component:
 
 
 class _Pickler(cloudpickle.Pickler):
-    """Keeps what the other process has of its own, the same object: symbols, functions and marks of the language."""
+    """Keeps what the other process has of its own, the same object: symbols and marks of the language."""
 
     def reducer_override(self, obj: Any) -> Any:
         if isinstance(obj, ca.SX):
-            return _expression, (ca.Function("e", [time.sx, initial.sx], [obj]).serialize(),)
+            return symbols, (text(obj),)
         if obj is MISSING:
             return "MISSING"
-        if isinstance(obj, FunctionType):
-            public = getattr(sys.modules.get(obj.__module__), obj.__qualname__, None)
-            if getattr(public, "__wrapped__", None) is obj:
-                return getattr, (public, "__wrapped__")
         return super().reducer_override(obj)
-
-
-def _expression(text: str) -> ca.SX:
-    found: Any = ca.Function.deserialize(text)(time.sx, initial.sx)
-    return found
 
 
 @contextmanager
 def _by_value(module: ModuleType) -> Iterator[None]:
     """Let classes and functions of a file, and of files beside it that are in no package, be sent as they are."""
-    found = [m for m in list(sys.modules.values()) if _beside(m, module)]
-    for m in found:
+    # The script that runs is in the list under two names, and is sent as it is in any case.
+    found = {m.__name__: m for m in list(sys.modules.values()) if _beside(m, module) and m.__name__ in sys.modules}
+    found.pop("__main__", None)
+    for m in found.values():
         cloudpickle.register_pickle_by_value(m)
     try:
         yield
     finally:
-        for m in found:
+        for m in found.values():
             cloudpickle.unregister_pickle_by_value(m)
 
 
 def _beside(module: ModuleType, main: ModuleType) -> bool:
     own, its = getattr(module, "__file__", None), getattr(main, "__file__", None)
-    if not own or not its or main.__name__ == "__main__" or getattr(main, "__package__", None):
-        return module is main and main.__name__ != "__main__"
+    if not own or not its or getattr(main, "__package__", None):
+        return module is main
     return Path(own).parent == Path(its).parent and not getattr(module, "__package__", None)

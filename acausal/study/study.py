@@ -207,7 +207,7 @@ def study(
         If there is no reference.
     """
     given = dict(parameters or {})
-    stop = stop_time_of(model, stop_time)
+    stop = stop_time_of(model, stop_time, given)
     check_counts(intervals=intervals, repeats=repeats)
     check_shares(1e-4, accuracy=accuracy)
     check_limit(limit)

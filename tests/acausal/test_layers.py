@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-BASE = {"errors", "units", "symbols"}
+BASE = {"errors", "locks", "units", "symbols"}
 MAY = {
     "language": BASE,
     "flatten": BASE | {"language"},

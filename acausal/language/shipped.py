@@ -1,0 +1,52 @@
+"""Expressions on their way to another process: text, in which only the symbols that all processes have are left."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+from acausal.errors import DeclarationError
+from acausal.language.expression import Expr, Unit
+from acausal.language.functions import initial, time
+
+
+def text(sx: ca.SX) -> str:
+    """Write an expression of time and numbers.
+
+    Parameters
+    ----------
+    sx : casadi.SX
+        Without symbols of a built model.
+
+    Raises
+    ------
+    DeclarationError
+        If it holds other symbols.
+    """
+    known = {time.sx.element_hash(), initial.sx.element_hash()}
+    others = [s.name() for s in ca.symvar(sx) if s.element_hash() not in known]
+    if others:
+        raise DeclarationError(
+            f"an expression of `{others[0]}` cannot be pickled: its symbols belong to one built model. Pickle names, or "
+            "values: result[...]."
+        )
+    return ca.Function("e", [time.sx, initial.sx], [sx]).serialize()
+
+
+def symbols(written: str) -> ca.SX:
+    """Read what `text` wrote, in the symbols of this process."""
+    found: ca.SX = ca.Function.deserialize(written)(time.sx, initial.sx)  # type: ignore[assignment]
+    return found
+
+
+def expression(written: str, unit: Unit, name: str) -> Expr:
+    """Return an expression of this process.
+
+    Parameters
+    ----------
+    written : str
+        From `text`.
+    unit, name
+        As of Expr.
+    """
+    own = {"time": time, "initial": initial}
+    return own[name] if name in own else Expr(symbols(written), unit, name)

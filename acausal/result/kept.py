@@ -1,0 +1,204 @@
+"""What is left of a result without its model: the values of all quantities by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.flatten.instantiate import join, walk
+from acausal.language import fields as f
+from acausal.language.component import Component, Path
+from acausal.language.expression import Expr
+from acausal.result.lookup import Key, Quantity, choose, find, names, not_readable, parse, unknown
+
+# Entries whose values are computed at once.
+AT_ONCE = 2000
+
+
+@dataclass
+class Kept:
+    """Every quantity of a run, in place of a bound model.
+
+    Parameters
+    ----------
+    model : str
+        Name of the model's class.
+    quantities : dict of str to Quantity
+        What can be read; columns are places in `values`.
+    refused : dict of str to str
+        What cannot be read, and why.
+    values : array, shape (times, n)
+        The columns that change with time, equal ones once.
+    constants : array, shape (m,)
+        The values that do not change; their places follow those of `values`.
+    """
+
+    model: str
+    quantities: dict[str, Quantity]
+    refused: dict[str, str]
+    values: np.ndarray
+    constants: np.ndarray
+    lists: dict[str, int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.lists = _lists([*self.quantities, *self.refused])
+
+    @property
+    def names(self) -> list[str]:
+        """Paths of all quantities."""
+        return list(self.quantities)
+
+    def evaluate(self, places: np.ndarray) -> np.ndarray:
+        """Return the values at some places, shape (times, places)."""
+        width = self.values.shape[1]
+        found = np.empty((len(self.values), len(places)))
+        varies = places < width
+        found[:, varies] = self.values[:, places[varies]]
+        found[:, ~varies] = self.constants[places[~varies] - width]
+        return found
+
+    def find(self, key: Key) -> Quantity:
+        """Return the quantity that a key means.
+
+        Raises
+        ------
+        DeclarationError
+            If there is none of that name, or the key is an expression.
+        """
+        if isinstance(key, Expr):
+            mend = f"result[{key.name!r}]" if key.name in self.quantities else "result['a'] - result['b']"
+            raise DeclarationError(
+                f"`{key!r}` is an expression of symbols, and this result was loaded without its model: read quantities by "
+                f"name and compute with the arrays, as in {mend}; or simulate again."
+            )
+        if not isinstance(key, str | Path):
+            raise DeclarationError(f"a result is read by a path such as 'beam.frame_b.r_0', not by {key!r}.")
+        try:
+            return self._walk(str(key))
+        except LookupError:
+            raise DeclarationError(unknown(str(key), self.names)) from None
+
+    def _walk(self, path: str) -> Quantity:
+        if path == "time" and path not in self.quantities:
+            return Quantity("time", np.empty(1, dtype=int), (), ("s",))  # the result knows it
+        *parents, (last, indices) = parse(path)
+        owner = ""
+        for name, places in parents:
+            owner = self._part(join(owner, name), places)
+        name = join(owner, last)
+        if name in self.refused:
+            raise DeclarationError(self.refused[name])
+        if name not in self.quantities:
+            many = name in self.lists and not indices
+            inside = f"{self._part(name, indices)}{'[' if many else '.'}"
+            example = next((n for n in self.quantities if n.startswith(inside)), "")
+            if not example:
+                raise LookupError
+            what = (
+                f"a list of {self.lists[name]} parts; name a variable of one"
+                if many
+                else "a part; name one of its variables"
+            )
+            raise DeclarationError(f"`{path}` is {what}, such as `{example}`.")
+        quantity = self.quantities[name]
+        for index in indices:
+            try:
+                quantity = quantity[index]
+            except IndexError:
+                raise DeclarationError(
+                    f"`{path}` does not exist: `{quantity.name}` has shape {quantity.shape}."
+                ) from None
+        return quantity
+
+    def _part(self, path: str, indices: list[tuple[int, ...]]) -> str:
+        """Return the path of a part, its index counted from the first of its list."""
+        if not indices:
+            return path
+        known = list(range(self.lists.get(path, 0)))
+        return f"{path}[{choose(known or None, path, indices)}]"
+
+
+def keep(tree: Component, evaluate: Callable[[ca.SX], np.ndarray], times: int) -> Kept:
+    """Compute all quantities of a run.
+
+    Parameters
+    ----------
+    tree : Component
+        The bound model.
+    evaluate : callable
+        From a column of n expressions to an array of shape (times, n).
+    times : int
+        Number of times.
+    """
+    found, refused = _all(tree)
+    varying: list[np.ndarray] = []
+    constants: list[float] = []
+    known: dict[bytes, int] = {}
+    places: list[int] = []
+    for column in _blocks(found):
+        for values in np.ascontiguousarray(np.asarray(evaluate(column), dtype=float).T):
+            # Bytes, not numbers: a NaN is equal to itself then.
+            constant = values[:1].tobytes() * times == values.tobytes()
+            key = values[:1].tobytes() if constant else values.tobytes()
+            if key not in known:
+                known[key] = ~len(constants) if constant else len(varying)
+                if constant:
+                    constants.append(float(values[0]))
+                else:
+                    varying.append(values)
+            places.append(known[key])
+    numbers = np.array(places, dtype=int)
+    numbers[numbers < 0] = len(varying) + ~numbers[numbers < 0]
+    kept, first = {}, 0
+    for q in found:
+        kept[q.name] = Quantity(q.name, numbers[first : first + q.size], q.shape, q.units)
+        first += q.size
+    table = np.column_stack(varying) if varying else np.empty((times, 0))
+    return Kept(type(tree).__name__, kept, refused, table, np.array(constants))
+
+
+def _all(tree: Component) -> tuple[list[Quantity], dict[str, str]]:
+    """Return all quantities of a bound model, and why others cannot be read."""
+    found, refused = [], {}
+    for name in names(tree):
+        try:
+            found.append(find(tree, name))
+        except DeclarationError as error:
+            refused[name] = str(error)
+    for component in walk(tree):
+        for own, declared in component.fields.items():
+            if isinstance(declared, f.Structural):
+                path = join(component._path, own)
+                refused[path] = not_readable(path, getattr(component, own))
+    return found, refused
+
+
+def _blocks(quantities: list[Quantity]) -> Iterator[ca.SX]:
+    block: list[ca.SX] = []
+    size = 0
+    for quantity in quantities:
+        block.append(quantity.column)
+        size += quantity.size
+        if size >= AT_ONCE:
+            yield ca.vertcat(*block)
+            block, size = [], 0
+    if size:
+        yield ca.vertcat(*block)
+
+
+def _lists(paths: list[str]) -> dict[str, int]:
+    """Return the number of parts of every list of parts."""
+    found: dict[str, int] = {}
+    for path in paths:
+        owner = ""
+        for segment in path.split(".")[:-1]:
+            name, _, index = segment.partition("[")
+            if index:
+                at = join(owner, name)
+                found[at] = max(found.get(at, 0), int(index[:-1]) + 1)
+            owner = join(owner, segment)
+    return found

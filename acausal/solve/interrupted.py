@@ -1,0 +1,80 @@
+"""What a call of an integrator had reached when it was interrupted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.solve.trace import Stretch
+
+if TYPE_CHECKING:
+    from acausal.solve.integrate import Integrator
+
+
+def keep_reached(
+    integrator: Integrator,
+    call: Call,
+    times: np.ndarray,
+    modes: np.ndarray,
+    x_size: np.ndarray | float,
+    z_size: np.ndarray | float,
+    parts: int,
+) -> None:
+    """Keep the rows that an interrupted call had written.
+
+    An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.attempt`.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Its trace gets the rows.
+    call : Call
+        The interrupted call.
+    times : array
+        Its start and output times.
+    modes : array
+        Constants of the segment.
+    x_size, z_size : array or float
+        Units in which the call counts states and algebraic unknowns.
+    parts : int
+        One row in so many is kept.
+    """
+    c, trace = integrator.compiled, integrator.trace
+    end = trace.times[-1][-1] if trace.times else integrator.span[0]
+    if not np.isclose(times[0], end, rtol=1e-9, atol=1e-9 * (integrator.span[1] - integrator.span[0])):
+        return  # a trial on the way: what comes before it is not in the trace
+    out = dict(zip(call.function.name_out(), call.outputs, strict=True))
+    n = len(times) - 1
+    x, z = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
+    energy = out["qf"].reshape(n, 2) if integrator.settings.energy else np.zeros((n, 2))
+    whole = np.isfinite(x).all(axis=1) & np.isfinite(z).all(axis=1) & np.isfinite(energy).all(axis=1)
+    reached = Stretch(times[1:], x, z, energy.copy(), modes, 0).rows(0, _leading(whole)).every(parts)
+    if not len(reached.times) or integrator._is_worn(reached.times, reached.x, modes):
+        return
+    given = dict(zip(call.function.name_in(), call.inputs, strict=True))
+    start = Stretch(times[:1], given["x0"][None] * x_size, given["z0"][None] * z_size, np.zeros((1, 2)), modes, 0)
+    before = reached.rows(0, _before_event(integrator, start, reached))
+    if len(before.times):
+        integrator.keep(before)
+
+
+def _leading(holds: Any) -> int:
+    """Number of entries of an array before the first that does not hold."""
+    return len(holds) if holds.all() else int(np.argmin(holds))
+
+
+def _before_event(integrator: Integrator, start: Stretch, reached: Stretch) -> int:
+    """Number of rows before a watched condition changes: beyond, the equations would be others."""
+    guards = integrator.compiled.guards
+    if not guards.watched:
+        return len(reached.times)
+    x, z, t = (
+        np.concatenate(pair) for pair in ((start.x, reached.x), (start.z, reached.z), (start.times, reached.times))
+    )
+    z = integrator.consistent(x, z, t, np.broadcast_to(reached.modes, (len(t), len(reached.modes))), guards.needs)
+    signs = np.sign(guards.along(x, z, integrator.p, t, reached.modes)[0])
+    # Right after an event a condition is at its threshold.
+    first = np.where(signs[0] == 0, signs[1], signs[0])
+    return _leading((signs[1:] == first).all(axis=1))
