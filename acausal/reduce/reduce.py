@@ -74,7 +74,8 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
 def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
     """Names of all unknowns; what is integrated in place of a coordinate has its name."""
     names = list(flat.names)
-    names += [f"der({names[k]})" for k in plan.created]
+    for k in plan.created:
+        names.append(f"der({names[k]})")
     names += [""] * (plan.system.n_variables - len(names))
     for constraint in plan.constrained.constraints:
         for multiplier in constraint.multipliers:
