@@ -182,7 +182,8 @@ def test_a_constant_speed(speed: float) -> None:
 
     result = ac.simulate(Turned(), stop_time=2)
     assert np.allclose(result["load.phi"], 0.5 + speed * result.time)
-    assert np.allclose(result["load.w"], speed) and np.allclose(result["load.a"], 0)
+    assert np.allclose(result["load.w"], speed)
+    assert np.allclose(result["load.a"], 0)
     assert np.allclose(result["drive.flange.tau"], 0)
 
 
