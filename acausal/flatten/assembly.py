@@ -204,6 +204,8 @@ class Assembly:
         for k in self._jumping():
             select[k] = ALWAYS
         extra = self.symbols.numel() - self.size
+        # What an instance says counts before what a class says, and that before nothing.
+        weight = [2 if told else int(not s.is_zero()) for told, s in zip(guessed, start, strict=True)] + [0] * extra
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
         nominal, select = np.concatenate([nominal, np.ones(extra)]), select + [0] * extra
         for k in reversed(done.solved):
@@ -211,8 +213,8 @@ class Assembly:
             if not terms:
                 continue
             (other, c) = terms[0]
-            if guessed[k] and not guessed[other]:
-                start[other], guessed[other] = (start[k] - c0) / c, True
+            if weight[k] > weight[other]:
+                start[other], weight[other], guessed[other] = (start[k] - c0) / c, weight[k], guessed[k]
             if select[k] > select[other] and select[other] == 0:
                 select[other] = select[k]
             if nominal[other] == 1 and nominal[k] != 1:

@@ -77,6 +77,7 @@ def _ranked(
     """Close the loops, and choose the initial system from there by ranks."""
     nx, nz = compiled.nx, compiled.nz
     y, modes, direct = _closed(compiled, y, p, time, modes)
+    y = algebraic(compiled, y, p, time, modes)
     held = np.array(sorted(direct.values()), dtype=int)
     others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
     equations, used, surplus, known = rows_and_knowns(
@@ -111,7 +112,7 @@ def _closed(
     if compiled.closing.size:
         y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
         y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
-    return algebraic(compiled, y, p, time, modes), modes, direct
+    return y, modes, direct
 
 
 def _direct_values(

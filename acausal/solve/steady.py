@@ -141,7 +141,7 @@ class Equilibrium:
             if part < SHORT or np.max(np.abs(back) / self.scale, initial=0.0) <= 1e-9:
                 break
             moved = here.y.copy()
-            moved[: self.nx] += part * back / max(1.0, self._far(back) / FAR)
+            moved[: self.nx] += part * back
             there = self._search(moved)
             nearer = there is not None and self._distance(there) < (1 - part / 4) * self._distance(here)
             if there is not None and self._distance(there) < self._distance(here) and self._rests(there):

@@ -115,7 +115,8 @@ class Stewart(Model):
             yield chain(self.world, self.bases[k], self.across[k], self.along[k], leg, self.balls[k])
             yield connect(self.balls[k].frame_b, self.tops[k].frame_b)
             yield connect(self.tops[k].frame_a, self.plate.frame_a)
-            yield connect(leg.frame_b, self.rods[k].frame_a, self.springs[k].frame_b)
+            yield connect(leg.frame_b, self.rods[k].frame_a)
+            yield connect(leg.frame_b, self.springs[k].frame_b)
             yield connect(self.springs[k].frame_a, self.along[k].frame_b)
 
 
@@ -311,8 +312,8 @@ def test_loops_hang(N: int) -> None:
     class Hanging(NFourBar):
         @ac.parts
         def foot(self):
-            """Bearings, guessed to stand upright but for a little."""
-            return [Revolute(phi=guess(1.3)) for _ in range(self.N + 1)]
+            """Bearings, guessed above the horizontal."""
+            return [Revolute(phi=guess(0.9)) for _ in range(self.N + 1)]
 
     result = started(Hanging(N=N))
     assert moved(result, "b0_x", "b0_y") < 1e-8
