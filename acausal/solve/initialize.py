@@ -53,8 +53,9 @@ def initialize(
     nx = compiled.nx
     modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
     if initial == "steady":
+        first = _sparse(compiled, y, p, time, modes)
         y, modes, _ = _closed(compiled, y, p, time, modes)
-        y, modes = Equilibrium(compiled, y, p, time, modes).find()
+        y, modes = Equilibrium(compiled, y, p, time, modes).find(first)
     else:
         if compiled.closing.size:
             system, y, modes = _ranked(compiled, y, p, time, modes, initial)
@@ -80,12 +81,26 @@ def _ranked(
     y = algebraic(compiled, y, p, time, modes)
     held = np.array(sorted(direct.values()), dtype=int)
     others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
+    if initial == "steady":
+        others += range(-nx, 0)
     equations, used, surplus, known = rows_and_knowns(
         compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed"
     )
     y[nx + compiled.closing.multipliers] = 0.0
     rows = np.array([*equations, *used], int)
-    return InitialSystem(rows, np.array(surplus, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+    demanded = [row for row in surplus if row >= 0]
+    return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+
+
+def _sparse(
+    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Solve for derivatives of 0 with sparse factors, which suits long chains; None where that finds nothing."""
+    try:
+        system, y, modes = _ranked(compiled, y, p, time, modes, "steady")
+        return _solve(compiled, system, y, p, time, modes), modes
+    except InitializationError:
+        return None
 
 
 def _closed(

@@ -29,12 +29,14 @@ FAR = 0.3
 # First step of the relaxation in s, growth of its steps, and what ends it.
 FIRST, GROWTH, LAST = 1e-3, 1.5, 1e8
 CONVERGED = 1e-12
-HALVINGS = 8
+HALVINGS = 6
 # Steps back to the guess, and the shortest part of one.
 RETURN, SHORT = 20, 0.1
 PUSH = 1e-2
 # Influence of a state on everything, over the greatest, that is rounding.
 FAINT = 1e-13
+# Singular value of what is free, but for rounding.
+WEAK = 1e-11
 ATTEMPTS = 3
 
 
@@ -72,15 +74,20 @@ class Equilibrium:
         self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
         self.coordinates = np.array([coordinate for coordinate, _ in rates_of(compiled)], dtype=int)
 
-    def find(self) -> tuple[np.ndarray, np.ndarray]:
+    def find(self, first: tuple[np.ndarray, np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Return states and algebraic unknowns at rest, and the constants of the segment.
+
+        Parameters
+        ----------
+        first : (array, array), optional
+            Where it may rest, with the constants of the segment.
 
         Raises
         ------
         InitializationError
             If there is no equilibrium, none is found, or the initial conditions do not hold in it.
         """
-        found = self._newton(self.guess)
+        found = self._tried(first) or self._newton(self.guess)
         rate, push = (0.0, self.guess) if found is None else self._growing(found)
         y, growth, attempts = self.guess, GROWTH, ATTEMPTS
         if found is not None and self._is_guess(found):
@@ -98,6 +105,13 @@ class Equilibrium:
         if rate:
             caution(unstable_text(self.compiled, self.time, rate))
         return found.y, found.modes
+
+    def _tried(self, first: tuple[np.ndarray, np.ndarray] | None) -> Local | None:
+        try:
+            here = self._at(*first) if first else None
+        except InitializationError:
+            return None
+        return here if here and self._rests(here) else None
 
     def _is_guess(self, found: Local) -> bool:
         return bool(np.all(np.abs(found.y - self.guess)[: self.nx] <= 1e-6 * self.scale))
@@ -214,7 +228,7 @@ class Equilibrium:
             size = size / np.where(inside > FAINT, inside, 1.0)
         length = np.linalg.norm(J * size, axis=1)
         U, s, V = np.linalg.svd(scaled(J * size), full_matrices=True)
-        rank = int(np.sum(s > RANK * max(J.shape)))
+        rank = int(np.sum(s > WEAK))
         held, free = V[:rank], V[rank:]
         step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
         return size * step, self.scale * _along(free * size / self.scale, way / self.scale)

@@ -62,7 +62,9 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
     ]
     for k in order[:5]:
         row = rows[k]
-        if row < nz:
+        if row < 0:
+            lines.append(f"  der({compiled.states[row]}) = 0: off by {value[k]:.4g}")
+        elif row < nz:
             lines.append(f"  {equation_text(compiled, row)}: off by {value[k]:.4g}")
         else:
             condition = flat.initial[row - nz]
