@@ -65,7 +65,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         if row < 0:
             lines.append(f"  der({compiled.states[row]}) = 0: off by {value[k]:.4g}")
         elif row < nz:
-            lines.append(f"  {equation_text(compiled, row)}: off by {value[k]:.4g}")
+            lines.append(f"  {equation_text(compiled, int(row))}: off by {value[k]:.4g}")
         else:
             condition = flat.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
