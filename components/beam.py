@@ -26,7 +26,8 @@ class Beam(TwoFrames):
     alpha, beta : float
         Rayleigh damping in 1/s and s: D = alpha M + beta K.
     initial : "undeformed", "static" or "free"
-        At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing.
+        At the start: q = 0 and der(q) = 0; der(q) = 0 and der(der(q)) = 0; or nothing. A start in steady state, where
+        the flag `initial` is 0, takes the shape of rest instead of q = 0.
     nominal_rate : float
         Nominal value of der(q) over that of q in 1/s. A larger one, such as the rate of the slowest vibrations, lets the
         error test follow displacements rather than the velocities of ringing at high frequency.

@@ -8,12 +8,14 @@ import numpy as np
 
 from acausal import (
     Component,
+    DeclarationError,
     Matrix33,
     Scalar,
     Vector3,
     cross,
     dot,
     effect,
+    guess,
     is_root,
     outer,
     parameter,
@@ -39,7 +41,8 @@ class Body(Component):
     I : 3 x 3 array
         Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2.
     angles_start, sequence_start, angles_fixed
-        Orientation of a freely moving body at the start: angles in rad about the axes of the sequence.
+        Orientation of a freely moving body at the start: angles in rad about the axes of the sequence, a guess unless
+        angles_fixed. Joints that hold the body have start values of their own.
     gyroscopic : bool
         False leaves out the torque w x I w. Valid where w stays along a principal axis, or where that torque is small
         against the others: in other motions the energy is no longer balanced, as a turning body does not precess.
@@ -58,12 +61,16 @@ class Body(Component):
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     gyroscopic: bool = effect("gyroscopic torque w x I w", default=True)
     world: World = outer(World)
-    frame_a: Frame = port(Frame, "coordinate system fixed to the body")
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
     w_a: Vector3 = variable("angular velocity, resolved in frame_a", unit="rad/s")
     z_a: Vector3 = variable("angular acceleration, resolved in frame_a", unit="rad/s2")
+
+    @port
+    def frame_a(self):
+        """Coordinate system fixed to the body."""
+        return Frame(Q=guess(self._orientation())) if np.any(self.angles_start) else Frame()
 
     def connections(self):
         yield potential_root(self.frame_a)
@@ -85,15 +92,23 @@ class Body(Component):
         if is_root(self.frame_a):
             Q = self.frame_a.Q
             if self.angles_fixed:
-                yield quaternion_of(axes_rotations(self.sequence_start, self.angles_start)) == Q
+                yield self._orientation() == Q
             else:
                 yield Q @ Q == 1
+        elif self.angles_fixed:
+            raise DeclarationError(
+                "angles_fixed=True has no effect here: the orientation follows from what the body is connected to. Leave it "
+                "out, and fix the start there: phi=fixed(...) of a joint, angles_fixed=True of a Spherical or a free body."
+            )
 
     def stored_energy(self):
         """Kinetic and potential energy."""
         frame, w = self.frame_a, self.frame_a.R.w
         v = frame.v + cross(w, self.r_CM)
         return self.m * (dot(v, v) / 2 + self.world.potential(self._centre())) + dot(w, self.I @ w) / 2
+
+    def _orientation(self) -> Any:
+        return quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
 
     def _centre(self):
         return self.frame_a.r_0 + resolve1(self.frame_a.R, self.r_CM)

@@ -15,6 +15,7 @@ from acausal import (
     der,
     dot,
     in_loop,
+    initial,
     observed,
     outer,
     port,
@@ -165,10 +166,9 @@ class FlexibleBeam(Beam):
         yield moment + sections.moment(ref.z, ref.R.w) == t_a + t_tip
 
     def initial_equations(self):
-        zero = np.zeros(len(self.free))
         if self.initial != "free" and self.free:
-            yield self.qd == as_expr(zero)
-            yield (self.q if self.initial == "undeformed" else self.qdd) == as_expr(zero)
+            for q in (self.qd, self.q * initial if self.initial == "undeformed" else self.qdd):
+                yield q == as_expr(np.zeros(len(self.free)))
 
     @property
     def _l(self) -> Any:

@@ -39,7 +39,8 @@ class Closing:
         self.rows = [tuple(residual[m] for m in c.multipliers) for c in constrained.constraints]
         self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
-        self.closures = [place[c.row] for c in reduced.flat.closures]
+        # Without projections all equations that close loops are solved as they are.
+        self.closures = [place[c.row] for c in reduced.flat.closures if place]
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)

@@ -63,7 +63,7 @@ class Assembly:
         """Simplify and assemble."""
         others = ca.vertcat(self.parameters, time.sx, initial.sx, self.modes)
         tape = Tape(self.symbols, others, self.residuals)
-        present = set(tape.input)
+        present = set(tape.input) | self._asked()
         derivative = self._chains(present)
         done = Simplifier(tape, derivative, self._rank(), self.substitutes).run()
         self._refuse_contradictions(done)
@@ -73,8 +73,10 @@ class Assembly:
         removed, unused = list(done.solved), self._unused(done)
         was = column([elements[k] for k in removed])
         becomes = column([final[k] for k in removed])
+        left = column([_expression(value, elements) for value, _ in done.left])
+        self.origins += [self.origins[row] for _, row in done.left]
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
-        residuals = ca.substitute([self.residuals], [was], [becomes])[0]
+        residuals = ca.vertcat(ca.substitute([self.residuals], [was], [becomes])[0], left)
         return self._build(done, rows, residuals, (was, becomes), values, present)
 
     def _build(
@@ -89,8 +91,8 @@ class Assembly:
         was, becomes = eliminated
         raw, build = self.raw, self.raw.build
         entries = scalars(residuals)
-        for row, (c0, terms) in done.kept.items():
-            entries[row] = self.symbols[terms[0][0]] * terms[0][1] + c0
+        for row, value in done.kept.items():
+            entries[row] = _expression(value, scalars(self.symbols))
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
         unknowns = [
             k
@@ -130,7 +132,7 @@ class Assembly:
             **closing(raw, set(done.redundant), values, rows, residuals, self.substitutes),
             tree=build.root,
             counts={
-                "equations_flat": len(self.origins) - len(self.substitutes),
+                "equations_flat": len(self.origins) - len(self.substitutes) - len(done.left),
                 "unknowns_flat": self.size + len([k for k in present if k >= self.size]),
                 "constants": sum(not terms for _, terms in done.solved.values()),
                 "aliases": sum(bool(terms) for _, terms in done.solved.values()),
@@ -140,6 +142,13 @@ class Assembly:
             },
             **attributes,
         )
+
+    def _asked(self) -> set[int]:
+        """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
+        inside = ca.symvar(ca.vertcat(self.initial_residuals, *self.energies.values()))
+        asked = {s.element_hash() for s in inside}.difference(self.raw.index)
+        place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))} if asked else {}
+        return {place[s] for s in asked if s in place}
 
     def _unused(self, done: Simplification) -> set[int]:
         """Residuals that say nothing new, and substitutes of those that do."""
@@ -202,6 +211,8 @@ class Assembly:
         for k in self._jumping():
             select[k] = ALWAYS
         extra = self.symbols.numel() - self.size
+        # What an instance says counts before what a class says, and that before nothing.
+        weight = [2 if told else int(not s.is_zero()) for told, s in zip(guessed, start, strict=True)] + [0] * extra
         start, guessed = start + [ca.SX(0)] * extra, guessed + [False] * extra
         nominal, select, sized = (
             np.concatenate([nominal, np.ones(extra)]),
@@ -213,8 +224,8 @@ class Assembly:
             if not terms:
                 continue
             (other, c) = terms[0]
-            if guessed[k] and not guessed[other]:
-                start[other], guessed[other] = (start[k] - c0) / c, True
+            if weight[k] > weight[other]:
+                start[other], weight[other], guessed[other] = (start[k] - c0) / c, weight[k], guessed[k]
             if select[k] > select[other] and select[other] == 0:
                 select[other] = select[k]
             if sized[k] and not sized[other]:
@@ -272,7 +283,5 @@ class Assembly:
 
 def _expression(value: Linear, elements: list[Any]) -> Any:
     c0, terms = value
-    if not terms:
-        return c0
-    unknown, c = terms[0]
-    return elements[unknown] if (c0, c) == (0, 1) else elements[unknown] * c + c0
+    total = sum((elements[u] if c == 1 else elements[u] * c for u, c in terms), 0.0)
+    return total if c0 == 0 else total + c0

@@ -10,6 +10,7 @@ import casadi as ca
 from acausal.flatten.assembly import Assembly
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
+from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column, hear
 from acausal.language.component import Component
@@ -42,6 +43,8 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     integrated = _integrated(raw, declared)
     chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
+
+    refuse_rates_of_inputs(raw)
 
     def resolved(expressions: list[ca.SX]) -> list[ca.SX]:
         return ca.substitute(expressions, [placeholders], [derivatives])

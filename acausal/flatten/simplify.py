@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from acausal.flatten.tape import Linear, Tape, add, scale
 
 DECLARED, CHAINED = 1, 2
+# Rounding of a sum of constants.
+ZERO = 1e-12
 
 
 @dataclass
@@ -20,7 +22,8 @@ class Simplification:
 
     `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
     among the remaining ones; `used` are residuals that removed an unknown, `redundant` those that became 0 = 0, `kept`
-    those replaced by `unknown - constant`; `contradictions` can never hold.
+    those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
+    that residual; `contradictions` can never hold.
     """
 
     derivative: list[int]
@@ -29,6 +32,7 @@ class Simplification:
     used: dict[int, int] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
+    left: list[tuple[Linear, int]] = field(default_factory=list)
     contradictions: list[tuple[int, float]] = field(default_factory=list)
 
 
@@ -59,7 +63,7 @@ class Simplifier:
                 self.down[upper] = lower
         self.rank = rank
         self.result = Simplification(self.up, rank, tape.solved)
-        self.extra: list[Linear] = []
+        self.extra: list[tuple[Linear, int]] = []
         self.closed: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
@@ -69,10 +73,34 @@ class Simplifier:
             for row in sorted(set(queue)):
                 if row not in self.closed:
                     self._visit(row)
+            left = []
             while self.extra:
-                self._assign(self.extra.pop(), None)
+                value, row = self.extra.pop()
+                if not self._derived(value, row):
+                    left.append((value, row))
+            # What becomes known later may let them remove an unknown.
+            self.extra = left
             queue = self.tape.update()
+        self.result.left = [(value, row) for value, row in self._settled(self.extra) if value[1]]
+        kept = self._settled([(value, row) for row, value in self.result.kept.items()])
+        self.result.kept = {row: value for value, row in kept if value[1]}
+        self.result.redundant += [row for value, row in kept if not value[1]]
         return self.result
+
+    def _settled(self, values: list[tuple[Linear, int]]) -> list[tuple[Linear, int]]:
+        """Write values in unknowns that remain, and note contradictions."""
+        found = [(self.tape.resolve(value), row) for value, row in values]
+        self.result.contradictions += [(row, v[0]) for v, row in found if not v[1] and abs(v[0]) > ZERO]
+        return found
+
+    def _derived(self, value: Linear, row: int) -> bool:
+        """Use the derivative of a residual to remove an unknown; False if it has to stay."""
+        value = self.tape.resolve(value)
+        if not value[1]:
+            if abs(value[0]) > ZERO:
+                self.result.contradictions.append((row, value[0]))
+            return True
+        return self._assign(value, row, derived=True)
 
     def _visit(self, row: int) -> None:
         value = self.tape.value[self.tape.residual[row]]
@@ -81,7 +109,7 @@ class Simplifier:
             return
         if not value[1]:
             self.closed.add(row)
-            if abs(value[0]) > 1e-12:
+            if abs(value[0]) > ZERO:
                 self.result.contradictions.append((row, value[0]))
             else:
                 self.result.redundant.append(row)
@@ -91,20 +119,19 @@ class Simplifier:
         elif row not in self.substitutes and self._assign(value, row):
             self.closed.add(row)
 
-    def _assign(self, value: Linear, row: int | None) -> bool:
-        """Use `value == 0` to remove an unknown; False if none may be removed."""
-        value = self.tape.resolve(value)
+    def _assign(self, value: Linear, row: int, derived: bool = False) -> bool:
+        """Use `value == 0`, the residual `row` or its derivative, to remove an unknown; False if none may be removed."""
         c0, terms = value
-        if not terms:
-            return True
         candidates = sorted(terms, key=lambda term: (self._standing(term[0]), -term[0]))
         for unknown, c in candidates:
             rest = tuple((u, k) for u, k in terms if u != unknown)
             solution = scale((c0, rest), -1 / c)
             if self._may_replace(unknown, solution):
                 self._replace(unknown, solution, row)
+                if not derived:
+                    self.result.used[row] = unknown
                 return True
-        if len(terms) == 1 and row is not None:
+        if len(terms) == 1 and not derived:
             # The derivative of an unknown is constant: others may know, but the chain needs the unknown itself.
             self.result.kept[row] = value
             return True
@@ -135,10 +162,8 @@ class Simplifier:
             unknown = self.down[unknown]
         return unknown
 
-    def _replace(self, unknown: int, solution: Linear, row: int | None) -> None:
+    def _replace(self, unknown: int, solution: Linear, row: int) -> None:
         self.tape.solve(unknown, solution)
-        if row is not None:
-            self.result.used[row] = unknown
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1
         other, c = solution[1][0] if solution[1] else (-1, 0.0)
@@ -149,10 +174,10 @@ class Simplifier:
             return
         self.down[upper] = -1
         if other < 0:
-            self.extra.append((0.0, ((upper, 1.0),)))
+            self.extra.append(((0.0, ((upper, 1.0),)), row))
         elif self.up[other] < 0:
             self.up[other], self.down[upper] = upper, other
         else:
             link = add((0.0, ((upper, 1.0),)), (0.0, ((self.up[other], c),)), -1.0)
             assert link is not None
-            self.extra.append(link)
+            self.extra.append((link, row))

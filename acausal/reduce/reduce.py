@@ -11,6 +11,7 @@ from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.incidence import Linear, jacobian, system_of
+from acausal.reduce.inputs import refuse_unknown_rates
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, analyse
 from acausal.symbols import scalars
@@ -25,15 +26,19 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
         If the model has too many or too few equations.
     StructurallySingularError
         If the counts match but some unknowns cannot be determined.
+    DeclarationError
+        If the derivative of an input of the whole model is needed.
     """
     system, linear = system_of(flat)
     try:
-        return analyse(system), linear
+        plan = analyse(system)
     except StructuralSingularity as singularity:
         chains = sum(d >= 0 for d in flat.derivative)
         surplus = len(flat.origins) - (len(flat.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
+    refuse_unknown_rates(flat, plan)
+    return plan, linear
 
 
 def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
@@ -74,7 +79,8 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
 def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
     """Names of all unknowns; what is integrated in place of a coordinate has its name."""
     names = list(flat.names)
-    names += [f"der({names[k]})" for k in plan.created]
+    for k in plan.created:
+        names.append(f"der({names[k]})")
     names += [""] * (plan.system.n_variables - len(names))
     for constraint in plan.constrained.constraints:
         for multiplier in constraint.multipliers:

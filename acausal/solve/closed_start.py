@@ -15,6 +15,8 @@ from acausal.solve.words import missing_text
 
 # Way out of a singular position: its square is the error of what is left out.
 AWAY = 1e-4
+# Speed of joints in rad/s or m/s that is rest: rates of a singular position are known no better than its coordinates.
+REST = 1e-4
 
 
 def closed_guess(
@@ -173,7 +175,7 @@ def leave_singular(
     moving = np.isin(pairs[:, 0], compiled.closing.states)
     coordinates, rates = pairs[moving].T
     speed = float(np.max(np.abs(x[rates]), initial=0.0))
-    if not speed:
+    if not speed > REST:
         raise InitializationError(
             f"the start at t = {t:g} s is a singular position at rest: nothing tells on which branch the loops go on. "
             "Give a velocity, for instance w=fixed(...) of a joint, or start beside it."

@@ -13,6 +13,7 @@ from acausal.language.functions import initial as initial_flag
 from acausal.solve.closed_start import closed_guess, rows_and_knowns
 from acausal.solve.newton import CONSISTENT, InitialSystem, follow, newton
 from acausal.solve.projection import choose_projection, independent
+from acausal.solve.steady import Equilibrium
 from acausal.solve.words import contradiction_text, missing_text
 from acausal.structure import complete
 
@@ -51,12 +52,17 @@ def initialize(
     y = compiled.start(p, time)[0].copy()
     nx = compiled.nx
     modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
-    if compiled.closing.size or initial == "steady":
-        system, y, modes = _ranked(compiled, y, p, time, modes, initial)
+    if initial == "steady":
+        first = _sparse(compiled, y, p, time, modes)
+        y, modes, _ = _closed(compiled, y, p, time, modes)
+        y, modes = Equilibrium(compiled, y, p, time, modes).find(first)
     else:
-        system = _system(compiled, p, time, modes, initial)
-        y = _direct_values(compiled, system.direct, y, p, time, modes)
-    y = _solve(compiled, system, y, p, time, modes)
+        if compiled.closing.size:
+            system, y, modes = _ranked(compiled, y, p, time, modes, initial)
+        else:
+            system = _system(compiled, p, time, modes, initial)
+            y = _direct_values(compiled, system.direct, y, p, time, modes)
+        y = _solve(compiled, system, y, p, time, modes)
     # The conditions of the initial system hold no longer; the states stay, the rest follows.
     if _flag_matters(compiled):
         y = algebraic(compiled, y, p, time, modes)
@@ -71,6 +77,45 @@ def _ranked(
 ) -> tuple[InitialSystem, np.ndarray, np.ndarray]:
     """Close the loops, and choose the initial system from there by ranks."""
     nx, nz = compiled.nx, compiled.nz
+    y, modes, direct = _closed(compiled, y, p, time, modes)
+    y = algebraic(compiled, y, p, time, modes)
+    held = np.array(sorted(direct.values()), dtype=int)
+    others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
+    if initial == "steady":
+        others += range(-nx, 0)
+    equations, used, surplus, known = rows_and_knowns(
+        compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed"
+    )
+    y[nx + compiled.closing.multipliers] = 0.0
+    rows = np.array([*equations, *used], int)
+    demanded = [row for row in surplus if row >= 0]
+    return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+
+
+def _sparse(
+    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Solve for derivatives of 0 with sparse factors, which suits long chains; None where that finds nothing."""
+    try:
+        system, y, modes = _ranked(compiled, y, p, time, modes, "steady")
+        return _solve(compiled, system, y, p, time, modes), modes
+    except InitializationError:
+        return None
+
+
+def _closed(
+    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, dict[int, int]]:
+    """Give states the values that conditions state for them, and close the loops around them.
+
+    Returns
+    -------
+    y, modes : arrays
+        Unknowns, and constants of the segment.
+    direct : dict of int to int
+        Condition -> the state that it gives.
+    """
+    nx, nz = compiled.nx, compiled.nz
     given = compiled.conditions.numel()
     rows = _rows(compiled, p, time, modes)
     direct = _direct(compiled, list(range(nz, nz + given)), rows)
@@ -82,17 +127,7 @@ def _ranked(
     if compiled.closing.size:
         y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
         y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
-    y = algebraic(compiled, y, p, time, modes)
-    others = [row for row in range(nz, nz + given) if row not in direct]
-    if initial == "steady":
-        others += range(-nx, 0)
-    chosen = rows_and_knowns(compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed")
-    equations, used, surplus, known = chosen
-    y[nx + compiled.closing.multipliers] = 0.0
-    # Derivatives that cannot vanish beside what is given do not matter.
-    demanded = [row for row in surplus if row >= 0]
-    rows = np.array([*equations, *used], int)
-    return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+    return y, modes, direct
 
 
 def _direct_values(

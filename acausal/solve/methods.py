@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may leave.
 ROUNDING = 1e-14
+# States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272, 2552,
+# 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and 1 s,
+# csparse 0.02, 0.04, 0.1, 40 and 160 s or more.
+LARGE = 2000
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,7 @@ def multistep(
         # position of a loop they are enlarged.
         "nonlin_conv_coeff": 0.005 if c.closing.size else 0.05,
         "show_eval_warnings": False,
-        "linear_solver": "qr" if careful else "csparse",
+        "linear_solver": "qr" if careful or c.nx + c.nz > LARGE else "csparse",
         "calc_ic": steepest > 1 and not careful,
     }
     if careful and steepest > 1:

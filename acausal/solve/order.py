@@ -60,17 +60,26 @@ def _eigenvalues(
     def inverse(v: np.ndarray) -> np.ndarray:
         return outer(np.r_[v, np.zeros(nz)])[:nx]
 
-    return np.concatenate([shift + 1 / _dominant(inverse, nx), _dominant(rate, nx)])
+    slow = _dominant(inverse, nx)
+    return np.concatenate([shift + 1 / slow[slow != 0], _dominant(rate, nx)])
 
 
 def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
-    """Largest pair of eigenvalues by power iteration: the quadratic that three successive vectors fit best."""
+    """Largest pair of eigenvalues by power iteration: the quadratic that three successive vectors fit best.
+
+    Nothing where the vectors vanish, as those of bodies that no force holds: all eigenvalues are 0 there.
+    """
     v = np.cos(np.arange(n))
     for _ in range(POWERS):
         v = apply(v)
-        v /= np.linalg.norm(v)
+        size = float(np.linalg.norm(v))
+        if not 0 < size < np.inf:
+            return np.zeros(0, complex)
+        v = v / size
     once = apply(v)
     twice = apply(once)
+    if not np.all(np.isfinite(twice)):
+        return np.zeros(0, complex)
     (c0, c1), *_ = np.linalg.lstsq(np.column_stack([v, once]), twice, rcond=None)
     return np.roots([1.0, -c1, -c0]).astype(complex)
 

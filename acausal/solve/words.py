@@ -55,7 +55,7 @@ def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[i
 
 def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surplus: np.ndarray, time: float) -> str:
     """Say which equations of the initial system were farthest from holding."""
-    flat, plan, nz = compiled.reduced.flat, compiled.reduced.plan, compiled.nz
+    flat, nz = compiled.reduced.flat, compiled.nz
     order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
     lines = [
         f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"
@@ -65,7 +65,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         if row < 0:
             lines.append(f"  der({compiled.states[row]}) = 0: off by {value[k]:.4g}")
         elif row < nz:
-            lines.append(f"  {_equation(compiled, plan.residuals[row])}: off by {value[k]:.4g}")
+            lines.append(f"  {equation_text(compiled, int(row))}: off by {value[k]:.4g}")
         else:
             condition = flat.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
@@ -76,9 +76,18 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
     return "\n".join(lines)
 
 
-def _equation(compiled: CompiledModel, equation: int) -> str:
-    """Say where an equation of the extended system comes from."""
+def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:
+    """Say that an equilibrium is unstable."""
+    return (
+        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: what disturbs it grows e-fold in "
+        f"{1 / rate:.3g} s. Give guesses nearer to a stable one, as guess(...) of joints or angles_start of bodies."
+    )
+
+
+def equation_text(compiled: CompiledModel, row: int) -> str:
+    """Say where an algebraic equation of the integrated system comes from."""
     flat, plan = compiled.reduced.flat, compiled.reduced.plan
+    equation = plan.residuals[row]
     written, differentiated = len(flat.origins), len(plan.differentiated)
     while written <= equation < written + differentiated:
         equation = plan.differentiated[equation - written]

@@ -21,7 +21,9 @@ def _reduce(system: System) -> tuple[Extension, Constrained, Choice]:
     extension = pantelides(system)
     constrained = constrain(extension)
     lower = extension.lower.difference(row for c in constrained.constraints for row in c.rows)
-    choice = choose_states(extension.system(), lower)
+    # Otherwise one level of a projected coordinate could follow from others, and the level below it could not.
+    integrated = {p.state for p in constrained.projections}
+    choice = choose_states(extension.system(), lower, integrated=integrated)
     if not choice.left:
         return extension, constrained, choice
     # Constraints that reach too few states: some state must follow from the others by a fixed choice.

@@ -23,7 +23,13 @@ class Choice:
         return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
 
 
-def choose_states(system: System, lower: Collection[int], apart: Collection[int] = (), constant: bool = True) -> Choice:
+def choose_states(
+    system: System,
+    lower: Collection[int],
+    apart: Collection[int] = (),
+    constant: bool = True,
+    integrated: Collection[int] = (),
+) -> Choice:
     """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
@@ -40,6 +46,8 @@ def choose_states(system: System, lower: Collection[int], apart: Collection[int]
     constant : bool
         True lets a variable be algebraic only through constant coefficients: any other choice of states could become
         singular on the way.
+    integrated : collection of int
+        Variables that are states in any case.
 
     """
     derivative = system.derivative
@@ -52,7 +60,7 @@ def choose_states(system: System, lower: Collection[int], apart: Collection[int]
     # No free equation can be reached from what a failed search visited, now or later.
     closed: set[int] = set(apart)
     for variable in _candidates(system) if unmatched else ():
-        if matching.equation_of[derivative[variable]] < 0:
+        if variable in integrated or matching.equation_of[derivative[variable]] < 0:
             continue
         search = augment(variable, columns, matching.equation_of, matching.variable_of, closed)
         if not search.found:

@@ -2,21 +2,46 @@
 
 from __future__ import annotations
 
-from acausal import Scalar, input
+import numpy as np
+
+from acausal import PREFER, Scalar, der, input, parameter, structural, variable
 from components.rotational.one_flange import OneFlange
+
+# Bessel filter of the second order, -3 dB at its critical frequency.
+AF, BF = 1.3617, 0.6180
 
 
 class Position(OneFlange):
-    """Drive that moves the shaft exactly as prescribed.
+    """Drive that moves the shaft as prescribed.
 
     Parameters
     ----------
     phi_ref : float or expression of time
         Angle of the flange in rad; where its second derivative jumps, torques do.
+    exact : bool
+        False lets the flange follow phi_ref through a filter of the second order, begun at rest: for an angle of which no
+        derivative is known, such as an input of the whole model, or one that jumps.
+    f_crit : float
+        Critical frequency of the filter in Hz.
     """
 
     phi_ref: Scalar = input("angle of the flange", unit="rad")
+    exact: bool = structural("whether the flange has phi_ref itself", default=True, choices=(True, False))
+    f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
+    phi: Scalar = variable("angle of the flange", unit="rad", select=PREFER)
+    a: Scalar = variable("der(w)", unit="rad/s2")
 
     def equations(self):
         yield from super().equations()
-        yield self.flange.phi == self.phi_ref
+        yield self.phi == self.flange.phi
+        yield self.a == der(self.w)
+        if self.exact:
+            yield self.phi == self.phi_ref
+        else:
+            w_crit = 2 * np.pi * self.f_crit
+            yield self.a == ((self.phi_ref - self.phi) * w_crit - AF * self.w) * w_crit / BF
+
+    def initial_equations(self):
+        if not self.exact:
+            yield self.phi == self.phi_ref
+            yield self.w == 0

@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from acausal import PREFER, Scalar, input, variable
+import numpy as np
+
+from acausal import PREFER, Scalar, der, input, parameter, structural, variable
 from components.rotational.one_flange import OneFlange
 
 
 class Speed(OneFlange):
-    """Drive that turns the shaft exactly at the prescribed speed.
+    """Drive that turns the shaft at the prescribed speed.
 
     Parameters
     ----------
     w_ref : float or expression of time
         Angular velocity of the flange in rad/s.
+    exact : bool
+        False lets the flange follow w_ref through a filter of the first order: for a speed of which no derivative is
+        known, such as an input of the whole model, or one that jumps.
+    f_crit : float
+        Critical frequency of the filter in Hz.
     """
 
     w_ref: Scalar = input("angular velocity of the flange", unit="rad/s")
+    exact: bool = structural("whether the flange has w_ref itself", default=True, choices=(True, False))
+    f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     phi: Scalar = variable("angle of the flange", unit="rad", select=PREFER)
 
     def equations(self):
         yield from super().equations()
         yield self.phi == self.flange.phi
-        yield self.w == self.w_ref
+        if self.exact:
+            yield self.w == self.w_ref
+        else:
+            yield der(self.w) == (self.w_ref - self.w) * 2 * np.pi * self.f_crit
+
+    def initial_equations(self):
+        if not self.exact:
+            yield self.w == self.w_ref

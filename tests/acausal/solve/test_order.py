@@ -1,50 +1,73 @@
-"""Order limit from the eigenvalues."""
+"""Eigenvalues of large systems at points where there are none but 0."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.solve.order import eigenvalues_of, order_limit, state_matrix
-from models import SpinUp
+from acausal import Model, Scalar, chain, der, fixed, structural, variable
+from components import BodyRod, Revolute, World
 
 
-def pairs(*values: complex) -> np.ndarray:
-    return np.array([v for value in values for v in (value, np.conj(value))])
+class Drifting(Model):
+    """Points that nothing holds."""
+
+    n: int = structural("how many", default=50)
+    x: Any = variable("places", shape=lambda self: (self.n,), fixed=True)
+    v: Any = variable("speeds", shape=lambda self: (self.n,), start=1.0, fixed=True)
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == np.zeros(self.n)
 
 
-@pytest.mark.parametrize(
-    ("values", "order"),
-    [
-        (pairs(1j), 5),
-        (pairs(1j, 5j), 5),
-        (pairs(1j, 500j), 2),
-        (pairs(1j, 500 * np.exp(1j * np.radians(180 - 80))), 3),
-        (pairs(1j, 500 * np.exp(1j * np.radians(180 - 60))), 4),
-        (pairs(1j, 500 * np.exp(1j * np.radians(180 - 40))), 5),
-        (np.array([-1.0 + 0j, -1e6 + 0j]), 5),
-        (np.zeros(3, dtype=complex), 5),
-        (np.zeros(0, dtype=complex), 5),
-    ],
-)
-def test_fast_oscillations_lie_inside_the_wedge(values: np.ndarray, order: int) -> None:
-    assert order_limit(values, duration=20.0) == order
+class Spread(Model):
+    """Many first-order systems, all rates 0 but one."""
+
+    n: int = structural("how many", default=100)
+    rate: Scalar = ac.parameter("rate of the last one", default=2)
+    x: Any = variable("states", shape=lambda self: (self.n,), start=1.0, fixed=True)
+
+    def equations(self):
+        for k in range(self.n - 1):
+            yield der(self.x[k]) == 0 * self.x[k]
+        yield der(self.x[self.n - 1]) == -self.rate * self.x[self.n - 1]
 
 
-def test_estimate_of_a_large_system() -> None:
-    compiled = ac.compile(SpinUp(volumes=20))
-    result = ac.simulate(compiled, stop_time=20.0)
-    assert result.stats["max_order"] == 2
-    p, modes = compiled.parameter_values(None), np.zeros(0)
-    from acausal.solve.initialize import initialize
+@pytest.mark.parametrize("n", [20, 50, 100])
+def test_points_that_nothing_holds(n: int) -> None:
+    result = ac.simulate(Drifting(n=n), stop_time=2, intervals=4)
+    assert np.allclose(result["x"][-1], 2)
 
-    x, z, modes = initialize(compiled, p, 0.0, modes, "fixed")
-    exact = np.abs(
-        np.linalg.eigvals(
-            state_matrix(compiled.at(x, z, p, 0.0, modes, 0.0).jacobian[: compiled.nx + compiled.nz], compiled.nx)
-        )
-    )
-    found = np.abs(eigenvalues_of(compiled, x, z, p, 0.0, modes))
-    assert found.max() == pytest.approx(exact.max(), rel=0.2)
-    assert found.min() == pytest.approx(exact.min(), rel=0.2)
+
+def test_one_rate_among_zeros() -> None:
+    result = ac.simulate(Spread(), stop_time=1, intervals=4, tolerance=1e-8)
+    assert result["x"][-1, -1] == pytest.approx(np.exp(-2), rel=1e-5)
+
+
+class Chain(Model):
+    """Rods in a row without weight, at rest."""
+
+    n: int = structural("rods", default=33)
+    world = World(gravity=None)
+
+    @ac.parts
+    def joints(self):
+        """Joints."""
+        return [Revolute(phi=fixed(0), w=fixed(0)) for _ in range(self.n)]
+
+    @ac.parts
+    def rods(self):
+        """Rods."""
+        return [BodyRod(r=(0.1, 0, 0), m=0.1) for _ in range(self.n)]
+
+    def connections(self):
+        yield chain(self.world, *(part for pair in zip(self.joints, self.rods, strict=True) for part in pair))
+
+
+def test_a_long_chain_of_bodies_at_rest() -> None:
+    result = ac.simulate(Chain(), stop_time=0.1, intervals=2)
+    assert np.allclose(result["rods[32].frame_b.r_0"][-1], [3.3, 0, 0])

@@ -1,0 +1,42 @@
+"""Inputs of the whole model: parameters whose course in time, and so whose derivative, nobody knows here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from acausal.errors import DeclarationError
+from acausal.flatten.said import Said
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.symbols import scalars
+
+MEND = (
+    "Let it pass a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
+    "or an equation such as T * der(y) == {name} - y."
+)
+
+
+def inputs_of(tree: Component) -> dict[int, str]:
+    """Hash of every symbol of an input at the top of the model -> the input's name."""
+    names = [n for n, d in tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"]
+    return {s.element_hash(): name for name in names for s in _symbols(getattr(tree, name).sx)}
+
+
+def refuse_rates_of_inputs(raw: Said) -> None:
+    """Raise DeclarationError if a component asks for the derivative of an expression that holds an input."""
+    inputs = inputs_of(raw.build.root)
+    if not inputs or not raw.pending.derivatives:
+        return
+    column = ca.vertcat(*[ca.vec(ca.densify(e)) for _, e in raw.pending.derivatives])
+    found = [inputs[s.element_hash()] for s in ca.symvar(column) if s.element_hash() in inputs]
+    if found:
+        raise DeclarationError(
+            f"der() is taken of something that holds the input `{found[0]}`; its course in time is not known, so it has no "
+            f"derivative. {MEND.format(name=found[0])}"
+        )
+
+
+def _symbols(sx: Any) -> list[Any]:
+    return [s for s in scalars(ca.vec(ca.densify(sx))) if s.is_symbolic()]

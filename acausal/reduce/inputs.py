@@ -1,0 +1,29 @@
+"""Inputs of the whole model in equations that are differentiated."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+from acausal.errors import DeclarationError
+from acausal.flatten import FlatModel
+from acausal.flatten.inputs import MEND, inputs_of
+from acausal.structure import Plan
+from acausal.symbols import scalars
+
+
+def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
+    """Raise DeclarationError if the reduction of the index differentiates an equation that holds an input.
+
+    An input is a parameter here: its derivative would silently be 0.
+    """
+    inputs = inputs_of(flat.tree)
+    if not inputs:
+        return
+    residuals = scalars(flat.residuals)
+    for equation in sorted(e for e in plan.differentiated if e < len(residuals)):
+        found = [inputs[s.element_hash()] for s in ca.symvar(residuals[equation]) if s.element_hash() in inputs]
+        if found:
+            raise DeclarationError(
+                f"{flat.origins[equation]}: this equation prescribes a motion by the input `{found[0]}`, whose derivatives are "
+                f"needed too; its course in time is not known, so it has none. {MEND.format(name=found[0])}"
+            )

@@ -1,0 +1,102 @@
+"""Whether a model is at rest: every derivative that it has vanishes, whatever found the point."""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
+from acausal.errors import InitializationError
+from acausal.solve.newton import CONSISTENT, TERMS
+from acausal.solve.words import equation_text
+from acausal.symbols import scalars
+
+STILL = 1e-7
+
+
+def meters(compiled: CompiledModel) -> list[int]:
+    """States on which nothing depends, and whose rates are not differentiated: they count, and hold nothing."""
+    if "meters" not in compiled.cache:
+        r, system = compiled.reduced, compiled.reduced.plan.system
+        used = np.array(ca.which_depends(ca.vertcat(r.ode, r.alg, ca.SX(0)), r.x, 1, False), dtype=bool)
+        counting = [system.derivative[system.derivative[v]] < 0 for v in r.plan.states]
+        compiled.cache["meters"] = np.flatnonzero(~used & np.array(counting, dtype=bool)).tolist() if used.size else []
+    return compiled.cache["meters"]
+
+
+def at_rest(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> bool:
+    """Whether all derivatives vanish, loops are closed, and equations and initial conditions hold."""
+    nx = compiled.nx
+    if _moving(compiled, y, p, t, modes):
+        return False
+    if compiled.closing.size and np.max(np.abs(compiled.closing(y[:nx], p, t, modes)[0])) > CONSISTENT:
+        return False
+    local = compiled.at(y[:nx], y[nx:], p, t, modes, 0.0)
+    allowed = CONSISTENT + _rounding(local.jacobian, y)
+    return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
+
+
+def refuse_motion(compiled: CompiledModel, y: np.ndarray, modes: np.ndarray, p: np.ndarray, t: float) -> NoReturn:
+    """Raise InitializationError: what moves where everything else has come to rest, or what conditions stand against it."""
+    nx, nz = compiled.nx, compiled.nz
+    moving = _moving(compiled, y, p, t, modes)
+    if moving:
+        lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what moves on:"]
+        lines += [f"  {name} = 0: off by {value:.4g}" for name, value in moving[:5]]
+        lines.append(
+            "Something drives it without end, as weight does what nothing carries or a torque what nothing brakes: hold it, "
+            "brake it, or stop the drive; or give guesses nearer to rest."
+        )
+        raise InitializationError("\n".join(lines))
+    local = compiled.at(y[:nx], y[nx:], p, t, modes, 0.0)
+    value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, y)
+    lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
+    against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
+    for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
+        condition = compiled.reduced.flat.initial[k - nx - nz]
+        lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
+    wrong = [k for k in range(nx, nx + nz) if abs(value[k]) > allowed[k]]
+    lines += [f"  {equation_text(compiled, k - nx)}: off by {value[k]:.4g}" for k in wrong[:5]]
+    lines.append("Make them guesses, guess(...) instead of fixed(...), or leave the initial equations out.")
+    raise InitializationError("\n".join(lines))
+
+
+def _moving(
+    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
+) -> list[tuple[str, float]]:
+    """Derivatives that do not vanish, the largest first."""
+    names, call, (rows, columns, shape) = _derivatives(compiled)
+    value, entries = call(y[: compiled.nx], y[compiled.nx :], p, t, modes, 0.0)
+    rounding = np.zeros(shape[0])
+    np.add.at(rounding, rows, np.abs(entries * y[columns]))
+    allowed = STILL + TERMS * np.finfo(float).eps * rounding
+    wrong = np.flatnonzero(~(np.abs(value) <= allowed))
+    order = wrong[np.argsort(-np.abs(value[wrong]))]
+    return [(names[k], float(value[k])) for k in order]
+
+
+def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.ndarray, np.ndarray, tuple[int, int]]]:
+    """Names of all derivatives but those of meters, their values and Jacobian, and its pattern."""
+    if "derivatives" in compiled.cache:
+        return compiled.cache["derivatives"]
+    r = compiled.reduced
+    plan, elements = r.plan, scalars(r.unknowns)
+    apart = {plan.states[k] for k in meters(compiled)}
+    pairs = [(v, d) for v, d in enumerate(plan.system.derivative) if d >= 0 and v not in apart]
+    pairs += [(q.coordinate, q.rate) for q in plan.constrained.projections]
+    names = [f"der({r.names[v]})" for v, _ in pairs] + [f"der({r.names[v]})" for v in r.flat.declared]
+    column = ca.vertcat(ca.SX(0, 1), *[elements[d] for _, d in pairs], *r.flat.declared.values())
+    column = ca.densify(r.resolve(column))
+    J = ca.jacobian(column, ca.vertcat(r.x, r.z))
+    call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))
+    rows, columns = (np.array(k, dtype=int) for k in J.sparsity().get_triplet())
+    compiled.cache["derivatives"] = names, call, (rows, columns, J.shape)
+    return compiled.cache["derivatives"]
+
+
+def _rounding(J, y: np.ndarray) -> np.ndarray:
+    """Rounding of the terms of every row."""
+    return TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y))

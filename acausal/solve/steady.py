@@ -1,0 +1,291 @@
+"""Equilibrium: states at which all rates vanish, on the constraints, near the guesses, stable if there is such a one.
+
+Newton steps of least norm lead to the nearest equilibrium, which may be an unstable one. The motion itself, with steps
+of the implicit Euler method that grow, loses energy on the way and ends in a stable one (pseudo-transient continuation,
+Kelley & Keyes 1998). What no equation determines goes back to its guess.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.linalg import splu
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError, caution
+from acausal.solve.at_rest import at_rest, meters, refuse_motion
+from acausal.solve.closing import tighten
+from acausal.solve.methods import rates_of
+from acausal.solve.newton import InitialSystem, newton
+from acausal.solve.projection import choose_projection
+from acausal.solve.rank import RANK, scaled
+from acausal.solve.tangent import tangent
+from acausal.solve.words import unstable_text
+
+NEWTON, RELAXATION = 60, 400
+# Largest change of a state in a step, over its nominal value.
+FAR = 0.3
+# First step of the relaxation in s, growth of its steps, and what ends it.
+FIRST, GROWTH, LAST = 1e-3, 1.5, 1e8
+CONVERGED = 1e-12
+HALVINGS = 6
+# Steps back to the guess, and the shortest part of one.
+RETURN, SHORT = 20, 0.1
+PUSH = 1e-2
+# Influence of a state on everything, over the greatest, that is rounding.
+FAINT = 1e-13
+# Singular value of what is free, but for rounding.
+WEAK = 1e-11
+ATTEMPTS = 3
+
+
+@dataclass
+class Local:
+    """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated."""
+
+    y: np.ndarray
+    modes: np.ndarray
+    rates: np.ndarray
+    A: np.ndarray
+    conditions: np.ndarray
+    C: np.ndarray
+
+
+class Equilibrium:
+    """Search for an equilibrium.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    guess : array
+        States and algebraic unknowns, loops closed.
+    p, time, modes : array, float, array
+        Parameters, time and constants of the segment.
+    """
+
+    def __init__(
+        self, compiled: CompiledModel, guess: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
+    ) -> None:
+        self.compiled, self.guess, self.p, self.time, self.modes = compiled, guess, p, time, modes
+        self.nx = compiled.nx
+        self.scale = compiled.nominal[: self.nx]
+        self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
+        self.coordinates = np.array([coordinate for coordinate, _ in rates_of(compiled)], dtype=int)
+
+    def find(self, first: tuple[np.ndarray, np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Return states and algebraic unknowns at rest, and the constants of the segment.
+
+        Parameters
+        ----------
+        first : (array, array), optional
+            Where it may rest, with the constants of the segment.
+
+        Raises
+        ------
+        InitializationError
+            If there is no equilibrium, none is found, or the initial conditions do not hold in it.
+        """
+        found = self._tried(first) or self._newton(self.guess)
+        rate, push = (0.0, self.guess) if found is None else self._growing(found)
+        y, growth, attempts = self.guess, GROWTH, ATTEMPTS
+        if found is not None and self._is_guess(found):
+            attempts = 0
+        while attempts and (found is None or rate):
+            y = self._relax(y, growth)
+            relaxed = self._newton(y)
+            if relaxed is None:
+                break
+            found, (rate, push) = relaxed, self._growing(relaxed)
+            y, growth, attempts = relaxed.y.copy(), 1 + (growth - 1) / 2, attempts - 1
+            y[: self.nx] += push
+        if found is None:
+            refuse_motion(self.compiled, *self._nearly(y), self.p, self.time)
+        if rate:
+            caution(unstable_text(self.compiled, self.time, rate))
+        return found.y, found.modes
+
+    def _tried(self, first: tuple[np.ndarray, np.ndarray] | None) -> Local | None:
+        try:
+            here = self._at(*first) if first else None
+        except InitializationError:
+            return None
+        return here if here and self._rests(here) else None
+
+    def _is_guess(self, found: Local) -> bool:
+        return bool(np.all(np.abs(found.y - self.guess)[: self.nx] <= 1e-6 * self.scale))
+
+    def _nearly(self, relaxed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where the rates are least, whatever the initial conditions; those that stay tell what moves."""
+        found = [self._search(y, conditions=False) for y in (self.guess, relaxed)]
+        resting = [here for here in found if here is not None]
+        resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))
+        return (resting[0].y, resting[0].modes) if resting else (self.guess, self.modes)
+
+    def _at(self, y: np.ndarray, modes: np.ndarray) -> Local:
+        """Solve for the algebraic unknowns, and linearise."""
+        c, nx, nz = self.compiled, self.nx, self.compiled.nz
+        y = newton(c, InitialSystem(np.arange(nz), np.empty(0, int), np.arange(nx)), y, self.p, self.time, modes, 0.0)
+        local = c.at(y[:nx], y[nx:], self.p, self.time, modes, 0.0)
+        J = local.jacobian.tocsc()
+        dz = _solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
+        A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
+        return Local(y, modes, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
+
+    def _close(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Close the loops, and choose the states that follow from others anew."""
+        c = self.compiled
+        if not c.closing.size:
+            return y, self.modes
+        x = tighten(c, y[: self.nx], self.p, self.time, self.modes)
+        modes = choose_projection(c, x, None, self.p, self.time, self.modes)
+        z = c.closing.guess(x, y[self.nx :], self.p, self.time, modes)
+        z[c.closing.multipliers] = 0.0
+        return np.concatenate([x, z]), modes
+
+    def _newton(self, y: np.ndarray) -> Local | None:
+        """Search from y, then bring what is free back to its guess; None where it does not come to rest."""
+        here = self._search(y)
+        if here is None or not self._rests(here):
+            return None
+        part = 1.0
+        for _ in range(RETURN):
+            back = self._step(*self._all(here, True), self._apart(here))[1]
+            if part < SHORT or np.max(np.abs(back) / self.scale, initial=0.0) <= 1e-9:
+                break
+            moved = here.y.copy()
+            moved[: self.nx] += part * back
+            there = self._search(moved)
+            nearer = there is not None and self._distance(there) < (1 - part / 4) * self._distance(here)
+            if there is not None and self._distance(there) < self._distance(here) and self._rests(there):
+                here = there
+            part = part if nearer else part / 2
+        return here
+
+    def _rests(self, here: Local) -> bool:
+        return at_rest(self.compiled, here.y, self.p, self.time, here.modes)
+
+    def _apart(self, here: Local) -> np.ndarray:
+        return (self.guess - here.y)[: self.nx]
+
+    def _distance(self, here: Local) -> float:
+        return float(np.linalg.norm(self._apart(here) / self.scale))
+
+    def _search(self, y: np.ndarray, conditions: bool = True) -> Local | None:
+        """Newton steps of least norm, as far as they lead; None where equations cannot be solved."""
+        try:
+            here = self._at(*self._close(y))
+        except InitializationError:
+            return None
+        for _ in range(NEWTON):
+            value, J = self._all(here, conditions)
+            step = self._step(value, J, np.zeros(self.nx))[0]
+            if np.max(np.abs(step) / (self.scale + np.abs(here.y[: self.nx])), initial=0.0) <= CONVERGED:
+                break
+            there = self._go(here, step / max(1.0, self._far(step) / FAR), value, J, conditions)
+            if there is None:
+                break
+            here = there
+        return here
+
+    def _go(self, here: Local, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool) -> Local | None:
+        """Shorten a step until the residuals do not grow; None if they always do."""
+        size = np.linalg.norm(J, axis=1)
+        weight = 1 / np.where(size > 0, size, 1.0)
+        for shorter in range(HALVINGS):
+            moved = here.y.copy()
+            moved[: self.nx] += step / 2**shorter
+            try:
+                there = self._at(*self._close(moved))
+            except InitializationError:
+                continue
+            left = np.linalg.norm(weight * self._all(there, conditions)[0])
+            if left <= (1 - 0.1 / 2**shorter) * np.linalg.norm(weight * value) + CONVERGED:
+                return there
+        return None
+
+    def _all(self, here: Local, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Everything that must vanish: rates, initial conditions, constraints; and its Jacobian by the states."""
+        c, value, J = self.compiled, here.rates[self.rows], here.A[self.rows]
+        if conditions:
+            value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
+        if c.closing.size:
+            off, M = c.closing(here.y[: self.nx], self.p, self.time, here.modes)
+            value, J = np.concatenate([value, off]), np.vstack([J, M])
+        return value, J
+
+    def _far(self, step: np.ndarray) -> float:
+        """How far a step leads, in nominal values of what has a rate among the states."""
+        return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
+
+    def _step(self, value: np.ndarray, J: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Least squares step for what the rows determine, and the part of a way that they leave free."""
+        # Stiff parts beside others that are held by weight alone: without equilibration these would count as free.
+        size = self.scale
+        for _ in range(2):
+            inside = np.linalg.norm(scaled(J * size), axis=0)
+            size = size / np.where(inside > FAINT, inside, 1.0)
+        length = np.linalg.norm(J * size, axis=1)
+        U, s, V = np.linalg.svd(scaled(J * size), full_matrices=True)
+        rank = int(np.sum(s > WEAK))
+        held, free = V[:rank], V[rank:]
+        step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
+        return size * step, self.scale * _along(free * size / self.scale, way / self.scale)
+
+    def _relax(self, y: np.ndarray, growth: float) -> np.ndarray:
+        """Follow the motion by steps of the linearly implicit Euler method that grow."""
+        h, nx = FIRST, self.nx
+        try:
+            here = self._at(*self._close(y))
+        except InitializationError:
+            return y
+        for _ in range(RELAXATION):
+            moving = here.rates.copy()
+            moving[np.setdiff1d(np.arange(nx), self.rows)] = 0.0
+            try:
+                step = np.linalg.solve(np.eye(nx) - h * here.A, h * moving)
+            except np.linalg.LinAlgError:
+                step = np.full(nx, np.nan)
+            if not np.all(np.isfinite(step)) or self._far(step) > FAR:
+                h /= 2
+                if h < 1e-12:
+                    break
+                continue
+            moved = here.y.copy()
+            moved[:nx] += step
+            try:
+                here = self._at(*self._close(moved))
+            except InitializationError:
+                h /= 4
+                continue
+            h *= growth
+            if h > LAST or np.max(np.abs(step) / (self.scale + np.abs(moved[:nx])), initial=0.0) < CONVERGED:
+                break
+        return here.y
+
+    def _growing(self, here: Local) -> tuple[float, np.ndarray]:
+        """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
+        N, chosen = tangent(self.compiled, here.y[: self.nx], self.p, self.time, here.modes)
+        A = (here.A @ N)[chosen]
+        if not A.size:
+            return 0.0, np.zeros(self.nx)
+        values, vectors = np.linalg.eig(A)
+        # Double zeros, of what is free to move, split by the root of rounding.
+        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))))
+        real = np.where(np.real(values) > np.maximum(floor, 1e-6 * np.abs(values)), np.real(values), 0.0)
+        k = int(np.argmax(real))
+        direction = N @ np.real(vectors[:, k])
+        return float(real[k]), PUSH * direction / (self._far(direction) or float(np.max(np.abs(direction))))
+
+
+def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """Part of a way in the space that rows span."""
+    return rows.T @ np.linalg.lstsq(rows.T, way, rcond=RANK)[0] if len(rows) else np.zeros_like(way)
+
+
+def _solve(matrix, right: np.ndarray) -> np.ndarray:
+    try:
+        return splu(matrix).solve(right)
+    except RuntimeError:
+        return np.linalg.lstsq(matrix.toarray(), right, rcond=RANK)[0]
