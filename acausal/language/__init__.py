@@ -21,7 +21,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, as_expr
+from acausal.language.expression import Equation, Expr, as_expr, quantity
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -93,6 +93,7 @@ __all__ = [
     "piecewise",
     "port",
     "potential_root",
+    "quantity",
     "reinit",
     "root",
     "rooted",

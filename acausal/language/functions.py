@@ -13,9 +13,10 @@ import casadi as ca
 from acausal.errors import DeclarationError, UnitsError
 from acausal.language.condition import Condition
 from acausal.language.events import When
-from acausal.language.expression import DIMENSIONLESS, Expr, as_expr, is_deferred
+from acausal.language import unit_rules
+from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
-from acausal.units import Dimension, parse
+from acausal.units import DIMENSIONLESS, Dimension, parse
 
 _SECOND = parse("s")
 # Without a unit, so that sin(time) is right for users who mean rad/s times time.
@@ -103,7 +104,7 @@ tanh = _elementary("tanh", ca.tanh)
 def sqrt(x: Any) -> Any:
     """Square root of an expression, entry by entry."""
     x = as_expr(x)
-    return Expr(ca.sqrt(x.sx), x.unit ** Fraction(1, 2) if isinstance(x.unit, Dimension) else None)
+    return Expr(ca.sqrt(x.sx), unit_rules.of_power(x, Fraction(1, 2)))
 
 
 @_deferrable
@@ -115,7 +116,9 @@ def sign(x: Any) -> Any:
 @_deferrable
 def atan2(y: Any, x: Any) -> Any:
     """Angle of the point (x, y) in rad, in (-pi, pi]."""
-    return Expr(ca.atan2(as_expr(y).sx, as_expr(x).sx), DIMENSIONLESS)
+    y, x = as_expr(y), as_expr(x)
+    unit_rules.common(y, x, "the arguments of atan2")
+    return Expr(ca.atan2(y.sx, x.sx), DIMENSIONLESS)
 
 
 @_deferrable
@@ -130,8 +133,8 @@ def cross(a: Any, b: Any) -> Any:
     a, b = as_expr(a), as_expr(b)
     if a.shape != (3,) or b.shape != (3,):
         raise DeclarationError(f"cross needs two vectors of length 3, not shapes {a.shape} and {b.shape}")
-    unit = a.unit * b.unit if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension) else None
-    return Expr(ca.cross(a.sx, b.sx), unit)
+    one = isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None)
+    return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
 
 def der(x: Any) -> Any:
@@ -152,7 +155,7 @@ def der(x: Any) -> Any:
     placeholder = ca.SX.sym("der", *x.sx.shape)
     pending.derivatives.append((placeholder, x.sx))
     if isinstance(x.unit, tuple):
-        unit: Any = tuple(u / _SECOND for u in x.unit)
+        unit: Any = tuple(None if u is None else u / _SECOND for u in x.unit)
     else:
         unit = x.unit / _SECOND if x.unit is not None else None
     return Expr(placeholder, unit, f"der({x.name})" if x.name else "")
@@ -182,7 +185,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(lambda *c: piecewise(*c, smooth=smooth), cases)
-    value = as_expr(cases[-1])
+    value = otherwise = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):
         if not isinstance(condition, Condition):
             raise DeclarationError(
@@ -193,6 +196,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         choice = as_expr(choice)
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
+        unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
         mode = _truth(condition) if smooth else _pending("piecewise").mode(condition)
-        value = Expr(ca.if_else(mode, choice.sx, value.sx), choice.unit if choice.unit is not None else value.unit)
+        value = Expr(ca.if_else(mode, choice.sx, value.sx), unit)
     return value
