@@ -30,6 +30,7 @@ class Pending:
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
     `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
+    `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
     """
 
     def __init__(self) -> None:
@@ -38,6 +39,8 @@ class Pending:
         self.places: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
         self.discrete: set[int] = set()
+        self.differentiated: list[ca.SX] = []
+        self.sources: list[Any] = []
 
     def mode(self, condition: Condition) -> ca.SX:
         """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
@@ -50,8 +53,18 @@ class Pending:
         return self.switches[-1][0]
 
     def place(self, origin: Any) -> None:
-        """Say where the switches come from that have been asked for since the last call."""
+        """Say where the switches and derivatives come from that have been asked for since the last call."""
         self.places += [origin] * (len(self.switches) - len(self.places))
+        self.sources += [origin] * (len(self.differentiated) - len(self.sources))
+
+    def differentiate(self, x: ca.SX) -> ca.SX:
+        """Return a placeholder for the derivative of an expression."""
+        placeholder = ca.SX.sym("der", *x.shape)
+        self.derivatives.append((placeholder, x))
+        switching = self.discrete | {mode.element_hash() for mode, _ in self.switches}
+        if switching and any(s.element_hash() in switching for s in ca.symvar(x)):
+            self.differentiated.append(x)
+        return placeholder
 
 
 def _truth(condition: Condition) -> ca.SX:
@@ -152,8 +165,7 @@ def der(x: Any) -> Any:
     """
     pending = _pending("der()")
     x = as_expr(x)
-    placeholder = ca.SX.sym("der", *x.sx.shape)
-    pending.derivatives.append((placeholder, x.sx))
+    placeholder = pending.differentiate(x.sx)
     if isinstance(x.unit, tuple):
         unit: Any = tuple(None if u is None else u / _SECOND for u in x.unit)
     else:
