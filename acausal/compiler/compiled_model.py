@@ -16,6 +16,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
+from acausal.compiler.requirements import Requirements
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
@@ -246,6 +247,11 @@ class CompiledModel:
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes; see `Settable`."""
         return self._settable.values(changes)
+
+    @property
+    def requirements(self) -> Requirements:
+        """What components require of parameters, and of variables at the start."""
+        return self._settable.requirements
 
     @cached_property
     def _settable(self) -> Settable:

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
 from acausal.flatten.instantiate import join, not_settable, numeric, walk
@@ -27,6 +28,7 @@ class Settable:
 
     def __init__(self, flat: FlatModel) -> None:
         self.flat = flat
+        self.requirements = Requirements(flat.tree, flat.parameters)
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes.
@@ -41,6 +43,7 @@ class Settable:
         values = flat.parameter_values.copy()
         for path, value in (changes or {}).items():
             self._set(values, path, value)
+        self.requirements.check(values)  # first: a negative mass may follow from a wrong diameter
         self._check_limits(values)
         return values
 

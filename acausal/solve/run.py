@@ -16,6 +16,7 @@ from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings, Trace
 from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.validity import check_start, doubts
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
     at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), task.initial)
+    check_start(compiled, at, p)
     first, at = at, go_on(compiled, p, at)
     rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
     max_order = task.max_order or order_limit(rates, stop_time - start_time)
@@ -132,6 +134,7 @@ def _result(
     z = np.vstack([first.z[None], *trace.z])
     modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
+    stats |= {"doubts": doubts(compiled, t[rows], x[rows], z[rows], modes[rows], p)}
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], p)
     if energy:
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], p)
