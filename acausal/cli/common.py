@@ -59,7 +59,7 @@ def running(json: str | None = None) -> Iterator[IO[str]]:
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
+        with _told(quiet), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
             yield standard_output
     except SimulationError as error:
         _stop(f"the simulation failed: {error}", FAILED)
@@ -70,15 +70,16 @@ def running(json: str | None = None) -> Iterator[IO[str]]:
 
 
 @contextmanager
-def _told() -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, others as Python does."""
+def _told(quiet: bool) -> Iterator[None]:
+    """Print warnings of this package as a line on standard error, or not at all, others as Python does."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
         plain = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
             if issubclass(category, AcausalWarning):
-                typer.echo(f"Warning: {message}", err=True)
+                if not quiet:
+                    typer.echo(f"Warning: {message}", err=True)
             else:
                 plain(message, category, *place)
 

@@ -117,7 +117,7 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
         given = Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
-    if given.shape != shape:
+    elif given.shape != shape:
         raise DeclarationError(f"{what} of `{path}` has shape {given.shape}; it must have shape {shape}.")
     if what == "start":
         unit_rules.common(variable, given, "its start value")

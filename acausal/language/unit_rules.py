@@ -45,6 +45,8 @@ def common(a: Expr, b: Expr, where: str) -> Unit:
 
 def of_product(a: Expr, b: Expr) -> Unit:
     """Return the unit of a * b, entry by entry."""
+    if a.unit is None and b.unit is None:
+        return None
     if is_number(a) or is_number(b):
         number, other = (a, b) if is_number(a) else (b, a)
         return None if number.sx.is_zero() else _behind_number(other)

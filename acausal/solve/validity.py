@@ -78,9 +78,10 @@ def doubts(
     found = []
     for (expectation, origin), part, whole in zip(watch.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)
-        size = float(np.nanmax(whole, initial=0.0))
-        over = np.flatnonzero(part > expectation.share * size)
-        if over.size:
-            most = f"{100 * float(part.max()) / size:.2g} %" if size > 0 else "all"
-            found.append(f"{origin}: {expectation.text} (up to {most} of it, from t = {t[rows][over[0]]:.4g} s on)")
+        so_far = np.fmax.accumulate(np.nan_to_num(whole))
+        over = part > expectation.share * so_far
+        if np.max(part) > expectation.share * so_far[-1]:
+            most = float(np.max(part[over] / so_far[over]))
+            worst = f"up to {100 * most:.2g} %" if most < 1 else "as much as all"
+            found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {t[rows][over][0]:.4g} s on)")
     return found
