@@ -70,7 +70,9 @@ class Beam(TwoFrames):
     initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
     nominal_rate: Scalar = parameter("nominal value of der(q) over that of q", unit="1/s", default=1, positive=True)
 
-    check_range: bool = structural("whether a run tells where the beam is not right", default=True, choices=(True, False))
+    check_range: bool = structural(
+        "whether a run tells where the beam is not right", default=True, choices=(True, False)
+    )
     adaptive: bool = structural("whether accuracy chooses the number of elements", default=False, choices=(True, False))
     axial: str = effect("stretch", default="dynamic", choices=("dynamic", "quasi_static", "none"))
     bending: bool = effect("bending in the xy plane", default=True)

@@ -50,10 +50,10 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 
 
 @contextmanager
-def running(json: str | None = None) -> Iterator[IO[str]]:
+def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     """Turn errors into a message and an exit status; give the stream for a JSON document.
 
-    With `json` "-" everything else that is printed goes to standard error.
+    With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
     """
     standard_output = sys.stdout
     try:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.parameters import Settable
 from acausal.flatten import flatten
 from acausal.language.component import Component
 from acausal.reduce import plan_of, reduce
@@ -42,6 +43,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         started = now
 
     flat = flatten(model, parameters)
+    Settable(flat).values(None)  # a length of 0 also breaks the structure: say first what is wrong
     lap("flatten")
     plan, linear = plan_of(flat)
     lap("analyse")

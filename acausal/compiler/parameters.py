@@ -43,8 +43,8 @@ class Settable:
         values = flat.parameter_values.copy()
         for path, value in (changes or {}).items():
             self._set(values, path, value)
-        self.requirements.check(values)  # first: a negative mass may follow from a wrong diameter
         self._check_limits(values)
+        self.requirements.check(values)
         return values
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
@@ -104,6 +104,8 @@ class Settable:
         wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
         if wrong.size:
             path, _, declared = flat.limits[owners[wrong[0]]]
+            if path in flat.bound:
+                self.requirements.check(values)  # they know the cause, such as a wrong diameter of a negative mass
             bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
             raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
 

@@ -173,7 +173,7 @@ def as_expr(value: Any) -> Expr:
 
 
 def quantity(value: Any, unit: str) -> Expr:
-    """Return a constant with a unit, for equations: quantity(100, "N/m") * self.s is a force.
+    """Return a constant with a unit, where a number alone would be a pure number.
 
     Parameters
     ----------
@@ -181,6 +181,10 @@ def quantity(value: Any, unit: str) -> Expr:
         The value in SI.
     unit : str
         SI unit of every entry.
+
+    Examples
+    --------
+    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
     """
     return Expr(as_expr(value).sx, parse(unit))
 

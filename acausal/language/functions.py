@@ -11,9 +11,9 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
+from acausal.language import unit_rules
 from acausal.language.condition import Condition
 from acausal.language.events import When
-from acausal.language import unit_rules
 from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
 from acausal.units import DIMENSIONLESS, Dimension, parse

@@ -93,7 +93,7 @@ def of_power(base: Expr, power: Any, number: bool = False) -> Unit:
     exact = Fraction(power).limit_denominator(1000)
     if abs(exact - power) > 1e-12:
         return None
-    raised = [u if u is None or exact == 1 else u**_plain(exact) for u in _entries(base)]
+    raised = [u if u is None or exact == 1 else u ** _plain(exact) for u in _entries(base)]
     return _merged([None if number and u is DIMENSIONLESS else u for u in raised])
 
 

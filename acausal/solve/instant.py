@@ -119,8 +119,8 @@ class Instants:
             moved = [*self.watched[flips].tolist(), *fires]
             after = after.copy()
             after[self.watched[flips]] = now[flips]
-            self._refuse_jumps(at, after)
             x = self._jump(at, fires, after)
+            self._refuse_jumps(at, after)
             y = algebraic(self.compiled, np.concatenate([x, at.z]), self.p, at.time, after)
             at = Point(at.time, x, y[len(x) :], after, now)
             fires, changed = [], True
