@@ -81,7 +81,7 @@ def doubts(
         so_far = np.fmax.accumulate(np.nan_to_num(whole))
         over = part > expectation.share * so_far
         if np.max(part) > expectation.share * so_far[-1]:
-            most = float(np.max(part[over] / so_far[over]))
+            most = float(np.max(part)) / so_far[-1] if so_far[-1] > 0 else 1.0
             worst = f"up to {100 * most:.2g} %" if most < 1 else "as much as all"
             found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {t[rows][over][0]:.4g} s on)")
     return found
