@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from acausal import Scalar, effect, observed, parameter, sqrt, structural
+from components.beam_range import beam_range
 from components.frame import TwoFrames
 from components.orientation import resolve2
 
@@ -33,6 +34,8 @@ class Beam(TwoFrames):
         error test follow displacements rather than the velocities of ringing at high frequency.
     adaptive : bool
         True lets simulate(accuracy=...) choose the number of elements or volumes.
+    check_range : bool
+        False keeps quiet where slopes or axial forces are too large for the frames of the beam.
     axial : "dynamic", "quasi_static" or "none"
         Stretch with its vibrations; stretch that follows the axial force at once, without inertia of its own; or none.
     bending : bool
@@ -68,6 +71,9 @@ class Beam(TwoFrames):
     initial: str = structural("state at the start", default="undeformed", choices=("undeformed", "static", "free"))
     nominal_rate: Scalar = parameter("nominal value of der(q) over that of q", unit="1/s", default=1, positive=True)
 
+    check_range: bool = structural(
+        "whether a run tells where the beam is not right", default=True, choices=(True, False)
+    )
     adaptive: bool = structural("whether accuracy chooses the number of elements", default=False, choices=(True, False))
     axial: str = effect("stretch", default="dynamic", choices=("dynamic", "quasi_static", "none"))
     bending: bool = effect("bending in the xy plane", default=True)
@@ -79,6 +85,15 @@ class Beam(TwoFrames):
     weight: bool = effect("weight", default=True)
 
     middle_r_0: ClassVar[Any]
+
+    @property
+    def frames(self) -> list[Any]:
+        """The flexible beams that it consists of, each in a frame of its own."""
+        return [self]
+
+    def validity(self):
+        if self.bending and self.check_range:
+            yield from beam_range(self, self.frames)
 
     @observed
     def middle_deflection(self):

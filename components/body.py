@@ -21,11 +21,13 @@ from acausal import (
     parameter,
     port,
     potential_root,
+    require,
     structural,
     variable,
 )
 from components.frame import Frame
 from components.orientation import axes_rotations, quaternion_of, resolve1, resolve2
+from components.rigid import wrong_inertia
 from components.world import World
 
 
@@ -39,7 +41,8 @@ class Body(Component):
     r_CM : array of 3 floats
         Centre of mass from frame_a, resolved in frame_a, in m.
     I : 3 x 3 array
-        Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2.
+        Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2. It must be that of some body, but moments
+        about axes that the body does not turn about may be left 0.
     angles_start, sequence_start, angles_fixed
         Orientation of a freely moving body at the start: angles in rad about the axes of the sequence, a guess unless
         angles_fixed. Joints that hold the body have start values of their own.
@@ -87,6 +90,9 @@ class Body(Component):
         yield self.a_0 == resolve1(frame.R, frame.a)
         yield self.w_a == w
         yield self.z_a == z
+
+    def requirements(self):
+        yield require(self.I, wrong_inertia)
 
     def initial_equations(self):
         if is_root(self.frame_a):

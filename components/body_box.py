@@ -4,9 +4,26 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import DeclarationError, Matrix33, Scalar, Vector3, as_expr, cross, dot, parameter, sqrt, structural
+import numpy as np
+
+from acausal import (
+    DeclarationError,
+    Matrix33,
+    Scalar,
+    Vector3,
+    as_expr,
+    cross,
+    dot,
+    parameter,
+    require,
+    sqrt,
+    structural,
+)
 from components.orientation import outer_product
 from components.two_frame_body import TwoFrameBody
+from components.world import require_direction
+
+PARALLEL = 1e-6  # sine of an angle below which two directions are one
 
 
 class BodyBox(TwoFrameBody):
@@ -39,6 +56,18 @@ class BodyBox(TwoFrameBody):
     r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
     I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.box_inertia())
 
+    def requirements(self):
+        name = self._path or "BodyBox"
+        yield require(self.length > 0, f"`r` of {name} has length 0; give the axis of the box, r=(1, 0, 0)")
+        given = self._direction()
+        aside = cross(given, self.r / self.length)
+        text = (
+            f"`width_direction` of {name} lies along `r`, so that it names no side of the box; give a direction across, "
+            "such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
+        )
+        yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(given, given)), text)
+        yield from super().requirements()
+
     @property
     def length(self) -> Any:
         """Length in m."""
@@ -51,13 +80,23 @@ class BodyBox(TwoFrameBody):
             raise DeclarationError(
                 f"`r` of {self._path} (BodyBox) has length 0; give the axis of the box, r=(1, 0, 0)."
             )
-        given = self.width_direction
-        if given is None:
-            given = (1.0, 0.0, 0.0) if zero[0] and zero[2] else (0.0, 1.0, 0.0)
-        along = self.r / self.length
+        given, along = self._direction(), self.r / self.length
         across = as_expr(given) - dot(given, along) * along
         across = across / sqrt(dot(across, across))
         return along, across, cross(along, across)
+
+    def _direction(self) -> tuple[float, ...]:
+        """Direction of the width as given, or y, or x for a box along y."""
+        given = self.width_direction
+        if given is not None:
+            array = np.asarray(given)
+            if array.shape != (3,) or array.dtype.kind not in "iuf" or not np.all(np.isfinite(array)):
+                where = f"{self._path} (BodyBox)"
+                raise DeclarationError(f"`width_direction` of {where} is {given!r}; give three numbers, (0, 1, 0).")
+            require_direction(self, array, "width_direction")
+            return tuple(float(entry) for entry in array)
+        along_y = self.r[0].sx.is_zero() and self.r[2].sx.is_zero()
+        return (1.0, 0.0, 0.0) if along_y else (0.0, 1.0, 0.0)
 
     def box_inertia(self) -> Any:
         """Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2."""

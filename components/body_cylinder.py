@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import DeclarationError, Matrix33, Scalar, Vector3, dot, parameter, sqrt
+from acausal import DeclarationError, Matrix33, Scalar, Vector3, dot, parameter, require, sqrt
 from components.orientation import outer_product
 from components.two_frame_body import TwoFrameBody
 
@@ -36,6 +36,13 @@ class BodyCylinder(TwoFrameBody):
     I: Matrix33 = parameter(
         "inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.cylinder_inertia()
     )
+
+    def requirements(self):
+        name = self._path or "BodyCylinder"
+        yield require(dot(self.r, self.r) > 0, f"`r` of {name} has length 0; give its axis, r=(1, 0, 0)")
+        text = f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 if it has none"
+        yield require(self.inner_diameter < self.diameter, text)
+        yield from super().requirements()
 
     def cylinder_mass(self) -> Any:
         """Mass in kg."""

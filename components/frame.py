@@ -38,7 +38,7 @@ class Frame(Connector):
     z: Vector3 = variable("angular acceleration, resolved in this frame", unit="rad/s2")
     f: Vector3 = flow("cut force, resolved in this frame", unit="N")
     t: Vector3 = flow("cut torque, resolved in this frame", unit="N.m")
-    Q: Any = variable("quaternion of a free frame", shape=(4,), start=(0, 0, 0, 1), root=True)
+    Q: Any = variable("quaternion of a free frame", unit="1", shape=(4,), start=(0, 0, 0, 1), root=True)
 
     def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
         """Motion of a rigid frame, resolved in its own axes."""

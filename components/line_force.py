@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Scalar, dot, parameter, piecewise, sqrt, variable
+from acausal import Scalar, dot, parameter, piecewise, require, sqrt, variable
 from components.frame import TwoFrames
 from components.orientation import resolve1, resolve2
 
@@ -41,6 +41,14 @@ class LineForce(TwoFrames):
         yield b.f == resolve2(b.R, e_0 * self.f)
         yield a.t == (0, 0, 0)
         yield b.t == (0, 0, 0)
+
+    def requirements(self):
+        name = self._path or type(self).__name__
+        yield require(
+            self.s > 1.5 * self.s_small,
+            f"the ends of {name} coincide at the start, so that its force has no direction; place frame_a and frame_b "
+            "apart, for instance by FixedTranslation(r=...), or start a joint elsewhere: Prismatic(s=fixed(0.1))",
+        )
 
     def law(self) -> Any:
         """Yield the equation of f."""

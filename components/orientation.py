@@ -28,7 +28,7 @@ class RelativeOrientation:
 class Orientation(Record):
     """Orientation of a frame relative to the world."""
 
-    T: Matrix33 = variable("rotation matrix from the world to this frame", start=np.eye(3))
+    T: Matrix33 = variable("rotation matrix from the world to this frame", unit="1", start=np.eye(3))
     w: Vector3 = variable("angular velocity, resolved in this frame", unit="rad/s")
 
 

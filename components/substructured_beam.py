@@ -53,9 +53,15 @@ class SubstructuredBeam(Beam):
                 geometric_stiffness=self.geometric_stiffness,
                 damping=self.damping,
                 weight=self.weight,
+                check_range=False,
             )
             for _ in range(self.volumes)
         ]
+
+    @property
+    def frames(self) -> list[Any]:
+        """The volumes."""
+        return self.volume
 
     def connections(self):
         yield connect(self.frame_a, self.volume[0].frame_a)

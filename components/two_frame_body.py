@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Vector3, connect, effect, part, structural, variable
+from acausal import Vector3, connect, effect, part, require, structural, variable
 from components.body import Body
 from components.frame import TwoFrames
+from components.rigid import wrong_inertia
 from components.translation import FixedTranslation
 
 
@@ -57,6 +58,9 @@ class TwoFrameBody(TwoFrames):
         yield connect(self.frame_a, self.body.frame_a)
         yield connect(self.frame_a, self.frame_translation.frame_a)
         yield connect(self.frame_translation.frame_b, self.frame_b)
+
+    def requirements(self):
+        yield require(self.I, wrong_inertia)
 
     def equations(self):
         for name in ("r_0", "v_0", "a_0", "w_a", "z_a"):

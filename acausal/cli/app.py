@@ -98,7 +98,7 @@ def simulate(
     quiet: Quiet = False,
 ) -> None:
     """Simulate a scene."""
-    with running(json) as standard_output:
+    with running(json, quiet) as standard_output:
         import acausal as ac
 
         files = Files(scene, csv, plot, json, standard_output)

@@ -53,16 +53,16 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 
 
 @contextmanager
-def running(json: str | None = None) -> Iterator[IO[str]]:
+def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     """Turn errors into a message and an exit status; give the stream for a JSON document.
 
-    With `json` "-" everything else that is printed goes to standard error.
+    With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
     """
     standard_output = sys.stdout
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(), _terminable(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
+        with _told(quiet), _terminable(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
             yield standard_output
     except SimulationError as error:
         _stop(f"the simulation failed: {error}", FAILED)
@@ -97,8 +97,8 @@ def _terminable() -> Iterator[None]:
 
 
 @contextmanager
-def _told() -> Iterator[None]:
-    """Print warnings of this package as a line on standard error, each text once, others as Python does."""
+def _told(quiet: bool) -> Iterator[None]:
+    """Print warnings of this package as a line on standard error, each text once or none at all, others as Python does."""
     told: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", AcausalWarning)
@@ -107,7 +107,7 @@ def _told() -> Iterator[None]:
         def show(message: Warning | str, category: type[Warning], *place: Any) -> None:
             if not issubclass(category, AcausalWarning):
                 plain(message, category, *place)
-            elif str(message) not in told:
+            elif not quiet and str(message) not in told:
                 told.add(str(message))
                 typer.echo(f"Warning: {message}", err=True)
 

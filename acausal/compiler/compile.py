@@ -8,6 +8,7 @@ from typing import Any
 
 from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.parameters import Settable
 from acausal.compiler.source import Source
 from acausal.flatten import flatten
 from acausal.language.component import Component
@@ -46,6 +47,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         started = now
 
     flat = flatten(model, parameters)
+    Settable(flat).values(None)  # a length of 0 also breaks the structure: say first what is wrong
     lap("flatten")
     plan, linear = plan_of(flat)
     lap("analyse")

@@ -17,6 +17,7 @@ from acausal.compiler.closing import Closing
 from acausal.compiler.dependence import Dependence
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
+from acausal.compiler.requirements import Requirements
 from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
@@ -302,6 +303,11 @@ class CompiledModel:
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes; see `Settable`."""
         return self._settable.values(changes)
+
+    @property
+    def requirements(self) -> Requirements:
+        """What components require of parameters, and of variables at the start."""
+        return self._settable.requirements
 
     @cached_property
     def _settable(self) -> Settable:

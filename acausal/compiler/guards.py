@@ -13,6 +13,7 @@ from acausal.compiler.clock import by_clock
 from acausal.compiler.dependence import Dependence
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
+from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
@@ -106,6 +107,25 @@ class Guards:
         inclusive = [guard.inclusive for guard in self.guards]
         modes = [e <= 0 if inside else e < 0 for e, inside in zip(switches, inclusive, strict=False)]
         return ca.vertcat(ca.SX(0, 1), *modes, self._resolve([s for _, s in self.reduced.flat.discretes]))
+
+    @cached_property
+    def continuous(self) -> Call:
+        """Function of x, z, parameters, time, modes and new modes: what is differentiated, and so must not jump.
+
+        All unknowns are those before the instant; the switches of the entries themselves take the new modes.
+        """
+        new = ca.SX.sym("new", self.reduced.modes.numel())
+        entries = ca.substitute([e for e, _ in self._entries], [self.reduced.modes], [new])
+        return Call(ca.Function("continuous", [*self.arguments, new], [self._resolve(entries)]))
+
+    @property
+    def differentiated(self) -> list[Origin]:
+        """Where each entry of `continuous` comes from."""
+        return [origin for _, origin in self._entries]
+
+    @cached_property
+    def _entries(self) -> list[tuple[ca.SX, Origin]]:
+        return [(e, origin) for column, origin in self.reduced.continuous for e in scalars(ca.vec(ca.densify(column)))]
 
     @cached_property
     def scale(self) -> Call:

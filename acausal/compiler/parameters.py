@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
 from acausal.flatten.instantiate import join, not_settable, numeric, walk
@@ -27,6 +28,7 @@ class Settable:
 
     def __init__(self, flat: FlatModel) -> None:
         self.flat = flat
+        self.requirements = Requirements(flat.tree, flat.parameters)
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes.
@@ -42,6 +44,7 @@ class Settable:
         for path, value in (changes or {}).items():
             self._set(values, path, value)
         self._check_limits(values)
+        self.requirements.check(values)
         return values
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
@@ -101,6 +104,8 @@ class Settable:
         wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
         if wrong.size:
             path, _, declared = flat.limits[owners[wrong[0]]]
+            if path in flat.bound:
+                self.requirements.check(values)  # they know the cause, such as a wrong diameter of a negative mass
             bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
             raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
 

@@ -54,6 +54,7 @@ class Assembly:
         self.discretes = tuple(
             zip([ca.vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)
         )
+        self.continuous = tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True))
         self.modes = column([*[mode for mode, _ in raw.pending.switches], *[symbol for symbol, _ in self.discretes]])
         self.origins = raw.equations.scalar_origins()
         self.substitutes = {c.row: len(self.origins) + k for k, c in enumerate(closures)}
@@ -121,6 +122,7 @@ class Assembly:
             switches=tuple((m, g.excess) for (m, _), g in zip(raw.pending.switches, self.guards, strict=False)),
             guards=self.guards,
             discretes=self.discretes,
+            continuous=self.continuous,
             initial=self._initial(was, becomes),
             eliminated=eliminated,
             energies=self.energies,

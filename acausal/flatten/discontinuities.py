@@ -12,6 +12,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import join, unit_of
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
+from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
@@ -33,10 +34,13 @@ class Discrete:
         """Value at the start, a column; the variables of the owner must exist by now."""
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.Start) else f.evaluate(self.declared.start, self.owner)
-        sx = ca.densify(ca.vec(as_expr(value).sx))
+        given = as_expr(value)
+        sx = ca.densify(ca.vec(given.sx))
         size = self.expr.sx.numel()
         if sx.numel() not in (1, size):
             raise DeclarationError(f"start of `{self.expr.name}` has {sx.numel()} entries; it must have {size}.")
+        if given.shape == self.expr.shape:
+            unit_rules.common(self.expr, given, "its start value")
         return sx if sx.numel() == size else ca.repmat(sx, size, 1)
 
 

@@ -104,6 +104,8 @@ class FlatModel:
         Conditions that are watched: one for each switch, then one for each statement of jumps.
     discretes : tuple of (casadi.SX, casadi.SX)
         Symbols of the discrete variables, and their values at the start.
+    continuous : tuple of (casadi.SX, Origin)
+        Expressions that der() differentiates and that switches change: they must not jump.
     initial : tuple of Initial
         Fixed start values and initial equations.
     eliminated : (casadi.SX, casadi.SX)
@@ -143,6 +145,7 @@ class FlatModel:
     switches: tuple[tuple[ca.SX, ca.SX], ...]
     guards: tuple[Guard, ...]
     discretes: tuple[tuple[ca.SX, ca.SX], ...]
+    continuous: tuple[tuple[ca.SX, Origin], ...]
     initial: tuple[Initial, ...]
     eliminated: tuple[ca.SX, ca.SX]
     energies: Mapping[str, ca.SX]

@@ -10,6 +10,7 @@ import casadi as ca
 from acausal.flatten.assembly import Assembly
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
+from acausal.flatten.foreign import refuse_calls
 from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column, hear
@@ -37,6 +38,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         Where the model is wrong, with component and line.
     """
     raw = hear(model, overrides)
+    refuse_calls(raw)
     variables = column([ca.vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
     declared = _declared(raw)

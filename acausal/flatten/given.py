@@ -10,12 +10,13 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.errors import DeclarationError, UnitsError
+from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
+from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
-from acausal.units import Dimension, parse
+from acausal.units import parse
 
 
 @dataclass
@@ -142,8 +143,7 @@ class Given:
             given = as_expr(value)
             if given.shape != (shape or ()):
                 raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
-            if isinstance(given.unit, Dimension) and isinstance(unit, Dimension) and given.unit != unit:
-                raise UnitsError(f"{where} is in [{unit}], but {given!r} is in [{given.unit}].")
+            unit_rules.common(Expr(given.sx, unit, where), given, "its value")
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:

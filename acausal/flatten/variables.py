@@ -12,6 +12,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import join, unit_of, walk
 from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
+from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
 from acausal.units import Dimension
@@ -102,25 +103,28 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
             expr,
             declared,
             owner,
-            _fill(start.value, shape, path, "start"),
+            _fill(start.value, shape, expr, "start"),
             start.fixed,
             isinstance(given, f.Start),
-            _fill(1.0 if nominal is None else nominal, shape, path, "nominal"),
+            _fill(1.0 if nominal is None else nominal, shape, expr, "nominal"),
             nominal is not None,
         )
     )
     return expr
 
 
-def _fill(value: Any, shape: tuple[int, ...], path: str, what: str) -> Expr:
-    """Return the value as an expression of the given shape; one number fills an array."""
+def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr:
+    """Return the value as an expression of the given shape and unit; one number fills an array."""
+    path = variable.name
     if callable(value):
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
     given = as_expr(value)
     if given.sx.is_constant() and not given.sx.is_regular():
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
-        return Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
-    if given.shape != shape:
+        given = Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
+    elif given.shape != shape:
         raise DeclarationError(f"{what} of `{path}` has shape {given.shape}; it must have shape {shape}.")
+    if what == "start":
+        unit_rules.common(variable, given, "its start value")
     return given

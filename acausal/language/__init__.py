@@ -21,7 +21,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, as_expr
+from acausal.language.expression import Equation, Expr, as_expr, quantity
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -43,6 +43,7 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.types import Matrix33, Scalar, Vector3
+from acausal.language.validity import Expectation, Requirement, expect, require
 
 __all__ = [
     "ALWAYS",
@@ -54,11 +55,13 @@ __all__ = [
     "Condition",
     "Connector",
     "Equation",
+    "Expectation",
     "Expr",
     "Matrix33",
     "Model",
     "Path",
     "Record",
+    "Requirement",
     "Scalar",
     "Vector3",
     "When",
@@ -76,6 +79,7 @@ __all__ = [
     "dot",
     "effect",
     "exp",
+    "expect",
     "fixed",
     "flow",
     "guess",
@@ -93,7 +97,9 @@ __all__ = [
     "piecewise",
     "port",
     "potential_root",
+    "quantity",
     "reinit",
+    "require",
     "root",
     "rooted",
     "sign",

@@ -98,6 +98,14 @@ class Component(f.Template):
     def check(self) -> None:
         """Raise DeclarationError where the structural parameters contradict each other."""
 
+    def requirements(self) -> Iterator[Any]:
+        """Yield require(...): conditions on parameters, and on variables at the start, that must hold."""
+        yield from ()
+
+    def validity(self) -> Iterator[Any]:
+        """Yield expect(...): what the component neglects, and how large that may be."""
+        yield from ()
+
     def stored_energy(self) -> Any:
         """Energy in J that the component holds: kinetic, elastic and potential."""
         return 0

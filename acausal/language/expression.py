@@ -9,12 +9,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.errors import DeclarationError, UnitsError
+from acausal.errors import DeclarationError
+from acausal.language import unit_rules
 from acausal.language.condition import Condition
+from acausal.language.unit_rules import Unit
 from acausal.units import Dimension, parse
-
-DIMENSIONLESS = parse("1")
-Unit = Dimension | tuple[Dimension, ...] | None
 
 
 class Expr:
@@ -25,7 +24,7 @@ class Expr:
     sx : casadi.SX
         The expression; a scalar is 1 x 1, a vector n x 1.
     unit : Dimension, tuple of Dimension or None
-        Its unit, one for each row, or None where it is not known (numeric literals).
+        Its unit, one for each row, or None where it is not known (as of numbers).
     name : str
         The path of a declared variable or parameter, for messages.
     """
@@ -73,7 +72,7 @@ class Expr:
         except RuntimeError:
             raise IndexError(f"index {index} is outside of {self!r} of shape {self.shape}") from None
         if isinstance(self.unit, tuple):
-            unit: Unit = self.unit[index] if isinstance(index, int | slice) else None
+            unit: Unit = self.unit[index] if isinstance(index, int | slice) else None  # type: ignore[assignment]
         else:
             unit = self.unit
         return Expr(sx, unit, f"{self.name}[{index}]" if self.name and isinstance(index, int) else "")
@@ -118,9 +117,7 @@ class Expr:
         return self
 
     def __pow__(self, power: Any) -> Any:
-        known = isinstance(self.unit, Dimension) and isinstance(power, int | float) and float(power).is_integer()
-        unit = self.unit ** int(power) if known else None  # type: ignore[operator]
-        return Expr(self.sx ** as_expr(power).sx, unit)
+        return Expr(self.sx ** as_expr(power).sx, unit_rules.of_power(self, power))
 
     def __eq__(self, other: object) -> Any:
         return equation(self, other)
@@ -182,11 +179,26 @@ def as_expr(value: Any) -> Expr:
         rows = [as_expr(item) for item in value]
         matrix = any(len(row.shape) == 1 for row in rows)
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
-        units = [row.unit for row in rows]
-        known = all(isinstance(u, Dimension) for u in units) and not matrix
-        return Expr(sx, (units[0] if len(set(units)) == 1 else tuple(units)) if known else None)  # type: ignore[arg-type]
+        return Expr(sx, unit_rules.of_array(rows))
     shown = getattr(value, "__name__", None) or repr(value)
     raise DeclarationError(f"cannot use a {type(value).__name__} ({shown}) in an expression; give a number or a symbol")
+
+
+def quantity(value: Any, unit: str) -> Expr:
+    """Return a constant with a unit, where a number alone would be a pure number.
+
+    Parameters
+    ----------
+    value : float or array
+        The value in SI.
+    unit : str
+        SI unit of every entry.
+
+    Examples
+    --------
+    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
+    """
+    return Expr(as_expr(value).sx, parse(unit))
 
 
 def equation(lhs: Any, rhs: Any) -> Any:
@@ -207,7 +219,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
             f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
             "Both need one shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
-    _same_unit(a, b, "==")
+    unit_rules.common(a, b, "joined by `==`")
     return Equation(a, b)
 
 
@@ -221,27 +233,13 @@ def _short(value: Expr) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _same_unit(a: Expr, b: Expr, operator: str) -> Unit:
-    """Return the common unit; None fits everything."""
-    if a.unit is None or b.unit is None:
-        return a.unit if b.unit is None and not b.sx.is_constant() else (b.unit if a.unit is None else a.unit)
-    if a.unit is b.unit or a.unit == b.unit:
-        return a.unit
-    if isinstance(a.unit, tuple) != isinstance(b.unit, tuple):
-        one, many = (a, b) if isinstance(b.unit, tuple) else (b, a)
-        if all(u == one.unit for u in many.unit):  # type: ignore[union-attr]
-            return one.unit
-    show = [", ".join(map(str, u)) if isinstance(u, tuple) else str(u) for u in (a.unit, b.unit)]
-    raise UnitsError(f"units differ: {_short(a)} is in [{show[0]}], {_short(b)} in [{show[1]}], joined by `{operator}`")
-
-
 def _sum(left: Any, right: Any, symbol: str, operate: Callable[[Any, Any], Any]) -> Any:
     if is_deferred(left, right):
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if a.shape != b.shape:
         raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} {symbol} {_short(b)}")
-    return Expr(operate(a.sx, b.sx), _same_unit(a, b, symbol))
+    return Expr(operate(a.sx, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"))
 
 
 def _product(left: Any, right: Any) -> Any:
@@ -252,7 +250,7 @@ def _product(left: Any, right: Any) -> Any:
         raise DeclarationError(
             f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices"
         )
-    return Expr(a.sx * b.sx, _times(a.unit, b.unit))
+    return Expr(a.sx * b.sx, unit_rules.of_product(a, b))
 
 
 def _matrix_product(left: Any, right: Any) -> Any:
@@ -263,7 +261,7 @@ def _matrix_product(left: Any, right: Any) -> Any:
     if not a.shape or not b.shape or left.shape[1] != b.sx.shape[0]:
         raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} @ {_short(b)}")
     sx = left @ b.sx
-    return Expr(sx.T if len(a.shape) == 1 and len(b.shape) == 2 else sx, _times(a.unit, b.unit))
+    return Expr(sx.T if len(a.shape) == 1 and len(b.shape) == 2 else sx, unit_rules.of_inner_product(a, b))
 
 
 def _quotient(left: Any, right: Any) -> Any:
@@ -272,9 +270,4 @@ def _quotient(left: Any, right: Any) -> Any:
     a, b = as_expr(left), as_expr(right)
     if b.shape:
         raise DeclarationError(f"cannot divide by an array of shape {b.shape}: {_short(b)}")
-    unit = a.unit / b.unit if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension) else None
-    return Expr(a.sx / b.sx, unit)
-
-
-def _times(a: Unit, b: Unit) -> Unit:
-    return a * b if isinstance(a, Dimension) and isinstance(b, Dimension) else None
+    return Expr(a.sx / b.sx, unit_rules.of_quotient(a, b))

@@ -11,11 +11,12 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
+from acausal.language import unit_rules
 from acausal.language.condition import Condition
 from acausal.language.events import When
-from acausal.language.expression import DIMENSIONLESS, Expr, as_expr, is_deferred
+from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
-from acausal.units import Dimension, parse
+from acausal.units import DIMENSIONLESS, Dimension, parse
 
 _SECOND = parse("s")
 # Without a unit, so that sin(time) is right for users who mean rad/s times time.
@@ -30,6 +31,7 @@ class Pending:
     `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
     `watches` is false while start values are formed, which need no switches.
+    `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
     """
 
     def __init__(self) -> None:
@@ -39,6 +41,8 @@ class Pending:
         self.whens: list[tuple[When, Any]] = []
         self.discrete: set[int] = set()
         self.watches = True
+        self.differentiated: list[ca.SX] = []
+        self.sources: list[Any] = []
 
     def mode(self, condition: Condition) -> ca.SX:
         """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
@@ -51,8 +55,18 @@ class Pending:
         return self.switches[-1][0]
 
     def place(self, origin: Any) -> None:
-        """Say where the switches come from that have been asked for since the last call."""
+        """Say where the switches and derivatives come from that have been asked for since the last call."""
         self.places += [origin] * (len(self.switches) - len(self.places))
+        self.sources += [origin] * (len(self.differentiated) - len(self.sources))
+
+    def differentiate(self, x: ca.SX) -> ca.SX:
+        """Return a placeholder for the derivative of an expression."""
+        placeholder = ca.SX.sym("der", *x.shape)
+        self.derivatives.append((placeholder, x))
+        switching = self.discrete | {mode.element_hash() for mode, _ in self.switches}
+        if switching and any(s.element_hash() in switching for s in ca.symvar(x)):
+            self.differentiated.append(x)
+        return placeholder
 
 
 def _truth(condition: Condition) -> ca.SX:
@@ -105,7 +119,7 @@ tanh = _elementary("tanh", ca.tanh)
 def sqrt(x: Any) -> Any:
     """Square root of an expression, entry by entry."""
     x = as_expr(x)
-    return Expr(ca.sqrt(x.sx), x.unit ** Fraction(1, 2) if isinstance(x.unit, Dimension) else None)
+    return Expr(ca.sqrt(x.sx), unit_rules.of_power(x, Fraction(1, 2)))
 
 
 @_deferrable
@@ -125,7 +139,9 @@ def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
 @_deferrable
 def atan2(y: Any, x: Any) -> Any:
     """Angle of the point (x, y) in rad, in (-pi, pi]."""
-    return Expr(ca.atan2(as_expr(y).sx, as_expr(x).sx), DIMENSIONLESS)
+    y, x = as_expr(y), as_expr(x)
+    unit_rules.common(y, x, "the arguments of atan2")
+    return Expr(ca.atan2(y.sx, x.sx), DIMENSIONLESS)
 
 
 @_deferrable
@@ -140,8 +156,8 @@ def cross(a: Any, b: Any) -> Any:
     a, b = as_expr(a), as_expr(b)
     if a.shape != (3,) or b.shape != (3,):
         raise DeclarationError(f"cross needs two vectors of length 3, not shapes {a.shape} and {b.shape}")
-    unit = a.unit * b.unit if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension) else None
-    return Expr(ca.cross(a.sx, b.sx), unit)
+    one = isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None)
+    return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
 
 def der(x: Any) -> Any:
@@ -159,10 +175,9 @@ def der(x: Any) -> Any:
     """
     pending = _pending("der()")
     x = as_expr(x)
-    placeholder = ca.SX.sym("der", *x.sx.shape)
-    pending.derivatives.append((placeholder, x.sx))
+    placeholder = pending.differentiate(x.sx)
     if isinstance(x.unit, tuple):
-        unit: Any = tuple(u / _SECOND for u in x.unit)
+        unit: Any = tuple(None if u is None else u / _SECOND for u in x.unit)
     else:
         unit = x.unit / _SECOND if x.unit is not None else None
     return Expr(placeholder, unit, f"der({x.name})" if x.name else "")
@@ -192,7 +207,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(partial(piecewise, smooth=smooth), cases)
-    value = as_expr(cases[-1])
+    value = otherwise = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):
         if not isinstance(condition, Condition):
             raise DeclarationError(
@@ -203,6 +218,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         choice = as_expr(choice)
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
+        unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
         mode = _truth(condition) if smooth else _pending("piecewise").mode(condition)
-        value = Expr(ca.if_else(mode, choice.sx, value.sx), choice.unit if choice.unit is not None else value.unit)
+        value = Expr(ca.if_else(mode, choice.sx, value.sx), unit)
     return value

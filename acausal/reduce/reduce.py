@@ -6,6 +6,7 @@ import casadi as ca
 
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel
+from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
@@ -73,7 +74,23 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
         values, ode, alg = _inline(assigned, values, ode, alg)
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
-    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, closing)
+    continuous = flat.continuous + _switching(flat, plan, residuals)
+    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, closing, continuous)
+
+
+def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tuple[ca.SX, Origin], ...]:
+    """Residuals that are differentiated and that switches change."""
+    if not flat.modes.numel():
+        return ()
+    source = [*range(len(flat.origins)), *plan.differentiated]
+    found = []
+    for row in dict.fromkeys(plan.differentiated):
+        if ca.depends_on(residuals[row], flat.modes):
+            first = row
+            while first >= len(flat.origins):
+                first = source[first]
+            found.append((residuals[row], flat.origins[first]))
+    return tuple(found)
 
 
 def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:

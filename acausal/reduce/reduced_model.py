@@ -8,6 +8,7 @@ from functools import cached_property
 import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.flatten.origin import Origin
 from acausal.reduce.constrain import Closing
 from acausal.structure import Plan
 
@@ -32,6 +33,8 @@ class ReducedModel:
         Unknowns that were assigned or are observed, in order of evaluation, and what they are.
     closing : Closing
         Constraints that hold at several levels.
+    continuous : tuple of (casadi.SX, Origin)
+        What is differentiated although switches change it: it must not jump.
     """
 
     flat: FlatModel
@@ -44,6 +47,7 @@ class ReducedModel:
     alg: ca.SX
     definitions: tuple[ca.SX, ca.SX]
     closing: Closing
+    continuous: tuple[tuple[ca.SX, Origin], ...]
 
     @cached_property
     def modes(self) -> ca.SX:

@@ -12,10 +12,12 @@ from acausal.errors import InitializationError
 from acausal.solve.closed_start import leave_singular
 from acausal.solve.closing import CLOSED, close, refuse_open_loops
 from acausal.solve.initialize import algebraic, initialize
+from acausal.solve.integrate import Failure
 from acausal.solve.projection import choose_projection
 
 ROUNDS = 20
 SHORT = 1e-8  # of the run: what changes sign within that time does so now
+JUMP = 1e-5  # less is the error with which an event is located
 
 
 @dataclass(frozen=True)
@@ -122,10 +124,28 @@ class Instants:
             after = after.copy()
             after[self.watched[flips]] = now[flips]
             x = self._jump(at, fires, after)
+            self._refuse_jumps(at, after)
             y = algebraic(self.compiled, np.concatenate([x, at.z]), self.p, at.time, after)
             at = Point(at.time, x, y[len(x) :], after, now)
             fires, changed = [], True
         raise Cycling(moved)
+
+    def _refuse_jumps(self, at: Point, modes: np.ndarray) -> None:
+        """Refuse that something jumps of which a derivative is in the equations."""
+        if not self.guards.differentiated:
+            return
+        here = at.x, at.z, self.p, at.time, at.modes
+        before, after = (self.guards.continuous(*here, new)[0].copy() for new in (at.modes, modes))
+        jumps = np.nan_to_num(np.abs(after - before))
+        worst = int(np.argmax(jumps))
+        if jumps[worst] > JUMP:
+            raise Failure(
+                at.time,
+                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}, and no "
+                "derivative is as fast as a jump. Let the cases of piecewise meet where they switch: a speed by a ramp, "
+                "piecewise((0, time < t1), (c * (time - t1), time < t2), c * (t2 - t1)), an angle with its slope as well; "
+                "or let a state jump by when(..., reinit(...))",
+            )
 
     def _jump(self, at: Point, fires: list[int], modes: np.ndarray) -> np.ndarray:
         """Return the states after jumps computed from the values before; discrete variables change in `modes`.

@@ -18,6 +18,7 @@ from acausal.solve.integrate import Failure, Integrator, Progress, Settings
 from acausal.solve.order import eigenvalues_of, order_limit
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
+from acausal.solve.validity import check_start, doubts
 
 APART = 1e-12  # of the time: less is no room for an integration
 
@@ -55,6 +56,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     times[-1] = stop_time
     breaks = _breaks(compiled, p, start_time, stop_time)
     at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), task.initial)
+    check_start(compiled, at, p)
     first, at = at, go_on(compiled, p, at)
     rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
     max_order = task.max_order or order_limit(rates, stop_time - start_time)
@@ -150,6 +152,7 @@ def _result(
     modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
+    stats["doubts"] = doubts(compiled, evaluate)
     if energy:
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]

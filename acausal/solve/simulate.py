@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel, compile
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
@@ -100,12 +100,30 @@ def simulate(
     _choose("method", method, METHODS)
     _choose("constraints", constraints, CONSTRAINTS)
     task = Task(start_time, stop_time, tolerance, intervals, initial, method, constraints, max_order, energy, progress)
+    try:
+        result = _simulate(model, parameters, task, accuracy)
+    except SimulationError as failure:
+        _warn(failure.result)
+        raise
+    _warn(result)
+    return result
+
+
+def _simulate(
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task, accuracy: float | None
+) -> Result:
     if accuracy is not None:
         return reach(accuracy, Trials(model, parameters, task))
     if isinstance(model, CompiledModel):
         return run(model, model.parameter_values(parameters), task)
     compiled = compile(model, parameters)
     return run(compiled, compiled.parameter_values(None), task)
+
+
+def _warn(result: object) -> None:
+    """Tell where components were used outside of their range."""
+    for doubt in result.stats.get("doubts", ()) if isinstance(result, Result) else ():
+        caution(doubt)
 
 
 def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Expr, Scalar, der, discrete, piecewise, reinit, sign, when
+from acausal import Expr, Scalar, der, discrete, piecewise, quantity, reinit, sign, when
 from components.rotational.compliant import Compliant
 
 
@@ -20,7 +20,8 @@ class Slipping(Compliant):
     def law(self) -> Any:
         """Relative acceleration 0 or torque of sliding."""
         stuck = (self.mode > -0.5) & (self.mode < 0.5)
-        yield piecewise((der(self.w_rel), stuck), self.tau - self.mode * self.dragging()) == 0
+        inertia = quantity(1.0, "kg.m2")  # both cases are torques
+        yield piecewise((inertia * der(self.w_rel), stuck), self.tau - self.mode * self.dragging()) == 0
         for sense in (1, -1):
             slides, torque = sense * self.mode > 0.5, sense * self.tau
             breaks = (reinit(self.mode, sense), reinit(self.w_stuck, self.w_rel))

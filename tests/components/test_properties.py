@@ -208,6 +208,9 @@ class OnRevolute(Scene):
         yield from self.path(self.it)
 
 
+BRAKE = ac.quantity(3.0, "N.s/m")
+
+
 class Rod(Component):
     """A drive rod that pushes with a force that varies and is braked, as a flange's neighbour in a scene."""
 
@@ -217,7 +220,7 @@ class Rod(Component):
 
     def equations(self):
         yield self.v == ac.der(self.flange.s)
-        yield self.flange.f == -20 * sin(5 * time) + 3.0 * self.v
+        yield self.flange.f == -20 * sin(5 * time) + BRAKE * self.v
 
     def supplied_power(self):
         """Power of the push."""
@@ -225,7 +228,7 @@ class Rod(Component):
 
     def dissipated_power(self):
         """Power of the brake."""
-        return 3.0 * self.v**2
+        return BRAKE * self.v**2
 
 
 class OnPrismatic(OnSpherical):

@@ -282,7 +282,7 @@ class DrivenSlide(Model):
         yield chain(self.world, self.slide, self.body)
 
     def equations(self):
-        yield self.slide.axis.f == 50 - 100 * self.slide.s
+        yield self.slide.axis.f == 50 - ac.quantity(100, "N/m") * self.slide.s
 
 
 def test_a_drive_rod_must_be_connected_to_be_driven():

@@ -22,6 +22,7 @@ from acausal import (
     output,
     parameter,
     piecewise,
+    quantity,
     reinit,
     sin,
     sqrt,
@@ -45,7 +46,7 @@ class Ball(Model):
         yield when(self.h < 0, reinit(self.v, -self.e * self.v))
 
     def stored_energy(self):
-        return G * self.h + self.v**2 / 2
+        return quantity(G, "m/s2") * self.h + self.v**2 / 2
 
 
 def impacts(e: float, stop: float, h: float = 1.0) -> np.ndarray:

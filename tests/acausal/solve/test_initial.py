@@ -205,7 +205,7 @@ def test_steady_start_of_a_heated_tank() -> None:
         y: Scalar = output("the temperature", unit="K")
 
         def equations(self):
-            yield 50 * der(self.T) == self.heat - 4 * self.T
+            yield ac.quantity(50, "J/K") * der(self.T) == self.heat - ac.quantity(4, "W/K") * self.T
             yield der(self.E) == self.heat
             yield self.y == self.T
 

@@ -1,0 +1,93 @@
+"""What the components of a model require of its parameters, and of its variables at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.errors import AcausalError, DeclarationError
+from acausal.flatten.instantiate import walk
+from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.language.component import Component
+from acausal.language.validity import Requirement
+from acausal.symbols import scalars
+
+Stated = tuple[Any, Origin]
+
+
+class Requirements:
+    """Requirements of the components of a bound model.
+
+    Parameters
+    ----------
+    tree : Component
+        The bound model.
+    parameters : casadi.SX
+        Its free parameters.
+    """
+
+    def __init__(self, tree: Component, parameters: ca.SX) -> None:
+        self.tree, self.parameters = tree, parameters
+
+    @cached_property
+    def stated(self) -> list[Stated]:
+        """All requirements with their origins, those of a component before those of its parts."""
+        return statements(self.tree, "requirements", Requirement)
+
+    @cached_property
+    def _split(self) -> tuple[list[Stated], list[Stated]]:
+        free = {s.element_hash() for s in scalars(self.parameters)}
+        of_parameters, of_variables = [], []
+        for item in self.stated:
+            inside = all(s.element_hash() in free for s in ca.symvar(item[0].sx))
+            (of_parameters if inside else of_variables).append(item)
+        return of_parameters, of_variables
+
+    @property
+    def at_start(self) -> list[Stated]:
+        """Requirements on variables."""
+        return self._split[1]
+
+    @cached_property
+    def _call(self) -> Call:
+        column = ca.vertcat(ca.SX(0, 1), *[r.sx for r, _ in self._split[0]])
+        return Call(ca.Function("requirements", [self.parameters], [ca.densify(column)]))
+
+    def check(self, values: np.ndarray) -> None:
+        """Raise DeclarationError if parameters break a requirement."""
+        if self._split[0]:
+            refuse(self._split[0], self._call(values)[0], DeclarationError)
+
+
+def statements(tree: Component, method: str, kind: type) -> list[Stated]:
+    """What the components of a bound model yield in a method, with where they are constructed."""
+    found: list[Stated] = []
+    for component in walk(tree):
+        if getattr(type(component), method) is not getattr(Component, method):
+            found += with_place(lambda c=component: list(_run(c, method, kind)), Origin.of(component, f"{method}()"))
+    return found
+
+
+def _run(component: Component, method: str, kind: type) -> Iterator[Stated]:
+    generator = getattr(component, method)()
+    for statement in generator:
+        if not isinstance(statement, kind):
+            word = "require" if kind is Requirement else "expect"
+            raise DeclarationError(f"{line_of(generator)}: yield {word}(...) in {method}(), not {statement!r}")
+        yield statement, Origin.of(component)
+
+
+def refuse(stated: list[Stated], values: np.ndarray, kind: type[AcausalError]) -> None:
+    """Raise an error for the first requirement that its entries of `values` break."""
+    at = 0
+    for requirement, origin in stated:
+        size = requirement.sx.numel()
+        problem = requirement.broken(values[at : at + size])
+        at += size
+        if problem:
+            raise kind(f"{origin}: {problem}.")

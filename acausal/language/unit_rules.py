@@ -1,0 +1,159 @@
+"""Units of sums, products and arrays: a contradiction is reported only where it is certain.
+
+A number fits any unit in sums and equations (x == 2, x + 1). As a factor it is pure where it is a ratio of small whole
+numbers, as those of geometry and energy are: 2 * E and E / 2 are in J. Any other number may be a constant with a unit, as
+9.81 * h or 1e4 * s, and so may any before something dimensionless: 10 * sin(phi) can be a torque. The number 0 fits
+always. What is declared without a unit is unknown, and so is what a matrix of numbers makes of a vector.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from acausal.errors import UnitsError
+from acausal.units import DIMENSIONLESS, Dimension
+
+if TYPE_CHECKING:
+    from acausal.language.expression import Expr
+
+RATIOS = {sign * k / n for sign in (1, -1) for k in range(1, 10) for n in (1, 2, 3, 4, 6, 8, 12)}
+Unit = Dimension | tuple[Dimension | None, ...] | None
+
+
+def common(a: Expr, b: Expr, where: str) -> Unit:
+    """Return the unit of two expressions that must have the same one, such as the terms of a sum.
+
+    Parameters
+    ----------
+    a, b : Expr
+        Of one shape.
+    where : str
+        What joins them, for the message.
+
+    Raises
+    ------
+    UnitsError
+        If their units certainly differ.
+    """
+    if a.unit is None or b.unit is None or a.unit == b.unit:
+        return b.unit if a.unit is None else a.unit
+    pairs = list(zip(_entries(a), _entries(b), strict=True))
+    if any(u is not None and v is not None and u != v for u, v in pairs):
+        raise UnitsError(f"units differ: {_shown(a)} is in [{_text(a)}], {_shown(b)} in [{_text(b)}], {where}")
+    return _merged([v if u is None else u for u, v in pairs])
+
+
+def of_product(a: Expr, b: Expr) -> Unit:
+    """Return the unit of a * b, entry by entry."""
+    if a.unit is None and b.unit is None:
+        return None
+    if is_number(a) or is_number(b):
+        number, other = (a, b) if is_number(a) else (b, a)
+        return _behind_number(other) if _is_pure(number) else None
+    return _combined(a, b, lambda u, v: u * v)
+
+
+def of_quotient(a: Expr, b: Expr) -> Unit:
+    """Return the unit of a / b, with a scalar b."""
+    if is_number(b):
+        return _behind_number(a) if _is_pure(b) else None
+    if is_number(a):
+        return of_power(b, -1, number=True) if _is_pure(a) else None
+    return _combined(a, b, lambda u, v: u / v)
+
+
+def of_inner_product(a: Expr, b: Expr) -> Unit:
+    """Return the unit of a @ b.
+
+    Raises
+    ------
+    UnitsError
+        If it is a sum of products that certainly differ in unit.
+    """
+    if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension):
+        return a.unit * b.unit
+    numbers = is_number(a) or is_number(b)
+    if len(a.shape) != 1 or len(b.shape) != 1 or (not numbers and (a.unit is None or b.unit is None)):
+        return None
+    if isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None):
+        return of_product(a, b)
+    terms = [x * y for x, y in zip(a, b, strict=True)]
+    total = terms[0]
+    for term in terms[1:]:
+        total = type(a)(total.sx + term.sx, common(total, term, "terms of a scalar product"))
+    # One unknown term is as little known as the sum is certain.
+    unknown = any(t.unit is None and not t.sx.is_zero() for t in terms)
+    return None if unknown else total.unit
+
+
+def of_power(base: Expr, power: Any, number: bool = False) -> Unit:
+    """Return the unit of a power by a number; behind a number something dimensionless may have any unit."""
+    if not isinstance(power, int | float | Fraction) or base.unit is None:
+        return None
+    exact = Fraction(power).limit_denominator(1000)
+    if abs(exact - power) > 1e-12:
+        return None
+    raised = [u if u is None or exact == 1 else u ** _plain(exact) for u in _entries(base)]
+    return _merged([None if number and u is DIMENSIONLESS else u for u in raised])
+
+
+def of_array(items: Sequence[Expr]) -> Unit:
+    """Return the unit of an array of entries, or of rows; entries that are 0 fit the others."""
+    units = [item.unit for item in items if not (item.unit is None and item.sx.is_zero())]
+    if units and isinstance(units[0], Dimension) and all(u == units[0] for u in units):
+        return units[0]
+    if any(item.shape for item in items):
+        return None
+    return _merged([item.unit if isinstance(item.unit, Dimension) else None for item in items])
+
+
+def is_number(value: Expr) -> bool:
+    """Tell whether an expression is made of numbers alone."""
+    return value.unit is None and value.sx.is_constant()
+
+
+def _is_pure(number: Expr) -> bool:
+    """Tell whether all entries are ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not 0."""
+    return all(float(entry) in RATIOS for entry in number.sx.elements())
+
+
+def _behind_number(value: Expr) -> Unit:
+    return _merged([None if u is DIMENSIONLESS else u for u in _entries(value)])
+
+
+def _combined(a: Expr, b: Expr, operate: Any) -> Unit:
+    if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension):
+        return operate(a.unit, b.unit)
+    if a.unit is None or b.unit is None:
+        return None
+    size = max(len(_entries(a)), len(_entries(b)))
+    pairs = zip(*(u * size if len(u) == 1 else u for u in (_entries(a), _entries(b))), strict=True)
+    return _merged([None if u is None or v is None else operate(u, v) for u, v in pairs])
+
+
+def _entries(value: Expr) -> list[Dimension | None]:
+    """Unit of each row."""
+    unit = value.unit
+    return list(unit) if isinstance(unit, tuple) else [unit] * value.sx.shape[0]
+
+
+def _merged(units: Sequence[Dimension | None]) -> Unit:
+    same = all(u == units[0] for u in units) if units else True
+    return (units[0] if units else None) if same else tuple(units)
+
+
+def _plain(power: Fraction) -> int | Fraction:
+    return int(power) if power.denominator == 1 else power
+
+
+def _text(value: Expr) -> str:
+    if isinstance(value.unit, tuple):
+        return ", ".join("?" if u is None else str(u) for u in value.unit)
+    return str(value.unit)
+
+
+def _shown(value: Expr) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,94 @@
+"""Statements about where a component is right: what must hold, and what should stay small."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.language import unit_rules
+from acausal.language.condition import Condition
+from acausal.language.expression import Expr, as_expr
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A condition that must hold and what is wrong where it does not, or what says so of the value of an expression."""
+
+    subject: Condition | Expr
+    problem: str | Callable[[np.ndarray], str]
+
+    @property
+    def sx(self) -> ca.SX:
+        """What has to be evaluated, a column."""
+        return ca.vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
+
+    def broken(self, value: np.ndarray) -> str:
+        """Say what is wrong with a value, "" if nothing is."""
+        if isinstance(self.subject, Condition):
+            holds = value[0] < 0 if self.subject.kind == "<" else value[0] <= 0
+            return "" if holds else str(self.problem)
+        assert callable(self.problem)
+        found = self.problem(value.reshape(self.subject.shape, order="F"))
+        return f"`{self.subject}` {found}" if found else ""
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """What a component neglects, `part`, should stay below `share` of `whole`; otherwise `text` is a warning."""
+
+    part: Expr
+    whole: Expr
+    share: float
+    text: str
+
+
+def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Requirement:
+    """State what must hold; yield it in requirements().
+
+    Parameters
+    ----------
+    subject : Condition or Expr
+        Comparison of two scalars, or an expression. Of parameters alone, it is checked when the model is compiled and
+        whenever they are changed; of variables, at the start of a simulation.
+    problem : str or callable
+        What is wrong where the condition does not hold, and the mend; of an expression, a function that is given its
+        value as an array and returns that, or "" if nothing is wrong.
+
+    Examples
+    --------
+    >>> yield require(self.inner < self.outer, "`inner` is not less than `outer`")  # doctest: +SKIP
+    """
+    compares = isinstance(subject, Condition) and not subject.excess.shape and isinstance(problem, str)
+    if not compares and not (isinstance(subject, Expr) and callable(problem)):
+        raise DeclarationError(
+            "require needs a condition that compares two scalars and a text, require(self.a < self.b, ...), "
+            "or an expression and a function of its value"
+        )
+    return Requirement(subject, problem)
+
+
+def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
+    """State that something neglected should stay small in a run; yield it in validity().
+
+    Nothing of it is integrated: both are evaluated at the output points of a finished run, and a warning is given once if
+    the greatest magnitude of `part` exceeds `share` times that of `whole`.
+
+    Parameters
+    ----------
+    part, whole : Expr
+        Scalars of one unit; a part that is not a number, such as 0 / 0, counts as 0.
+    share : float
+        What of the whole may be neglected.
+    text : str
+        What is neglected, and the mend.
+    """
+    part, whole = as_expr(part), as_expr(whole)
+    if part.shape or whole.shape:
+        raise DeclarationError("expect compares two scalars")
+    unit_rules.common(part, whole, "the part and the whole of expect")
+    return Expectation(part, whole, share, text)

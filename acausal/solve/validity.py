@@ -1,0 +1,89 @@
+"""Whether a model is right where it is used: what must hold at the start, and what it neglects in a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
+from acausal.compiler.requirements import Stated, refuse, statements
+from acausal.errors import InitializationError
+from acausal.language.functions import initial, time
+from acausal.language.validity import Expectation
+from acausal.solve.evaluator import Evaluator
+from acausal.solve.instant import Point
+
+# Most output points that are looked at: what is neglected changes with the motion, and each look costs solutions.
+ROWS = 40
+
+
+@dataclass(frozen=True)
+class _Watch:
+    """Statements of a compiled model, and the function that evaluates them at one point."""
+
+    stated: list[Stated]
+    function: ca.Function
+    wanted: set[int]
+
+    def along(self, maps: dict[int, Call], *values: np.ndarray) -> np.ndarray:
+        """Evaluate at many points: x, z, parameters, times, modes."""
+        x, z, p, t, modes = values
+        n = len(t)
+        call = maps.setdefault(n, Call(self.function.map(n))) if n not in maps else maps[n]
+        return call(x.ravel(), z.ravel(), np.tile(p, n), t, modes.ravel())[0].reshape(n, -1)
+
+
+def _watch(compiled: CompiledModel, stated: list[Stated], entries: list[ca.SX]) -> _Watch:
+    r = compiled.reduced
+    column = ca.substitute(r.resolve(ca.vertcat(ca.SX(0, 1), *entries)), initial.sx, 0)
+    arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
+    return _Watch(stated, ca.Function("watch", arguments, [ca.densify(column)]), compiled.dependence.inside(column))
+
+
+def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
+    """Raise InitializationError if variables break a requirement at the start."""
+    key = "start requirements"
+    if key not in compiled.cache:
+        stated = compiled.requirements.at_start
+        compiled.cache[key] = _watch(compiled, stated, [r.sx for r, _ in stated]), {}
+    watch, maps = compiled.cache[key]
+    if watch.stated:
+        row = watch.along(maps, at.x, at.z, p, np.array([at.time]), at.modes)[0]
+        refuse(watch.stated, row, InitializationError)
+
+
+def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
+    """Say what components neglected although it was not small; at most ROWS of the points are looked at.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    run : Evaluator
+        Its output points.
+    """
+    if "validity" not in compiled.cache:
+        stated = statements(compiled.tree, "validity", Expectation)
+        entries = [e.sx for s, _ in stated for e in (s.part, s.whole)]
+        compiled.cache["validity"] = _watch(compiled, stated, entries), {}
+    watch, maps = compiled.cache["validity"]
+    if not watch.stated:
+        return []
+    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), ROWS)).astype(int))
+    x, t, modes = run.x[rows], run.t[rows], run.modes[rows]
+    z = run.solver(x, run.z[rows], t, modes, watch.wanted)
+    run.solver.unsolved.clear()
+    values = np.abs(watch.along(maps, x, z, run.solver.p, t, modes))
+    found = []
+    for (expectation, origin), part, whole in zip(watch.stated, values.T[::2], values.T[1::2], strict=True):
+        part = np.where(np.isnan(part), 0.0, part)
+        so_far = np.fmax.accumulate(np.nan_to_num(whole))
+        over = part > expectation.share * so_far
+        if np.max(part) > expectation.share * so_far[-1]:
+            most = float(np.max(part)) / so_far[-1] if so_far[-1] > 0 else 1.0
+            worst = f"up to {100 * most:.2g} %" if most < 1 else "as much as all"
+            found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {t[over][0]:.4g} s on)")
+    return found

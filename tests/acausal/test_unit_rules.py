@@ -1,0 +1,190 @@
+"""Units of sums, products and arrays: what certainly contradicts is reported, and nothing else."""
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import (
+    Model,
+    Scalar,
+    UnitsError,
+    Vector3,
+    atan2,
+    cos,
+    cross,
+    der,
+    discrete,
+    dot,
+    exp,
+    fixed,
+    parameter,
+    piecewise,
+    quantity,
+    reinit,
+    sin,
+    sqrt,
+    time,
+    variable,
+    when,
+)
+
+
+class Quantities(Model):
+    """Variables of many units; nothing of it is solved."""
+
+    x: Scalar = variable("length", unit="m")
+    y: Scalar = variable("length", unit="m")
+    v: Scalar = variable("speed", unit="m/s")
+    E: Scalar = variable("energy", unit="J")
+    P: Scalar = variable("power", unit="W")
+    F: Scalar = variable("force", unit="N")
+    tau: Scalar = variable("torque", unit="N.m")
+    phi: Scalar = variable("angle", unit="rad")
+    w: Scalar = variable("angular velocity", unit="rad/s")
+    q: Scalar = variable("declared without a unit")
+    r: Vector3 = variable("position", unit="m")
+    f: Vector3 = variable("force", unit="N")
+    mixed: Vector3 = variable("length, length, angle", unit=("m", "m", "rad"))
+    flag: Scalar = discrete("flag", unit="1")
+    L: Scalar = parameter("length", unit="m", default=2.0)
+    T: Scalar = parameter("duration", unit="s", default=3.0)
+    plain: Scalar = parameter("declared without a unit", default=0.0)
+
+
+CONTRADICTIONS = {
+    "number times unit": lambda m: m.P == 2 * m.E,
+    "number on the right": lambda m: m.E * 0.5 == m.P,
+    "numpy number": lambda m: np.float64(3.0) * m.E == m.P,
+    "divided by a number": lambda m: m.x == m.v / 2,
+    "number over unit": lambda m: m.x == 1 / m.T,
+    "minus behind a number": lambda m: m.v == -(2 * m.x),
+    "sum behind numbers": lambda m: m.q == 3 * m.x + 2 * m.v,
+    "sum in a product": lambda m: m.q == (2 * m.x - m.v) * m.F,
+    "sum with a number between": lambda m: m.x + 1 + m.v == 0,
+    "power": lambda m: m.x == 2 * m.y**2,
+    "power of a fraction": lambda m: m.x == m.y**0.5,
+    "root": lambda m: m.v == 2 * sqrt(m.x),
+    "tuple": lambda m: m.r == (m.x, m.v, 0),
+    "tuple of one unit": lambda m: m.r == (0, 0, m.F),
+    "tuple behind a number": lambda m: m.r == 2 * ac.as_expr((0, m.v, 0)),
+    "entries of an array": lambda m: m.mixed == (m.x, m.y, m.F),
+    "entries of an array, one number": lambda m: m.mixed == (1.0, m.v, m.phi),
+    "numbers times unit": lambda m: m.f == np.array([0.0, 0.0, 1.0]) * m.x,
+    "case": lambda m: m.x == piecewise((m.v, time < 1), 0),
+    "cases": lambda m: m.q == piecewise((m.x, time < 1), m.v),
+    "cases behind numbers": lambda m: m.q == piecewise((2 * m.x, time < 1), (0, time < 2), 3 * m.v),
+    "smooth cases": lambda m: m.q == piecewise((m.x, time < 1), m.v, smooth=True),
+    "condition": lambda m: m.q == piecewise((1, 2 * m.x < m.v), 0),
+    "scalar product": lambda m: dot(m.f, m.r) == m.P,
+    "sum in a scalar product": lambda m: m.q == dot((m.x, m.v, 0), (m.x, m.v, 0)),
+    "vector product": lambda m: m.f == 2 * cross(m.r, m.f),
+    "derivative": lambda m: m.x == 2 * der(m.x),
+    "derivative of a tuple": lambda m: m.r == der(ac.as_expr((m.x, 0, 0))),
+    "angle of a point": lambda m: m.phi == atan2(m.x, m.v),
+    "argument": lambda m: m.q == sin(2 * m.x),
+    "quantity": lambda m: quantity(100, "N/m") * m.v == m.F,
+    "jump": lambda m: when(m.x < 0, reinit(m.v, -0.5 * m.x)),
+}
+
+RIGHT = {
+    "number": lambda m: m.x == 2,
+    "number in a sum": lambda m: m.x + 1 == 2 * m.y - 3,
+    "numbers": lambda m: m.r == (1, 2, 3),
+    "numbers in a tuple": lambda m: m.r == (m.x, 2, 0),
+    "amplitude": lambda m: m.tau == 10 * sin(m.phi) + 3,
+    "amplitude of a ratio": lambda m: 100 * (m.x / m.L) ** 2 == m.F,
+    "amplitude of a decay": lambda m: m.tau == 0.01 * (1 - exp(-time / 0.167)),
+    "stiffness of an angle": lambda m: m.tau == -20 * m.phi,
+    "time": lambda m: m.x == 0.1 * cos(10 * time),
+    "unknown": lambda m: m.q * m.E == m.P,
+    "unknown parameter": lambda m: m.plain * m.E == m.P,
+    "half": lambda m: m.F * m.x / 2 == m.E,
+    "rate": lambda m: m.P == 2 * m.E / m.T,
+    "zero": lambda m: 0 * m.x == m.P,
+    "zero case": lambda m: piecewise((0, m.x < 0), m.f[0]) == m.F,
+    "quantity": lambda m: quantity(100, "N/m") * m.x == m.F,
+    "entries": lambda m: m.mixed == (m.x, 2 * m.y, m.phi),
+    "one of an array": lambda m: m.x == 2 * m.mixed[1],
+    "matrix of numbers": lambda m: m.f == np.eye(3) @ m.r,
+    "direction": lambda m: m.r == np.array([0, 0.6, 0.8]) * m.x,
+    "root": lambda m: m.x == sqrt(2 * m.y**2 + m.x**2),
+    "jump": lambda m: when(m.x < 0, reinit(m.v, -0.5 * m.v), reinit(m.flag, 1 - m.flag)),
+}
+
+
+def stated(statement):
+    class Stated(Quantities):
+        def equations(self):
+            yield statement(self)
+
+    return Stated()
+
+
+@pytest.mark.parametrize("name", CONTRADICTIONS)
+def test_contradiction_is_reported_with_its_line(name):
+    with pytest.raises(UnitsError) as error:
+        ac.compile(stated(CONTRADICTIONS[name]))
+    assert "test_unit_rules.py:" in str(error.value)
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_what_may_be_right_is_not_reported(name):
+    with pytest.raises(ac.AcausalError) as error:  # far too few equations
+        ac.compile(stated(RIGHT[name]))
+    assert not isinstance(error.value, UnitsError), error.value
+
+
+def test_message_names_both_sides():
+    with pytest.raises(UnitsError, match=r"P is in \[W\], \(2\.?\*E\) in \[N.m\], joined by `==`"):
+        ac.compile(stated(CONTRADICTIONS["number times unit"]))
+
+
+class Fall(Model):
+    h0: Scalar = parameter("height at the start", unit="m", default=5.0)
+    v0: Scalar = parameter("speed at the start", unit="m/s", default=1.0)
+    h: Scalar = variable("height", unit="m")
+    v: Scalar = variable("speed", unit="m/s", start=0, fixed=True)
+
+    def equations(self):
+        yield der(self.h) == self.v
+        yield der(self.v) == -9.81
+
+
+class Started(Model):
+    h0: Scalar = parameter("height at the start", unit="m", default=5.0)
+    T: Scalar = parameter("duration", unit="s", default=5.0)
+
+
+@pytest.mark.parametrize("wrong", [True, False])
+def test_start_values(wrong):
+    class Given(Started):
+        ball = Fall(h=fixed(Started.T if wrong else Started.h0))
+
+    class Own(Fall):
+        h: Scalar = variable("height", unit="m", start=(2 * Fall.v0 if wrong else 2 * Fall.h0), fixed=True)
+
+    class Counted(Fall):
+        h: Scalar = variable("height", unit="m", start=1, fixed=True)
+        top: Scalar = discrete("greatest height", unit="m", start=Fall.v0 if wrong else Fall.h0)
+
+    for model in (Given, Own, Counted):
+        if wrong:
+            with pytest.raises(UnitsError, match="its start value"):
+                ac.compile(model())
+        else:
+            ac.compile(model())
+
+
+@pytest.mark.parametrize("wrong", [True, False])
+def test_values_of_parameters(wrong):
+    class Inner(Model):
+        size: Vector3 = parameter("size", unit=("m", "m", "s"), default=(1, 1, 1))
+
+    class Outer(Started):
+        inner = Inner(size=(Started.h0, Started.T if wrong else Started.h0, Started.T))
+
+    if wrong:
+        with pytest.raises(UnitsError, match="its value"):
+            ac.compile(Outer())
+    else:
+        ac.compile(Outer())

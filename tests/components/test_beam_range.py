@@ -1,0 +1,179 @@
+"""Beams warn where what their frames neglect exceeds 1 % of the deflection, and are quiet where it is small."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import (
+    Model,
+    Scalar,
+    chain,
+    connect,
+    fixed,
+    guess,
+    parameter,
+    part,
+    structural,
+)
+from components import (
+    Body,
+    FixedTranslation,
+    FlexibleBeam,
+    Prismatic,
+    Revolute,
+    SubstructuredBeam,
+    World,
+    WorldForce,
+    rotational,
+)
+from models import FreeVibration, SpinUp
+from tests.reference.elastica import tip_force
+
+SECTION: dict = {"length": 1, "E": 1e9, "rho": 1000, "A": 1e-4, "J": 1e-9, "axial": "none", "initial": "static"}
+AXIAL, SLOPE = "axial force", "slopes too much"
+
+
+def doubts(model, **options):
+    """Warnings of a run, and its result."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = ac.simulate(model, **options)
+    texts = [str(w.message) for w in caught if issubclass(w.category, ac.AcausalWarning)]
+    assert texts == result.stats["doubts"]
+    return texts, result
+
+
+class Cantilever(Model):
+    """Clamped at the root; a force P at the tip keeps its direction, with a part H along the beam."""
+
+    world = World(gravity=None)
+    load = WorldForce()
+    beam = FlexibleBeam(elements=8, **SECTION)
+    P: Scalar = parameter("force across", unit="N", default=1)
+    H: Scalar = parameter("force along", unit="N", default=0)
+
+    def connections(self):
+        yield chain(self.world, self.beam)
+        yield connect(self.load.frame_b, self.beam.frame_b)
+
+    def equations(self):
+        yield self.load.force == (self.H, self.P, 0)
+
+
+def tip_error(beam, P):
+    """Texts of a cantilever, and the relative error of its tip's deflection."""
+    texts, result = doubts(Cantilever(beam=beam, P=P), stop_time=1e-3, intervals=2)
+    exact = tip_force(P)[1]
+    return texts, abs(result["beam.frame_b.r_0"][0, 1] - exact) / exact
+
+
+BEAMS = {
+    "linear": lambda: FlexibleBeam(elements=8, **SECTION),
+    "linear, pinned": lambda: FlexibleBeam(elements=8, reference="pinned", **SECTION),
+    "stiffened": lambda: FlexibleBeam(elements=8, geometric_stiffness=True, **SECTION),
+    "volumes": lambda: SubstructuredBeam(volumes=4, **SECTION),
+    "stiffened volumes": lambda: SubstructuredBeam(volumes=4, geometric_stiffness=True, **SECTION),
+}
+
+
+@pytest.mark.parametrize("kind", BEAMS)
+def test_tip_load_against_the_elastica(kind):
+    for P in (0.1, 0.25, 0.5, 1, 2, 3):
+        texts, error = tip_error(BEAMS[kind](), P)
+        if error > 0.02:
+            assert any(SLOPE in text for text in texts), (P, error)
+        if error < 0.003:
+            assert not texts, (P, error)
+
+
+def test_text_tells_part_size_and_mend():
+    texts, error = tip_error(BEAMS["linear"](), 1)
+    (text,) = texts
+    assert text.startswith("beam (FlexibleBeam), ")
+    assert "test_beam_range.py:" in text
+    assert "geometric_stiffness=True" in text
+    assert "t = 0 s" in text
+    told = float(text.partition("up to ")[2].partition(" %")[0]) / 100
+    assert 0.5 < told / error < 2
+
+
+@pytest.mark.parametrize(("part_of_buckling", "warns"), [(-0.001, False), (0.001, False), (-0.03, True), (0.05, True)])
+def test_axial_load_against_buckling(part_of_buckling, warns):
+    H = part_of_buckling * np.pi**2 / 4
+    texts, linear = doubts(Cantilever(P=0.05, H=H), stop_time=1e-3, intervals=2)
+    assert [AXIAL in text for text in texts] == [True] * warns
+    stiffened = FlexibleBeam(elements=8, geometric_stiffness=True, **SECTION)
+    quiet, right = doubts(Cantilever(P=0.05, H=H, beam=stiffened), stop_time=1e-3, intervals=2)
+    assert not quiet
+    tips = [r["beam.frame_b.r_0"][0, 1] for r in (linear, right)]
+    assert (abs(tips[0] / tips[1] - 1) > 0.01) == warns
+
+
+def test_deflection_that_is_not_seen_does_not_matter():
+    assert not doubts(Cantilever(P=1e-7, H=-0.1), stop_time=1e-3, intervals=2)[0]
+    assert not doubts(Cantilever(P=0, H=-0.5), stop_time=1e-3, intervals=2)[0]
+
+
+def spin_up(omega, **values):
+    return doubts(SpinUp(omega=omega, **values), stop_time=9.0, tolerance=1e-5)
+
+
+@pytest.mark.parametrize(("omega", "warns"), [(0.2, False), (2, True), (4, True)])
+def test_one_frame_that_turns(omega, warns):
+    texts, linear = spin_up(omega, formulation="fem")
+    assert any(AXIAL in text for text in texts) == warns
+    stiffened = ac.compile(SpinUp(formulation="fem", omega=omega), {"beam.geometric_stiffness": True})
+    quiet, right = doubts(stiffened, stop_time=9.0, tolerance=1e-5)
+    assert not quiet
+    error = np.abs(linear["tip_deflection"] - right["tip_deflection"]).max() / np.abs(right["tip_deflection"]).max()
+    assert error > 0.1 if warns else error < 0.01
+
+
+def test_fine_volumes_that_turn_are_quiet():
+    assert spin_up(4, volumes=5)[0]  # errs by 2.5 %
+    assert not spin_up(4, volumes=20)[0]  # 0.16 %
+
+
+class Coupler(Model):
+    """A coupler between a crank that turns at one speed and a slider."""
+
+    speed: Scalar = parameter("speed of the crank", unit="rad/s", default=40)
+    stiff: bool = structural("whether the coupler is stiffened", default=False, choices=(True, False))
+    world, drive, slider = World(gravity=None), rotational.Speed(w_ref=speed), Body(m=0.05)
+    bearing, pin, wrist = Revolute(use_axis_flange=True, phi=fixed(0.3)), Revolute(), Revolute(phi=guess(0))
+    crank, guide = FixedTranslation(r=(0.15, 0, 0)), Prismatic(s=guess(1.1))
+
+    @part
+    def rod(self):
+        return FlexibleBeam(
+            length=1, E=7e10, rho=2700, A=1e-4, J=8e-11, elements=6, alpha=20, reference="pinned", axial="none",
+            geometric_stiffness=self.stiff,
+        )  # fmt: skip
+
+    def connections(self):
+        yield connect(self.drive.flange, self.bearing.axis)
+        yield chain(self.world, self.bearing, self.crank, self.pin, self.rod, self.wrist, self.slider)
+        yield chain(self.world, self.guide, self.slider)
+
+
+@pytest.mark.parametrize(("speed", "warns"), [(1, False), (20, True), (30, True)])
+def test_coupler(speed, warns):
+    options = {"stop_time": 12 / speed, "tolerance": 1e-5}
+    texts, linear = doubts(Coupler(speed=speed), **options)
+    quiet, right = doubts(Coupler(speed=speed, stiff=True), **options)
+    assert not quiet
+    assert any(AXIAL in text for text in texts) == warns
+    bends = [r["rod.middle_deflection"] for r in (linear, right)]
+    assert (np.abs(bends[0] - bends[1]).max() > 0.05 * np.abs(bends[1]).max()) == warns
+
+
+def test_small_vibration_is_quiet_and_a_large_one_is_not():
+    assert not doubts(FreeVibration(), stop_time=0.2, tolerance=1e-4)[0]
+    assert any(SLOPE in text for text in doubts(FreeVibration(tip=0.4), stop_time=0.2, tolerance=1e-4)[0])
+
+
+@pytest.mark.parametrize("kind", [FlexibleBeam, SubstructuredBeam])
+def test_warnings_can_be_switched_off(kind):
+    assert not tip_error(kind(check_range=False, **SECTION), 3)[0]
