@@ -62,7 +62,7 @@ class FlexibleBeam(Beam):
     -----
     Schiavo, Vigano, Ferretti, Object-oriented modelling of flexible beams, Multibody System Dynamics 15 (2006),
     equations 5 to 16. Sections keep a finite angle: frame_a and frame_b are the material end sections. Deformations are
-    small against the length; a beam that turns faster than its first natural frequency needs geometric_stiffness.
+    small; a beam that turns faster than its first natural frequency needs geometric_stiffness.
     """
 
     elements: int = structural("number of finite elements", default=1, minimum=1, refine=lambda s: s.adaptive)
@@ -72,7 +72,7 @@ class FlexibleBeam(Beam):
         shape=lambda s: (len(s.free),),
         unit=lambda s: [("m", "m", "rad")[k % 3] for k in s.free],
         select=PREFER,
-        nominal=1.0,  # not what it reaches: vibrations much smaller than the machine would take the steps
+        nominal=1.0,  # vibrations much smaller than the machine are not followed
     )
     qd: Any = variable(
         "der(q)",
@@ -132,11 +132,9 @@ class FlexibleBeam(Beam):
             yield self.qdd == der(self.qd)
         motion = U, Ud, _ = self._motion()
         strain, r_b, R_b = self._strain, self._end(U), self._rotation(U[-1])
+        R_a = self._rotation(U[2]) if self.reference == "pinned" else null_rotation()
         if self.reference == "pinned":
-            R_a = self._rotation(U[2])
             yield from move(ref, self.frame_a, np.zeros(3), R_a)
-        else:
-            R_a = null_rotation()
         # What closes a loop cannot follow forces: there a quasi-static stretch is seen in results of the beam alone.
         moves_tip = self.axial == "quasi_static" and not in_loop(self)
         yield from move(ref, b, r_b, R_b, as_expr((sum(self._stretches()), 0.0, 0.0)) if moves_tip else None)

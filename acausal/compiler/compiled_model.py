@@ -14,7 +14,7 @@ import scipy.sparse as sparse
 
 from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
-from acausal.compiler.dependence import Dependence
+from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
 from acausal.compiler.requirements import Requirements
@@ -22,11 +22,8 @@ from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.locks import alone
-from acausal.reduce import ReducedModel
+from acausal.reduce import Dependence, ReducedModel
 from acausal.symbols import scalars
-
-# Size of algebraic unknowns in the error test of a method that cannot leave them out.
-UNSEEN = 1e10
 
 
 @dataclass(frozen=True)
@@ -172,10 +169,10 @@ class CompiledModel:
             self.cache[key] = Call(one.map(n))
         return self.cache[key]
 
-    @cached_property
+    @property
     def dependence(self) -> Dependence:
         """Which algebraic unknowns a value needs."""
-        return Dependence(ca.substitute(self.reduced.alg, initial.sx, 0), self.reduced.z)
+        return self.reduced.dependence
 
     @cached_property
     def _equations(self) -> ca.SX:
@@ -212,7 +209,7 @@ class CompiledModel:
     @cached_property
     def guards(self) -> Guards:
         """Conditions that are watched during the integration."""
-        return Guards(self.reduced, self.start.function, self.dependence)
+        return Guards(self.reduced, self.start.function)
 
     @property
     def breaks(self) -> Call:
@@ -243,7 +240,7 @@ class CompiledModel:
             started = clock.perf_counter()
             dae = self._dae(energy, moves)
             if plugin != "idas":
-                dae = _in_sizes(dae)
+                dae = in_sizes(dae)
             function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)
             self.seconds["integrators"] = self.seconds.get("integrators", 0.0) + clock.perf_counter() - started
@@ -285,19 +282,8 @@ class CompiledModel:
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         key = ("dae", quadratures, moves)
         if key not in self.cache:
-            self.cache[key] = self._make_dae(quadratures, moves)
+            self.cache[key] = make_dae(self.reduced, self._hoisted, quadratures, moves)
         return self.cache[key]
-
-    def _make_dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
-        r, (column, hoisted, _) = self.reduced, self._hoisted
-        column = ca.substitute(column, r.closing.moves, moves)
-        s, t0, T = ca.SX.sym("s"), ca.SX.sym("t0"), ca.SX.sym("T")
-        column = ca.substitute(column, time.sx, t0 + s * T)
-        ode, alg, powers = ca.vertsplit(column, [0, self.nx, self.nx + self.nz, column.numel()])
-        dae = {"x": r.x, "z": r.z, "p": ca.vertcat(t0, T, hoisted, r.modes), "t": s, "ode": T * ode, "alg": alg}
-        if quadratures:
-            dae["quad"] = T * powers
-        return dae
 
     @alone
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
@@ -312,12 +298,3 @@ class CompiledModel:
     @cached_property
     def _settable(self) -> Settable:
         return Settable(self.reduced.flat)
-
-
-def _in_sizes(dae: dict[str, ca.SX]) -> dict[str, ca.SX]:
-    """Write a DAE in states over their sizes, which become parameters, and algebraic unknowns over a large number."""
-    x, z, size = ca.SX.sym("x", dae["x"].numel()), ca.SX.sym("z", dae["z"].numel()), ca.SX.sym("size", dae["x"].numel())
-    keys = [k for k in ("ode", "alg", "quad") if k in dae]
-    written = ca.substitute([dae[k] for k in keys], [dae["x"], dae["z"]], [size * x, UNSEEN * z])
-    scaled = {**dae, **dict(zip(keys, written, strict=True)), "x": x, "z": z, "p": ca.vertcat(dae["p"], size)}
-    return {**scaled, "ode": scaled["ode"] / size}

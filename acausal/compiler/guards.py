@@ -10,7 +10,6 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.clock import by_clock
-from acausal.compiler.dependence import Dependence
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -28,8 +27,6 @@ class Guards:
         The model.
     start : casadi.Function
         Start values of states and algebraic unknowns, of parameters and time.
-    dependence : Dependence
-        Which algebraic unknowns a value needs.
 
     Attributes
     ----------
@@ -41,10 +38,10 @@ class Guards:
         Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
     """
 
-    def __init__(self, reduced: ReducedModel, start: ca.Function, dependence: Dependence) -> None:
+    def __init__(self, reduced: ReducedModel, start: ca.Function) -> None:
         flat = reduced.flat
         self.reduced, self.guards, self._start = reduced, flat.guards, start
-        self._dependence = dependence
+        self._dependence = reduced.dependence
         self.n_switches, self.n_modes = len(flat.switches), flat.modes.numel()
         self.arguments = [reduced.x, reduced.z, flat.parameters, time.sx, reduced.modes]
         self._excess = self._resolve([g.excess for g in flat.guards])

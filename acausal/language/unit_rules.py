@@ -115,8 +115,9 @@ def is_number(value: Expr) -> bool:
 
 
 def _is_pure(number: Expr) -> bool:
-    """Tell whether all entries are ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not 0."""
-    return all(float(entry) in RATIOS for entry in number.sx.elements())
+    """Tell whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
+    entries = [float(entry) for entry in number.sx.elements()]
+    return any(entries) and all(not entry or entry in RATIOS for entry in entries)
 
 
 def _behind_number(value: Expr) -> Unit:

@@ -9,7 +9,9 @@ import casadi as ca
 
 from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
+from acausal.language.functions import initial
 from acausal.reduce.constrain import Closing
+from acausal.reduce.dependence import Dependence
 from acausal.structure import Plan
 
 
@@ -53,6 +55,11 @@ class ReducedModel:
     def modes(self) -> ca.SX:
         """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
         return ca.vertcat(self.flat.modes, self.closing.choice)
+
+    @cached_property
+    def dependence(self) -> Dependence:
+        """Which algebraic unknowns a value needs."""
+        return Dependence(ca.substitute(self.alg, initial.sx, 0), self.z)
 
     @cached_property
     def _resolved(self) -> ca.SX:

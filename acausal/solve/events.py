@@ -13,8 +13,9 @@ import numpy as np
 
 from acausal.errors import InitializationError, caution
 from acausal.solve.instant import Cycling, Instants, Point, places_text
-from acausal.solve.integrate import LONG, Failure, Integrator, Stretch
+from acausal.solve.integrate import Failure, Integrator, Stretch
 from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
+from acausal.solve.passage import LONG, passage
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
 DENSEST, STEPS_A_ROW = 64, 20
@@ -155,7 +156,7 @@ class Run:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            stretch = self.integrator.passage(times, at.x, at.z, at.modes, hard=not k)
+            stretch = passage(self.integrator, times, at.x, at.z, at.modes, hard=not k)
             try:
                 crossing = self.locator.first(at, stretch, depth=1) if stretch else None
             except Failure:

@@ -14,6 +14,7 @@ from acausal.solve.consistent import Consistent
 from acausal.solve.energy import ROWS, everywhere, refined
 from acausal.solve.interrupted import keep_reached
 from acausal.solve.methods import multistep, one_step, rounding
+from acausal.solve.passage import HOPELESS, LONG, creep
 from acausal.solve.projection import WORN, choose_projection, worn
 from acausal.solve.trace import Stretch, Trace
 
@@ -22,11 +23,8 @@ CHUNKS = 25
 FINE = 60
 # Looks at the projection after a call cost about the cube of the number of constraints each.
 WORK = 2e7
-# Steps for all outputs together: before vibrations count as in the way, before a run counts as long, and before a chunk
-# or an output counts as hopeless.
-PATIENT = 20_000
-LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
-SHORT, LONG, HOPELESS = 40_000, 100_000, 2_000_000
+# Steps for all outputs together before vibrations count as in the way.
+SHORT = 40_000
 Progress = Callable[[float, int], None]
 
 
@@ -98,19 +96,19 @@ class Integrator:
         """
         if not self.compiled.nx:
             self.keep(self._solve_everywhere(times, z, modes))
-            return self._last()
+            return self.last()
         n = self.outputs = len(times) - 1
         while not (done := self._call(times, x, z, modes, self.patience(times), careful=False)) and self.rescue(times):
             pass
         if done:
-            return self._last()
+            return self.last()
         self.rings = self.settings.method == "rosenbrock"
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
             if not self._call(part, x, z, modes, HOPELESS // (len(part) - 1)):
-                self._creep(part, x, z, modes)
-            x, z = self._last()
+                creep(self, part, x, z, modes)
+            x, z = self.last()
             self.report(part[-1])
         return x, z
 
@@ -170,63 +168,6 @@ class Integrator:
     def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:
         tolerance = self.tolerance if self.settings.energy else None
         return everywhere(self.compiled, self.consistent, times, z, modes, tolerance)
-
-    def _creep(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
-        """Go from output to output until the failure."""
-        for k in range(len(times) - 1):
-            here = times[k : k + 2]
-            stretch = self.passage(here, x, z, modes, hard=True)
-            if stretch is None:
-                raise self.failure(*here)
-            self.keep(stretch)
-            x, z = self._last()
-
-    def passage(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, hard: bool) -> Stretch | None:
-        """Go over one interval where a call over many failed; None if it cannot be done either.
-
-        Parameters
-        ----------
-        times : array, shape (2,)
-            Its ends in s.
-        x, z, modes : arrays
-            Where it begins.
-        hard : bool
-            Whether to try everything: new choices of states on the way, the other method, a larger tolerance.
-        """
-        if not hard:
-            return self.attempt(times, x, z, modes, LONG, careful=True)
-        return self._stride(times, x, z, modes) or self._loosely(times, x, z, modes)
-
-    def _stride(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, halvings: int = 6
-    ) -> Stretch | None:
-        """Go to the next output, with new choices of states on the way where one does not last."""
-        # Loops that get stuck beside a singular position do so for ever.
-        most = LONG if self.compiled.closing.size else HOPELESS // min(self.outputs, HOPELESS // LONG)
-        stretch = self.attempt(times, x, z, modes, most, careful=True)
-        if stretch is not None or not self.worn or not halvings:
-            return stretch
-        middle = (times[0] + times[1]) / 2
-        first = self._stride(np.array([times[0], middle]), x, z, modes, halvings - 1)
-        if first is None:
-            return None
-        last = self._stride(np.array([middle, times[1]]), first.x[-1], first.z[-1], modes, halvings - 1)
-        return last and replace(last, energy=last.energy + first.energy[-1])
-
-    def _loosely(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch | None:
-        """Pass a nearly singular position: with the other method, then with longer steps, which short ones cannot replace."""
-        rings, auto = self.rings, self.settings.method == "auto"
-        for factor in LOOSER:
-            self.tolerance = min(factor * self.settings.tolerance, max(LOOSEST, self.settings.tolerance))
-            for self.rings in (True, False) if auto else (rings,):
-                stretch = self.attempt(times, x, z, modes, PATIENT, careful=True)
-                if stretch is not None:
-                    break
-            self.rings, self.tolerance = rings, self.settings.tolerance
-            if stretch is not None:
-                self.trace.loosened += [float(times[0])] * (factor > 1)
-                return stretch
-        return None
 
     def _call(
         self,
@@ -310,7 +251,8 @@ class Integrator:
         trace.energy.append(before + stretch.energy)
         trace.modes.append(np.broadcast_to(stretch.modes, (len(stretch.times), len(stretch.modes))))
 
-    def _last(self) -> tuple[np.ndarray, np.ndarray]:
+    def last(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return states and algebraic unknowns of the last row."""
         return self.trace.x[-1][-1], self.trace.z[-1][-1]
 
     def report(self, time: float) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.compiled_model import UNSEEN
+from acausal.compiler.dae import UNSEEN
 
 if TYPE_CHECKING:
     from acausal.solve.integrate import Integrator
