@@ -36,7 +36,7 @@ class VariableArray:
     def units(self) -> list[Dimension | None]:
         """Unit of each entry, None where it is not known."""
         n, unit = self.expr.sx.numel(), self.expr.unit
-        return list(unit) * (n // len(unit)) if isinstance(unit, tuple) else [unit] * n
+        return list(unit) * (n // max(1, len(unit))) if isinstance(unit, tuple) else [unit] * n
 
     @property
     def names(self) -> list[str]:

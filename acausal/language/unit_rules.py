@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from acausal.errors import UnitsError
+from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ def is_number(value: Expr) -> bool:
 
 def _is_pure(number: Expr) -> bool:
     """Tell whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
-    entries = [float(entry) for entry in number.sx.elements()]
+    entries = [float(entry) for entry in scalars(number.sx)]
     return any(entries) and all(not entry or entry in RATIOS for entry in entries)
 
 

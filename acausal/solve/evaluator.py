@@ -48,13 +48,16 @@ class Evaluator:
         self.compiled, self.solver = compiled, solver
         self.t, self.x, self.z, self.modes = t, x, z, modes
         self.counts: dict[str, Any] = {}
+        self._given = z
         self._solved: set[int] = set()
 
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
         c = self.compiled
         resolved = ca.substitute(c.reduced.resolve(ca.densify(expression)), initial_flag.sx, 0)
-        self._solve(c.dependence.inside(resolved) - self._solved)
+        wanted = c.dependence.inside(resolved)
+        # What closes a loop is in nearly all equations: all at once, and the order of reading makes no difference.
+        self._solve((set(range(c.nz)) if wanted and c.closing.size else wanted) - self._solved)
         arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
         n = len(self.t)
         call = Call(ca.Function("observe", arguments, [resolved]).map(n))
@@ -65,8 +68,11 @@ class Evaluator:
         """Make some algebraic unknowns right, and all that they need."""
         if not wanted:
             return
-        self.z = self.solver(self.x, self.z, self.t, self.modes, wanted)
-        self._solved.update(self.compiled.dependence.closure(wanted)[0].tolist())
+        unknowns = self.compiled.dependence.closure(wanted)[0]
+        solved = self.solver(self.x, self._given, self.t, self.modes, wanted)
+        self.z = self.z.copy()
+        self.z[:, unknowns] = solved[:, unknowns]
+        self._solved.update(unknowns.tolist())
         self.counts["consistent_evaluations"] = self.solver.evaluations
         if self.solver.unsolved:
             names = ", ".join(f"`{self.compiled.algebraic[k]}`" for k in sorted(wanted)[:3])

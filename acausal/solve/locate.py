@@ -118,7 +118,10 @@ class Locator:
         run.consistent.unsolved.clear()
         value, rate = guards.along(x, z, run.p, t, modes)
         side = np.where(at.truth, -1.0, 1.0)
-        return [Row(*row, modes) for row in zip(t.tolist(), x, z, energy, value * side, rate * side, strict=True)]
+        return [
+            Row(time, a, b, work, g, d, modes)
+            for time, a, b, work, g, d in zip(t.tolist(), x, z, energy, value * side, rate * side, strict=True)
+        ]
 
     def _seen_between(self, at: Point, rows: list[Row], level: np.ndarray) -> np.ndarray:
         """In which intervals a condition changes and changes back, looked at closer where it turns fast enough for that."""

@@ -73,7 +73,11 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
         except (Failure, Chattering, KeyboardInterrupt) as caught:
             failure = caught
         reached = np.vstack([at.x[None], *integrator.trace.x])
-        fitting = None if isinstance(failure, KeyboardInterrupt) else smaller_sizes(compiled, reached, nominal, span)
+        fitting = (
+            None
+            if isinstance(failure, KeyboardInterrupt)
+            else smaller_sizes(compiled, reached, nominal, task.tolerance, span)
+        )
         if fitting is None:
             break
         nominal, counts = fitting, integrator.trace

@@ -9,13 +9,16 @@ from acausal.solve.methods import rates_of
 
 # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
 SMALLER = 0.1
-# What reaches less, in SI units, rests but for rounding.
-REST = 1e-13
+# What reaches less, in SI units and in parts of the absolute tolerance, rests but for rounding: a falling free body turns
+# by 2e-13 rad/s, and nobody wants to follow that.
+REST, LOST = 1e-11, 1e-4
 # Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
 PASSES = 5
 
 
-def smaller_sizes(compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, span: float) -> np.ndarray | None:
+def smaller_sizes(
+    compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, tolerance: float, span: float
+) -> np.ndarray | None:
     """Return sizes of states and algebraic unknowns that fit a run better, or None if these do.
 
     All states of one unit without a declared nominal value have one size, the most that any of them reaches; a rate
@@ -29,8 +32,8 @@ def smaller_sizes(compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, s
         States along the run.
     nominal : array
         Sizes in that run.
-    span : float
-        Length of the run in s.
+    tolerance, span : float
+        Relative tolerance, and length of the run in s.
     """
     reach = np.max(np.abs(x), axis=0, initial=0.0)
     groups: dict[str, list[int]] = {}
@@ -40,7 +43,7 @@ def smaller_sizes(compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, s
     fitting = nominal.copy()
     for members in groups.values():
         most = float(np.max(reach[members]))
-        if most > REST:
+        if most > max(REST, LOST * tolerance * float(np.max(nominal[members]))):
             fitting[members] = np.minimum(nominal[members], most)
     for coordinate, rate in rates_of(compiled):
         if not compiled.sizes[rate][1]:

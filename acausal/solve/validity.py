@@ -16,8 +16,8 @@ from acausal.language.validity import Expectation
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.instant import Point
 
-# Most output points that are looked at: what is neglected changes with the motion, and each look costs solutions.
-ROWS = 40
+# Most output points that are looked at, and where each look costs a solution of the equations.
+ROWS, DEAR = 500, 40
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     watch, maps = compiled.cache["validity"]
     if not watch.stated:
         return []
-    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), ROWS)).astype(int))
+    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if watch.wanted else ROWS)).astype(int))
     x, t, modes = run.x[rows], run.t[rows], run.modes[rows]
     z = run.solver(x, run.z[rows], t, modes, watch.wanted)
     run.solver.unsolved.clear()

@@ -32,6 +32,7 @@ I = 0.01 * np.eye(3)
 def started(model: Any, stop_time: float = 1.0) -> ac.Result:
     with warnings.catch_warnings():
         warnings.simplefilter("error", ac.AcausalWarning)
+        warnings.filterwarnings("ignore", ".*linear frames")  # what beams neglect is not what is looked at
         return ac.simulate(model, stop_time=stop_time, intervals=20, initial="steady", tolerance=1e-8)
 
 
