@@ -17,6 +17,8 @@ from acausal.solve.trace import Stretch
 
 # Nodes of a spline to begin with, and rows of a stretch that there must be at least, to have more.
 FEWEST, ROWS = 48, 192
+# Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).
+RESOLVED = 8
 # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
 GAIN = 20
 # Halvings after which the power of a model without states counts as rough.

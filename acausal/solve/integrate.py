@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
-from acausal.solve.energy import ROWS, everywhere, refined
+from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.interrupted import keep_reached
 from acausal.solve.methods import multistep, one_step, rounding
 from acausal.solve.passage import HOPELESS, LONG, creep
@@ -225,7 +225,7 @@ class Integrator:
         self.worn = self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
-        if watts and steps < n:
+        if watts and steps < n * (RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1):
             rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
             energy = refined(c, self.consistent, rows, np.vstack([np.zeros((1, 2)), energy]), self.tolerance)[1:]
         return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
