@@ -13,9 +13,13 @@ import numpy as np
 
 from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
+from acausal.result.plots import Series
 from acausal.solve.accuracy import chosen_text
+from acausal.units import parse
 
 FINAL_VALUES = 20
+# Of the size of states: outputs below it are known ten times less than the relative tolerance says, or worse.
+SMALL = 0.1
 ROUNDING = 1e-12
 Progress = Callable[[float, int], None] | None
 
@@ -107,7 +111,21 @@ def summary(result: Result) -> str:
         lines.append(f"    {s.name:{width}} = {s.values[-1]:.6g}{unit}")
     if len(series) > FINAL_VALUES:
         lines.append(f"    ... ({len(series)} in all)")
-    return "\n".join(lines)
+    return "\n".join([*lines, *_small(stats, series)])
+
+
+def _small(stats: dict, series: list[Series]) -> list[str]:
+    """Say which outputs are so small that the absolute part of the tolerance decides at most times."""
+    lines = []
+    for s in series[:FINAL_VALUES]:
+        size = stats["sizes"].get(str(parse(s.unit or "1")), 0.0)
+        usual = float(np.median(np.abs(s.values)))
+        if 0 < usual < SMALL * size:
+            lines.append(
+                f"  {s.name} is about {usual:.2g}, but the tolerance counts from {size:g} {s.unit}: for more digits of it take a "
+                "smaller tolerance, or give the states behind it a nominal value"
+            )
+    return lines
 
 
 def _method(stats: dict) -> str:

@@ -23,6 +23,8 @@ CHUNKS = 25
 FINE = 60
 # Looks at the projection after a call cost about the cube of the number of constraints each.
 WORK = 2e7
+# What is integrated in place of a coordinate follows it; so far off, in parts of its size, it has lost it.
+APART = 0.1
 # Steps for all outputs together before vibrations count as in the way.
 SHORT = 40_000
 Progress = Callable[[float, int], None]
@@ -235,6 +237,10 @@ class Integrator:
         last = slice(-1, None)
         z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], stretch.modes[None])
         lost, self.consistent.unsolved = self.consistent.unsolved, []
+        q = self.compiled.closing.project(stretch.x[-1], z[-1], self.p, stretch.times[-1], stretch.modes)
+        if not np.all(np.abs(q - stretch.x[-1]) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
+            self.complaint, self.worn = "At t = 1.0, the loops came apart", True
+            return None
         if lost and not self.consistent.holds(stretch.x[-1], z[-1], lost[0], stretch.modes, self.tolerance):
             self.complaint = "At t = 1.0, the algebraic equations have no solution there"
             self.worn = bool(self.compiled.closing.size)
