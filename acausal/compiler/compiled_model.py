@@ -161,10 +161,11 @@ class CompiledModel:
         """Function of x, z, parameters, time and modes at n times: some unknowns among z after a step of Newton."""
         key = ("newton", tuple(unknowns), n)
         if key not in self.cache:
+            alg = ca.substitute(self.reduced.alg[equations.tolist()], initial.sx, 0)
+            parts = ca.cse([ca.densify(alg), ca.jacobian(alg, self.reduced.z[unknowns.tolist()])])
             given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(self.arguments[:-1])]
-            value, J = self.local.function(*given, 0)
-            rows, columns = (self.nx + equations).tolist(), (self.nx + unknowns).tolist()
-            step = ca.solve(J[rows, columns], value[rows], "csparse")
+            value, J = ca.Function("alg", self.arguments[:-1], parts)(*given)
+            step = ca.solve(J, value, "csparse")
             one = ca.Function("newton", given, [given[1][unknowns.tolist()] - step])
             self.cache[key] = Call(one.map(n))
         return self.cache[key]

@@ -19,6 +19,8 @@ from acausal.solve.newton import TERMS
 AT_ONCE = 16
 # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
 SETTLED = 1e-8
+# Of the largest unknown: what is smaller may be rounding, which never settles.
+NOISE = 1e-9
 
 
 class Consistent:
@@ -72,7 +74,7 @@ class Consistent:
         z = z.copy()
         first = z.copy()
         size = np.max(np.abs(z[:, unknowns]), axis=0)
-        size[size == 0] = 1.0
+        size = np.maximum(size, NOISE * np.max(size)) if size.any() else np.ones(len(size))
         rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), []
         while rows.size:
             found = self._newton(unknowns, equations, x[rows], z[rows], t[rows], modes[rows])
