@@ -54,7 +54,9 @@ def refuse_late_fields(cls: Any) -> None:
     for base in cls.__mro__:
         raw: dict[str, Any] = vars(base).get("_as_read", {})
         for name, value in vars(base).items() if "_as_read" in vars(base) else ():
-            late = (name in cls.fields or isinstance(value, f.Field) or holds_parts(value)) and not name.startswith("_")
+            late = (name in base.fields or isinstance(value, f.Field) or holds_parts(value)) and not name.startswith(
+                "_"
+            )
             if late and raw.get(name) is not value:
                 mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 raise DeclarationError(

@@ -126,8 +126,10 @@ def sqrt(x: Any) -> Any:
 def sign(x: Any) -> Any:
     """Sign of an expression, entry by entry: -1, 0 or 1; the integration stops where it changes."""
     x, pending = as_expr(x), PENDING.get(None)
-    if pending is None or x.sx.is_constant():
+    if x.sx.is_constant():
         return Expr(ca.sign(x.sx), DIMENSIONLESS)
+    if pending is None:
+        return Deferred(sign, (x,))
     entries = [_watched_sign(Expr(entry), pending) for entry in ca.vec(x.sx).elements()]
     return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), DIMENSIONLESS)
 

@@ -102,33 +102,6 @@ def _halved(some: np.ndarray) -> np.ndarray:
     return np.unique([*range(0, len(some), 2), len(some) - 1])
 
 
-def motionless(
-    compiled: CompiledModel,
-    solver: Consistent,
-    z: np.ndarray,
-    ends: np.ndarray,
-    modes: np.ndarray,
-    tolerance: float,
-) -> np.ndarray:
-    """Work between two times, shape (2,), of a model without states: intervals are halved until it is right.
-
-    Parameters
-    ----------
-    compiled, solver, modes, tolerance
-        As above.
-    z, ends : arrays, shapes (2, nz), (2,)
-        Algebraic unknowns at the two times in s.
-    """
-    found = np.full(2, np.inf)
-    for halvings in range(3, 3 + HALVINGS):
-        s = np.linspace(0, 1, 2**halvings + 1)
-        t, guess = ends[0] + s * (ends[1] - ends[0]), z[0] + s[:, None] * (z[1] - z[0])
-        before, found = found, work(t, powers(compiled, solver, np.zeros((len(t), 0)), guess, t, modes), t[-1:])[0]
-        if np.all(np.abs(found - before) / GAIN <= tolerance * np.abs(found)):
-            break
-    return found
-
-
 def everywhere(
     compiled: CompiledModel,
     solver: Consistent,
@@ -150,12 +123,30 @@ def everywhere(
     tolerance : float or None
         Of the energies; None leaves them 0.
     """
-    found, done = [z], np.zeros((len(times) - 1, 2))
+    found = [z]
     for time in times[1:]:
         found.append(algebraic(compiled, found[-1], solver.p, float(time), modes))
+    n, energy = len(times) - 1, np.zeros((len(times) - 1, 2))
     if tolerance is not None and not compiled.powers.is_zero():
-        for k in range(len(done)):
-            ends = slice(k, k + 2)
-            done[k] = motionless(compiled, solver, np.array(found[ends]), times[ends], modes, tolerance)
-    n = len(done)
-    return Stretch(np.array(times[1:]), np.zeros((n, 0)), np.array(found[1:]), np.cumsum(done, 0), modes, 0)
+        energy = _motionless(compiled, solver, times, np.array(found), modes, tolerance)
+    return Stretch(np.array(times[1:]), np.zeros((n, 0)), np.array(found[1:]), energy, modes, 0)
+
+
+def _motionless(
+    compiled: CompiledModel, solver: Consistent, times: np.ndarray, z: np.ndarray, modes: np.ndarray, tolerance: float
+) -> np.ndarray:
+    """Work up to each output of a model without states: intervals are halved until two halvings change nothing."""
+    n, found, agreed = len(times) - 1, np.full((len(times) - 1, 2), np.inf), 0
+    parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
+    for _ in range(HALVINGS):
+        s = np.arange(n * parts + 1) / parts
+        t, near = np.interp(s, np.arange(n + 1), times), np.minimum(s.astype(int), n - 1)
+        guess = z[near] + (s - near)[:, None] * (z[near + 1] - z[near])
+        power = powers(compiled, solver, np.zeros((len(t), 0)), guess, t, modes)
+        before, found = found, work(t, power, times[1:])
+        right = np.abs(found - before) / GAIN <= tolerance * np.max(np.abs(found), axis=0)
+        agreed = agreed + 1 if right.all() else 0
+        if agreed == 2:
+            break
+        parts *= 2
+    return found

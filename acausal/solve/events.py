@@ -18,7 +18,8 @@ from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
 from acausal.solve.passage import LONG, passage
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
-DENSEST, STEPS_A_ROW = 64, 20
+# Rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
+DENSEST, STEPS_A_ROW = 64, 4
 
 
 class Chattering(Exception):
@@ -52,7 +53,7 @@ class Run:
         self.recent: deque[float] = deque(maxlen=MOST)
         self.weak, self.density, self.block = 0, 1, 0
         self.first: Point | None = None
-        self.hasty = False
+        self.hasty, self.piece = False, np.inf
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -101,8 +102,11 @@ class Run:
         stretch = self._integrate(at, grid)
         if stretch is None:
             return at if self.integrator.rescue(grid) else self._shorter(at, grid)
-        if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3) and self.density < DENSEST:
-            self.density *= 4
+        if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3):
+            if self.density < DENSEST:
+                self.density *= 4
+            else:
+                self.piece = float(grid[-1] - grid[0]) / FINE
             return at
         try:
             crossing = self.locator.first(at, stretch)
@@ -117,6 +121,7 @@ class Run:
         if crossing is None:
             self.integrator.keep(stretch)
             self.block *= 2
+            self.piece *= 2
             return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
         return self._event(at, stretch, crossing)
 
@@ -134,6 +139,8 @@ class Run:
         """Next times: all up to the end at first, blocks of equal intervals after an event."""
         ahead = self.times[(self.times > now) & (self.times < end)]
         grid = np.concatenate([[now], ahead, [end]])
+        if now + self.piece < grid[1]:
+            return np.array([now, now + self.piece])
         if not self.block:
             return grid
         steps = np.diff(grid)

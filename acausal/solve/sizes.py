@@ -10,7 +10,7 @@ from acausal.solve.methods import rates_of
 # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
 SMALLER = 0.1
 # What reaches less, in SI units and in parts of the absolute tolerance, rests but for rounding: a falling free body turns
-# by 2e-13 rad/s, and nobody wants to follow that.
+# by 2e-13 rad/s, and nobody wants to follow that. What begins with a value does not rest.
 REST, LOST = 1e-11, 1e-4
 # Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
 PASSES = 5
@@ -43,7 +43,9 @@ def smaller_sizes(
     fitting = nominal.copy()
     for members in groups.values():
         most = float(np.max(reach[members]))
-        if most > max(REST, LOST * tolerance * float(np.max(nominal[members]))):
+        begins = float(np.max(np.abs(x[0, members])))
+        lost = LOST * tolerance * float(np.max(nominal[members]))
+        if most > REST and (most > lost or begins > SMALLER * most):
             fitting[members] = np.minimum(nominal[members], most)
     for coordinate, rate in rates_of(compiled):
         if not compiled.sizes[rate][1]:

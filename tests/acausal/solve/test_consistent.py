@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, piecewise, reinit, sin, time, variable, when
 from acausal.solve.integrate import Integrator
+from components import rotational
 from models import FourBarSpatial, NFourBar, SpinUp
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
 
@@ -84,7 +85,9 @@ def test_no_contact_is_missed(tolerance, intervals, method):
     first = (1 - np.sqrt(0.1**2 - 0.02**2)) / 1
     assert result.stats["event_times"][0] == pytest.approx(first, abs=1e-9)
     np.testing.assert_allclose(result["b.r_0"][-1, :2], collision(), atol=1e2 * tolerance + 1e-6)
-    assert abs(result.stats["energy_method"]) < 1e2 * tolerance
+    assert (
+        abs(result.stats["energy_method"]) < 1e3 * tolerance
+    )  # what a body that oscillates may lose, docs/hard-cases.md
 
 
 @pytest.mark.parametrize("speed", [10.0, 100.0])
@@ -94,6 +97,27 @@ def test_contact_shorter_than_an_interval(speed, intervals):
     stop = 2.0 / speed
     result = ac.simulate(Two(speed=speed), stop_time=stop, intervals=intervals, method="idas", tolerance=1e-6)
     assert result.stats["event_times"][0] == pytest.approx((1 - np.sqrt(0.1**2 - 0.02**2)) / speed, rel=1e-8)
+
+
+class Bounce(Model):
+    """A mass meets a stiff stop and is pushed back: half a period of the contact takes 1 ms."""
+
+    x: Scalar = variable("gap", start=1, fixed=True)
+    v: Scalar = variable("speed", start=-2, fixed=True)
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == piecewise((-1e7 * self.x, self.x < 0), 0)
+
+
+@pytest.mark.parametrize(("method", "tolerance"), [("auto", 1e-6), ("rosenbrock", 1e-4), ("idas", 1e-8)])
+@pytest.mark.parametrize(("stop", "intervals"), [(100.0, 400), (20.0, 10), (1.3, 3)])
+def test_end_of_a_contact_much_shorter_than_an_interval(stop, intervals, method, tolerance):
+    """The release is the first one, not one some periods later."""
+    result = ac.simulate(Bounce(), stop_time=stop, intervals=intervals, method=method, tolerance=tolerance)
+    contact = np.pi / np.sqrt(1e7)
+    np.testing.assert_allclose(result.stats["event_times"], [0.5, 0.5 + contact], atol=contact * 100 * tolerance**0.75)
+    assert result["v"][-1] == pytest.approx(2, rel=100 * tolerance)
 
 
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
@@ -188,6 +212,30 @@ def test_sliding_on_a_jump_ends(law, method):
 
     with pytest.raises(ac.SimulationError, match="switch back and forth"):
         ac.simulate(Slides(), stop_time=1.0, method=method)
+
+
+def test_sign_in_a_class_body_is_watched():
+    class Relay(Model):
+        u: Scalar = ac.input("input", unit="1")
+        x: Scalar = variable("x", start=0, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == self.u
+
+    class Driven(Model):
+        relay = Relay(u=ac.sign(ac.cos(20 * time)))
+
+    result = ac.simulate(Driven(), stop_time=1.0, intervals=10)
+    np.testing.assert_allclose(result.stats["event_times"], np.arange(1, 13, 2) * np.pi / 40, atol=1e-9)
+
+    class Jumps(Model):
+        drive, rotor = rotational.Position(phi_ref=ac.sign(time - 0.5)), rotational.Inertia(J=1)
+
+        def connections(self):
+            yield ac.connect(self.drive.flange, self.rotor.flange_a)
+
+    with pytest.raises(ac.SimulationError, match="jump"):
+        ac.simulate(Jumps(), stop_time=1.0)
 
 
 def test_sign_of_a_passing_quantity_is_exact():

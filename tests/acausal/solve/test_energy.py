@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import simpson
 
 import acausal as ac
-from acausal import Model, connect, sin, time
+from acausal import Model, connect, cos, sin, time
 from components import rotational
 from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
@@ -62,6 +62,29 @@ def test_work_without_states(intervals, stop):
     assert result.stats["energy_stored_change"] == pytest.approx(10 * (0.5 * np.sin(3 * stop)) ** 2 / 2)
     assert result.stats["energy_dissipated"] == pytest.approx(heat, rel=1e-6)
     assert abs(result.stats["energy_method"]) < 1e-6
+
+
+class Shaken(Model):
+    """No states, and many turns between two outputs."""
+
+    drive = rotational.Position(phi_ref=0.1 * sin(50 * time) * cos(3 * time))
+    spring = rotational.SpringDamper(c=10.0, d=2.0)
+    ground = rotational.Fixed()
+
+    def connections(self):
+        yield connect(self.drive.flange, self.spring.flange_a)
+        yield connect(self.spring.flange_b, self.ground.flange)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+@pytest.mark.parametrize("intervals", [1, 3, 10, 400])
+def test_work_of_many_turns_between_outputs(intervals, tolerance):
+    t = np.linspace(0, 3, 200001)
+    w = 5 * np.cos(50 * t) * np.cos(3 * t) - 0.3 * np.sin(50 * t) * np.sin(3 * t)
+    stats = ac.simulate(Shaken(), stop_time=3.0, intervals=intervals, tolerance=tolerance, energy=True).stats
+    heat = simpson(2 * w**2, x=t)
+    assert stats["energy_dissipated"] == pytest.approx(heat, rel=tolerance)
+    assert abs(stats["energy_method"]) < tolerance * heat
 
 
 def along(result: ac.Result, name: str) -> np.ndarray:

@@ -41,6 +41,14 @@ def test_error_falls_with_the_tolerance(a):
     assert fine < rough / 30
 
 
+@pytest.mark.parametrize(("a", "tolerance"), [(1e-7, 1e-3), (1e-9, 1e-4), (1e-10, 1e-6)])
+def test_what_begins_with_a_value_does_not_rest(a, tolerance):
+    """Even if the first run loses the motion in its tolerance."""
+    found, result = error(a, tolerance=tolerance)
+    assert found < 1e3 * tolerance
+    assert result.stats["sizes"]["m"] == pytest.approx(a, rel=0.2)
+
+
 def test_sizes_are_told_and_steps_of_all_runs_counted():
     result = error(1e-5)[1]
     assert result.stats["sizes"]["m"] == pytest.approx(1e-5, rel=0.2)
