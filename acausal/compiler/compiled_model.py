@@ -129,11 +129,9 @@ class CompiledModel:
         flat, plan = self.reduced.flat, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
-        known = [k < len(flat.units) for k in places]
-        units = [
-            str(flat.units[k] or self.reduced.names[k]) if there else "" for k, there in zip(places, known, strict=True)
-        ]
-        return tuple((u, not there or bool(flat.sized[k])) for u, k, there in zip(units, places, known, strict=True))
+        units = (*(str(u or n) for u, n in zip(flat.units, flat.names, strict=True)), *[""] * plan.system.n_variables)
+        declared = (*flat.sized.tolist(), *[True] * plan.system.n_variables)
+        return tuple((units[k], declared[k]) for k in places)
 
     @cached_property
     def conditions(self) -> ca.SX:

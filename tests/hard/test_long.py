@@ -45,7 +45,7 @@ def test_four_bar_for_1000_s():
 
 
 STUCK = pytest.mark.xfail(
-    strict=True,
+    strict=False,  # where steps end beside flat is a matter of rounding, which differs between machines
     raises=AssertionError,
     reason="steps as short as this get stuck at flat; longer ones cost accuracy, and are told",
 )

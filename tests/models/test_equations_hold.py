@@ -1,4 +1,4 @@
-"""Whatever is read satisfies the equations of the model: all scenes and small machines, methods and tolerances."""
+"""Whatever is read satisfies the equations of the model: all components, scenes and small machines, methods and tolerances."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from acausal import Model
 from acausal.language.functions import initial, time
 from models import SCENES
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
+from tests.components.test_properties import SCENES as WITH_COMPONENT
 
 SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank": 0.75, "bricard": 2.0}
 # Where one method alone takes minutes to follow vibrations, or does not get past a flat position.
@@ -39,6 +40,7 @@ def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
     return worst
 
 
+@pytest.mark.filterwarnings("ignore:.*linear frames")
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-8])
 @pytest.mark.parametrize("name", MODELS)
@@ -50,3 +52,11 @@ def test_every_equation_holds_at_every_output(name, tolerance, method):
         options["method"] = "auto"
     result = ac.simulate(compiled, stop_time=stop, **options)
     assert worst_equation(result, compiled) < 1e-10
+
+
+@pytest.mark.parametrize("name", WITH_COMPONENT)
+def test_every_equation_holds_around_every_component(name):
+    compiled = ac.compile(WITH_COMPONENT[name]())
+    for tolerance, method in ((1e-3, "idas"), (1e-6, "rosenbrock")):
+        result = ac.simulate(compiled, stop_time=0.5, tolerance=tolerance, method=method, intervals=20)
+        assert worst_equation(result, compiled) < 1e-10
