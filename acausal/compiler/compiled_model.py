@@ -17,6 +17,7 @@ from acausal.compiler.closing import Closing
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
+from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.requirements import Requirements
 from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
@@ -155,17 +156,11 @@ class CompiledModel:
         """Function of ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
-    def newton(self, unknowns: np.ndarray, equations: np.ndarray, n: int) -> Call:
-        """Function of x, z, parameters, time and modes at n times: some unknowns among z after a step of Newton."""
-        key = ("newton", tuple(unknowns), n)
+    def passes(self, unknowns: np.ndarray, equations: np.ndarray) -> tuple[Pass, ...]:
+        """Newton steps that solve equations for as many algebraic unknowns, one part after the other."""
+        key = ("passes", tuple(unknowns))
         if key not in self.cache:
-            alg = ca.substitute(self.reduced.alg[equations.tolist()], initial.sx, 0)
-            parts = ca.cse([ca.densify(alg), ca.jacobian(alg, self.reduced.z[unknowns.tolist()])])
-            given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(self.arguments[:-1])]
-            value, J = ca.Function("alg", self.arguments[:-1], parts)(*given)
-            step = ca.solve(J, value, "csparse")
-            one = ca.Function("newton", given, [given[1][unknowns.tolist()] - step])
-            self.cache[key] = Call(one.map(n))
+            self.cache[key] = make_passes(self.reduced, self.arguments[:-1], unknowns, equations)
         return self.cache[key]
 
     @property

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add
 from typing import Any
 
 import casadi as ca
@@ -91,9 +93,9 @@ class Assembly:
     ) -> FlatModel:
         was, becomes = eliminated
         raw, build = self.raw, self.raw.build
-        entries = scalars(residuals)
+        entries, elements = scalars(residuals), scalars(self.symbols)
         for row, value in done.kept.items():
-            entries[row] = _expression(value, scalars(self.symbols))
+            entries[row] = _expression(value, elements)
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
         unknowns = [
             k
@@ -285,5 +287,5 @@ class Assembly:
 
 def _expression(value: Linear, elements: list[Any]) -> Any:
     c0, terms = value
-    total = sum((elements[u] if c == 1 else elements[u] * c for u, c in terms), 0.0)
-    return total if c0 == 0 else total + c0
+    products = [elements[u] if c == 1 else elements[u] * c for u, c in terms]
+    return reduce(add, [*products, c0] if c0 or not products else products)

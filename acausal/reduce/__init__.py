@@ -1,7 +1,8 @@
 """Reduction: a plan of the structural stage applied to the symbols."""
 
-from acausal.reduce.dependence import Dependence
+from acausal.reduce.dependence import Dependence, solution_levels
 from acausal.reduce.reduce import plan_of, reduce
 from acausal.reduce.reduced_model import ReducedModel
+from acausal.structure import Level
 
-__all__ = ["Dependence", "ReducedModel", "plan_of", "reduce"]
+__all__ = ["Dependence", "Level", "ReducedModel", "plan_of", "reduce", "solution_levels"]

@@ -1,4 +1,4 @@
-"""Which algebraic unknowns a value needs: those in it, and those that share equations with them."""
+"""Which algebraic unknowns a value needs, and the order in which they are solved for."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import casadi as ca
 import numpy as np
 
+from acausal.structure import Level, block_triangular, levels
 from acausal.structure.matching import maximum_matching
 from acausal.symbols import scalars
 
@@ -45,3 +46,22 @@ class Dependence:
                     stack.append(k)
         unknowns = sorted(seen)
         return np.array(unknowns, dtype=int), np.array([self._equation_of[k] for k in unknowns], dtype=int)
+
+
+def solution_levels(J: ca.SX, unknowns: ca.SX) -> tuple[Level, ...]:
+    """Return the order in which equations are solved.
+
+    Parameters
+    ----------
+    J : casadi.SX
+        Jacobian of the residuals by the unknowns; row k is matched with column k.
+    unknowns : casadi.SX
+        The unknowns.
+    """
+    entries = list(zip(*J.sparsity().get_triplet(), strict=True))
+    rows: list[list[int]] = [[] for _ in range(J.shape[0])]
+    for row, column in entries:
+        rows[row].append(column)
+    second = ca.jacobian_sparsity(ca.vertcat(*J.nonzeros()), unknowns)  # type: ignore[attr-defined]
+    products = ((*entries[k], column) for k, column in zip(*second.get_triplet(), strict=True))
+    return levels(block_triangular(rows, [(k, k) for k in range(len(rows))]), rows, products)

@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
+from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
 from acausal.solve.initialize import algebraic
 from acausal.solve.newton import TERMS
@@ -18,9 +19,13 @@ from acausal.solve.newton import TERMS
 # Times in one call.
 AT_ONCE = 16
 # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
-SETTLED = 1e-8
+SETTLED = 1e-7
+# The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
+ONCE = 1.0
 # Of the largest unknown: what is smaller may be rounding, which never settles.
 NOISE = 1e-9
+# Times at which sizes of terms are taken.
+LOOKS = 4
 
 
 class Consistent:
@@ -36,7 +41,7 @@ class Consistent:
     Attributes
     ----------
     evaluations : int
-        Evaluations of the equations so far, one for each time.
+        Evaluations of the equations, or of a part of them, so far; one for each time.
     unsolved : list of float
         Times at which no solution was found; what was given stays there.
     """
@@ -45,6 +50,7 @@ class Consistent:
         self.compiled, self.p = compiled, p
         self.evaluations = 0
         self.unsolved: list[float] = []
+        self._natural: dict[tuple[int, ...], np.ndarray] = {}
 
     def __call__(
         self,
@@ -71,21 +77,12 @@ class Consistent:
         unknowns, equations = c.dependence.closure(range(c.nz) if wanted is None else wanted)
         if not unknowns.size or not len(t):
             return z
-        z = z.copy()
-        first = z.copy()
-        size = np.max(np.abs(z[:, unknowns]), axis=0)
-        size = np.maximum(size, NOISE * np.max(size)) if size.any() else np.ones(len(size))
-        rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), []
-        while rows.size:
-            found = self._newton(unknowns, equations, x[rows], z[rows], t[rows], modes[rows])
-            change = np.max(np.abs(found - z[np.ix_(rows, unknowns)]) / size, axis=1)
-            nearer = change < before[rows]
-            doubtful += rows[~nearer].tolist()
-            rows, found, change = rows[nearer], found[nearer], change[nearer]
-            z[np.ix_(rows, unknowns)] = found
-            before[rows] = change
-            rows = rows[change > SETTLED]
-        for row in doubtful:
+        first, z = z, z.copy()
+        size = self._sizes(x, z, t, modes, unknowns, equations)
+        doubtful: set[int] = set()
+        for step in c.passes(unknowns, equations):
+            doubtful |= self._settle(step, size[step.unknowns], x, z, t, modes)
+        for row in sorted(doubtful):
             if not self.holds(x[row], z[row], float(t[row]), modes[row], TERMS * np.finfo(float).eps, equations):
                 self._alone(row, x, z, first, t, modes)
         return z
@@ -114,28 +111,63 @@ class Consistent:
         terms = np.abs(local.jacobian[rows, : c.nx + c.nz]) @ np.abs(np.concatenate([x, z]))
         return bool(np.all(np.abs(local.value[rows]) <= tolerance * (1 + terms)))
 
-    def _newton(
+    def _sizes(
         self,
-        unknowns: np.ndarray,
-        equations: np.ndarray,
         x: np.ndarray,
         z: np.ndarray,
         t: np.ndarray,
         modes: np.ndarray,
+        unknowns: np.ndarray,
+        equations: np.ndarray,
     ) -> np.ndarray:
+        """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
+        c = self.compiled
+        key = tuple(unknowns)
+        if key not in self._natural or len(t) > AT_ONCE:
+            size = np.zeros(c.nz)
+            for k in np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int)):
+                J = abs(c.at(x[k], z[k], self.p, float(t[k]), modes[k], 0.0).jacobian[c.nx + equations])
+                entries = J[:, c.nx + unknowns].tocoo()
+                terms = (J @ np.abs(np.concatenate([x[k], z[k]])))[entries.row]
+                here = np.full(len(unknowns), np.inf)
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    np.fmin.at(here, entries.col, terms / entries.data)
+                size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
+            self._natural[key] = size
+        size = np.maximum(self._natural[key], np.max(np.abs(z), axis=0))
+        return np.maximum(size, NOISE * np.max(size)) if size.any() else np.ones(len(size))
+
+    def _settle(
+        self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray
+    ) -> set[int]:
+        """Repeat a pass in place until nothing changes; return the rows where it did not get there."""
+        enough = ONCE if step.linear else SETTLED
+        rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), set()
+        while rows.size:
+            found = self._newton(step, x[rows], z[rows], t[rows], modes[rows])
+            change = np.max(np.abs(found - z[np.ix_(rows, step.unknowns)]) / size, axis=1)
+            nearer = change < before[rows]
+            doubtful |= set(rows[~nearer].tolist())
+            rows, found, change = rows[nearer], found[nearer], change[nearer]
+            z[np.ix_(rows, step.unknowns)] = found
+            before[rows] = change
+            rows = rows[change > enough]
+        return doubtful
+
+    def _newton(self, step: Pass, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """One Newton step at every time; nan where the equations are singular."""
         n = len(t)
         self.evaluations += n
-        call = self.compiled.newton(unknowns, equations, AT_ONCE if n > 1 else 1)
+        call = step.at(AT_ONCE if n > 1 else 1)
         size = len(call.inputs[3])
-        found = np.empty((n, len(unknowns)))
+        found = np.empty((n, len(step.unknowns)))
         for first in range(0, n, size):
             some = np.arange(first, min(first + size, n))
             found[some] = self._some(call, x[some], z[some], t[some], modes[some])
             bad = some[~np.all(np.isfinite(found[some]), axis=1)]
             for k in bad if n > 1 else ():
                 # A singular one leaves nothing for the others of its call.
-                found[k] = self._newton(unknowns, equations, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
+                found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
         return found
 
     def _some(self, call: Call, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:

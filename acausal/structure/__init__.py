@@ -2,9 +2,11 @@
 
 from acausal.structure.analyse import analyse
 from acausal.structure.block import Block
+from acausal.structure.blt import block_triangular
 from acausal.structure.conditions import Completion, complete
 from acausal.structure.constraints import Constrained, Constraint, Projection
 from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
+from acausal.structure.levels import Level, levels
 from acausal.structure.plan import Plan
 from acausal.structure.singularity import Part, StructuralSingularity
 from acausal.structure.system import System
@@ -15,13 +17,16 @@ __all__ = [
     "Constrained",
     "Constraint",
     "DulmageMendelsohn",
+    "Level",
     "Part",
     "Plan",
     "Projection",
     "StructuralSingularity",
     "System",
     "analyse",
+    "block_triangular",
     "complete",
     "components",
     "decompose",
+    "levels",
 ]

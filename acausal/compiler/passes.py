@@ -1,0 +1,81 @@
+"""Newton steps for algebraic unknowns, one part of the equations after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.language.functions import initial
+from acausal.reduce import Level, ReducedModel, solution_levels
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A Newton step for some algebraic unknowns, where all that it needs of the others is right.
+
+    Parameters
+    ----------
+    unknowns : array of int
+        Positions among the algebraic unknowns.
+    linear : bool
+        Whether one step is enough, up to rounding.
+    function : casadi.Function
+        From x, z, parameters, time and modes: these unknowns after the step.
+    """
+
+    unknowns: np.ndarray
+    linear: bool
+    function: ca.Function
+    _calls: dict[int, Call] = field(default_factory=dict)
+
+    def at(self, n: int) -> Call:
+        """Return the function of n times at once."""
+        if n not in self._calls:
+            self._calls[n] = Call(self.function.map(n))
+        return self._calls[n]
+
+
+def make_passes(
+    reduced: ReducedModel, arguments: list[ca.SX], unknowns: np.ndarray, equations: np.ndarray
+) -> tuple[Pass, ...]:
+    """Return the passes that solve equations for unknowns; `equations[i]` is matched with `unknowns[i]`.
+
+    A part that is not linear in its unknowns is a pass of its own, and so are all that follow up to the next of them.
+    """
+    alg = ca.substitute(reduced.alg[equations.tolist()], initial.sx, 0)
+    J = ca.jacobian(alg, reduced.z[unknowns.tolist()])
+    steps = [
+        (level, _step(arguments, alg, J, level, unknowns)) for level in solution_levels(J, reduced.z[unknowns.tolist()])
+    ]
+    together: list[list[tuple[Level, ca.Function]]] = []
+    for level, step in steps:
+        if not (level.linear and together and together[-1][-1][0].linear):
+            together.append([])
+        together[-1].append((level, step))
+    return tuple(_joined(arguments, some, unknowns) for some in together)
+
+
+def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: np.ndarray) -> ca.Function:
+    """From x, z, parameters, time and modes: z after a Newton step in the unknowns of a level."""
+    rows, columns = list(level.equations), list(level.variables)
+    parts = ca.Function("part", arguments, ca.cse([ca.densify(alg[rows]), J[rows, columns]]))
+    given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
+    value, matrix = parts(*given)
+    places = unknowns[columns].tolist()
+    z = ca.MX(given[1])
+    z[places] = given[1][places] - ca.solve(matrix, value, "csparse")
+    return ca.Function("step", given, [z])
+
+
+def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unknowns: np.ndarray) -> Pass:
+    """One pass of several steps."""
+    x, z, *others = (ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments))
+    found = z
+    for _, step in steps:
+        found = step(x, found, *others)
+    chosen = np.sort(np.concatenate([unknowns[list(level.variables)] for level, _ in steps]))
+    function = ca.Function("newton", [x, z, *others], [found[chosen.tolist()]])
+    return Pass(chosen, steps[0][0].linear, function)
