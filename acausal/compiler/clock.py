@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 
+from acausal.compiler.intervals import bounded
 from acausal.flatten.discontinuities import Guard
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
@@ -20,8 +21,10 @@ from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
 
-def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], ca.SX]:
-    """Tell which comparisons are linear in time and hold nothing else but parameters; their excesses, a column.
+def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
+    """Tell which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
+
+    The instants of the others are known from parameters, those of curved ones can be found for sure.
 
     Parameters
     ----------
@@ -32,22 +35,29 @@ def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[li
     """
     entries = [part.excess.sx for condition in conditions for part in condition.comparisons]
     if not entries:
-        return [], ca.SX(0, 1)
+        return [], [], ca.SX(0, 1)
     excess = ca.substitute(reduced.resolve(ca.vertcat(*entries)), initial.sx, 0)
     free = {s.element_hash() for s in scalars(ca.vertcat(reduced.flat.parameters, time.sx))}
-    curved = ca.which_depends(excess, time.sx, 2, True)
+    bent = ca.which_depends(excess, time.sx, 2, True)
     timed = [
-        not bent and all(s.element_hash() in free for s in ca.symvar(e))
-        for e, bent in zip(scalars(excess), curved, strict=True)
+        all(s.element_hash() in free for s in ca.symvar(e)) and (not curved or all(map(bounded, functions(reduced, e))))
+        for e, curved in zip(scalars(excess), bent, strict=True)
     ]
-    return timed, excess
+    return timed, [t and curved for t, curved in zip(timed, bent, strict=True)], excess
+
+
+def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Function]:
+    """Functions of parameters and time: an excess, and its derivative."""
+    given = [reduced.flat.parameters, time.sx]
+    slope = ca.densify(ca.jacobian(excess, time.sx))
+    return ca.Function("excess", given, [ca.densify(excess)]), ca.Function("slope", given, [slope])
 
 
 def split_clock(reduced: ReducedModel) -> ReducedModel:
     """Return the model with a switch for every comparison with time in a condition that is not decided by time alone."""
     flat = reduced.flat
     joined = [guard for guard in flat.guards if isinstance(guard.condition, Joined)]
-    timed, excess = by_clock(reduced, [guard.condition for guard in joined])
+    timed, _, excess = by_clock(reduced, [guard.condition for guard in joined])
     known, switches, own = iter(zip(timed, scalars(excess), strict=True)), list[tuple[ca.SX, Guard]](), {}
     for guard in joined:
         parts = [(part, *next(known)) for part in guard.condition.comparisons]

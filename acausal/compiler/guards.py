@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.compiler.clock import by_clock
+from acausal.compiler.clock import by_clock, functions
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -31,7 +31,7 @@ class Guards:
     Attributes
     ----------
     timed : list of int
-        Guards that compare time with parameters and nothing else: their instants are known before.
+        Guards that compare time and parameters and nothing else: their instants are found before.
     watched : list of int
         All others.
     n_switches, n_modes : int
@@ -52,14 +52,16 @@ class Guards:
                     f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
-        decided, compared = by_clock(reduced, [g.condition for g in flat.guards])
-        self.timed, rows, row = [], [], 0
+        decided, bent, compared = by_clock(reduced, [g.condition for g in flat.guards])
+        self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
         for k, guard in enumerate(flat.guards):
             own = range(row, row := row + len(guard.condition.comparisons))
             if all(decided[r] for r in own):
                 self.timed.append(k)
-                rows += own
-        self._compared = compared[rows]
+                kinds = [part.kind == "<=" for part in guard.condition.comparisons]
+                rows += [(r, inclusive, guard.origin) for r, inclusive in zip(own, kinds, strict=True)]
+        self._compared = compared[[r for r, *_ in rows if not bent[r]]]
+        self._bent = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if bent[r]]
         self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
@@ -68,12 +70,21 @@ class Guards:
 
     @cached_property
     def breaks(self) -> Call:
-        """Function of parameters: break times, one of each comparison of the timed guards."""
+        """Function of parameters: break times, one of each linear comparison of the timed guards."""
         p, excess = self.reduced.flat.parameters, self._compared
-        if not self.timed:
+        if not excess.numel():
             return Call(ca.Function("breaks", [p], [ca.SX(0, 1)]))
         at_zero = ca.substitute(excess, time.sx, 0)
         return Call(ca.Function("breaks", [p], [ca.densify(-at_zero / ca.jtimes(excess, time.sx, 1))]))
+
+    @cached_property
+    def curved(self) -> list[tuple[ca.Function, ca.Function, bool, Origin]]:
+        """Comparisons of the timed guards that are not linear in time.
+
+        Each as functions of parameters and time, its excess and the derivative of that, whether it holds where the excess
+        is 0, and where it is stated.
+        """
+        return [(*functions(self.reduced, excess), inclusive, origin) for excess, inclusive, origin in self._bent]
 
     @cached_property
     def timed_excess(self) -> Call:

@@ -36,14 +36,17 @@ class Run:
     times : array
         Output times.
     breaks : list of float
-        Break times.
+        Times at which conditions of time alone change.
+    declared : list of float
+        Those of them that are no events, as they follow from parameters.
     """
 
-    def __init__(self, integrator: Integrator, times: np.ndarray, breaks: list[float]) -> None:
+    def __init__(self, integrator: Integrator, times: np.ndarray, breaks: list[float], declared: list[float]) -> None:
         self.integrator, self.times = integrator, times
         # A rounding error apart from an output, a break is on it.
         near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
         self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
+        self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in set(declared)}
         c, self.p = integrator.compiled, integrator.p
         self.guards, span = c.guards, float(times[-1] - times[0])
         settings = integrator.settings
@@ -52,6 +55,7 @@ class Run:
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=MOST)
         self.weak, self.density, self.block = 0, 1, 0
+        self.inclusive = np.array([self.guards.guards[k].inclusive for k in self.guards.timed], dtype=bool)
         self.first: Point | None = None
         self.hasty, self.piece = False, np.inf
 
@@ -59,12 +63,8 @@ class Run:
         """Go from break to break; the law of each segment holds up to its end."""
         ends = [*self.breaks, float(self.times[-1])]
         held = self._by_clock(at.time, ends[0])
-        now = self.guards.timed_excess(self.p, at.time)[0]
-        acts = [
-            k
-            for k, e, soon in zip(self.guards.timed, now, held, strict=True)
-            if self.guards.guards[k].at_start and (soon or e < 0 or (e == 0 and self.guards.guards[k].inclusive))
-        ]
+        holds = held | self._on(at.time)
+        acts = [k for k, on in zip(self.guards.timed, holds, strict=True) if on and self.guards.guards[k].at_start]
         self.first = at = self._happen(at, event=False, fired=acts)
         for end in ends:
             if at.time != self.times[0]:
@@ -74,23 +74,38 @@ class Run:
 
     def _by_clock(self, begin: float, end: float) -> np.ndarray:
         """Which timed guards hold between two breaks."""
-        return self.guards.timed_excess(self.p, (begin + end) / 2)[0] < 0
+        return self._on((begin + end) / 2)
+
+    def _on(self, time: float) -> np.ndarray:
+        """Which timed guards hold at a time."""
+        excess = self.guards.timed_excess(self.p, time)[0]
+        return (excess < 0) | ((excess == 0) & self.inclusive)
 
     def _at_break(self, at: Point, end: float, held: np.ndarray) -> Point:
         """Switch what the clock switches; `held` tells which timed guards held before."""
         modes, fired = at.modes.copy(), []
-        for k, holds, before in zip(self.guards.timed, self._by_clock(at.time, end), held, strict=True):
+        on = self._by_clock(at.time, end)
+        changed = at.time in self.found and bool((on != held).any())
+        if changed:
+            self.events.append(at.time)
+            self.block = 1
+        for k, holds, before in zip(self.guards.timed, on, held, strict=True):
             if k < self.guards.n_switches:
                 modes[k] = holds
             elif holds and not before:
                 fired.append(k)
-        return self._happen(at, event=False, fired=fired, modes=modes)
+        new = self._happen(at, event=False, fired=fired, modes=modes)
+        if changed:
+            self.integrator.trace.put(-1, new.x, new.z, new.modes)
+        return new
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
-            inner = self.times[(self.times > at.time) & (self.times < end)]
-            x, z = self.integrator.segment(np.concatenate([[at.time], inner, [end]]), at.x, at.z, at.modes)
-            return replace(at, time=end, x=x, z=z, modes=self.integrator.trace.modes[-1][-1])
+            while at.time < end:
+                grid = self._grid(at.time, end)
+                x, z = self.integrator.segment(grid, at.x, at.z, at.modes)
+                at = replace(at, time=float(grid[-1]), x=x, z=z, modes=self.integrator.trace.modes[-1][-1])
+                self.block *= 2
         while at.time < end:
             at = self._advance(at, end)
             self.integrator.report(at.time)

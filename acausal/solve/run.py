@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError
 from acausal.result import Result
+from acausal.solve.clock_times import clock_times
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
@@ -54,8 +55,10 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     started = clock.perf_counter()
     times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, task.intervals + 1)
     times[-1] = stop_time
-    breaks = _breaks(compiled, p, start_time, stop_time)
-    at = start(compiled, p, start_time, _middle(start_time, breaks, stop_time), task.initial)
+    found = clock_times(compiled, p, start_time, stop_time)
+    breaks = _breaks(compiled.breaks(p)[0].tolist(), start_time, stop_time)
+    ends = _breaks([*breaks, *found], start_time, stop_time)
+    at = start(compiled, p, start_time, _middle(start_time, ends, stop_time), task.initial)
     check_start(compiled, at, p)
     first, at = at, go_on(compiled, p, at)
     rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
@@ -66,7 +69,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     nominal, counts = compiled.nominal, Trace()
     for _ in range(PASSES):
         integrator = Integrator(compiled, p, Settings(nominal, *fixed), (start_time, stop_time), counts)
-        events = Run(integrator, times, breaks)
+        events = Run(integrator, times, ends, breaks)
         failure: BaseException | None = None
         try:
             events.go(at)
@@ -102,10 +105,10 @@ def _raise(failure: BaseException, result: Result, integrator: Integrator, p: np
     raise failure
 
 
-def _breaks(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> list[float]:
+def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     """Break times inside of a run; those that are but a few rounding errors apart are one."""
     found: list[float] = []
-    for b in sorted(float(b) for b in compiled.breaks(p)[0] if start < b < stop):
+    for b in sorted(b for b in instants if start < b < stop):
         if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):
             found.append(b)
     return found

@@ -8,7 +8,25 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, sin, time, variable, when
+from acausal import (
+    Model,
+    Scalar,
+    atan2,
+    der,
+    discrete,
+    exp,
+    parameter,
+    piecewise,
+    reinit,
+    sin,
+    sqrt,
+    structural,
+    time,
+    variable,
+    when,
+)
+from acausal.language.functions import tanh
+from acausal.solve.clock_times import clock_times
 
 
 class Pulses(Model):
@@ -141,11 +159,103 @@ class Nonlinear(Model):
         yield der(self.x) == piecewise((1, (sin(time) > 0.5) & (time < 7)), 0)
 
 
-def test_what_is_not_linear_in_time_is_watched():
+def test_what_is_not_linear_in_time_is_an_event():
     result = ac.simulate(Nonlinear(), stop_time=20)
     np.testing.assert_allclose(result["x"][-1], 2 * np.pi / 3 + 7 - (2 * np.pi + np.pi / 6), atol=1e-5)
     assert result.stats["break_times"] == [7.0]
     np.testing.assert_allclose(result.stats["event_times"], [np.pi / 6, 5 * np.pi / 6, 13 * np.pi / 6], atol=1e-5)
+
+
+class Curved(Model):
+    """A short pulse whose condition is not linear in time, while another law breaks inside of it."""
+
+    law: str = structural("how the pulse is written", default="square")
+    a: Scalar = parameter("middle", unit="s", default=40.013)
+    w: Scalar = parameter("half its length", unit="s", default=1e-4)
+    x: Scalar = variable("integral of the pulse", start=0, fixed=True)
+    y: Scalar = variable("integral of the other law", start=0, fixed=True)
+    n: Scalar = discrete("pulses")
+
+    def equations(self):
+        off = (time - self.a) / self.w
+        pulse = {
+            "square": (time - self.a) ** 2 < self.w**2,
+            "spread": time**2 - 2 * self.a * time + self.a**2 <= self.w**2,
+            "distance": sqrt((time - self.a) ** 2) < self.w,
+            "smooth distance": piecewise((off, off > 0), -off, smooth=True) < 1,
+            "bell": exp(-(off**2)) > exp(-1),
+            "steep": tanh(1 - off**2) > 0,
+            "with a variable": (off**2 < 1) & (self.y > -1),
+            "angle": atan2(off, 1) ** 2 < (np.pi / 4) ** 2,
+            "inverse": 1 / (1 + off**2) > 0.5,
+        }[self.law]
+        yield der(self.x) == piecewise((1e4, pulse), 0)
+        yield der(self.y) == piecewise((1, time < self.a), 2)
+        yield when(pulse, reinit(self.n, self.n + 1))
+
+
+LAWS = ("square", "spread", "distance", "smooth distance", "bell", "steep", "with a variable", "angle", "inverse")
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(("a", "w"), [(40.013, 1e-4), (25.0, 1e-3), (99.9, 1e-5)])
+def test_no_pulse_that_is_not_linear_in_time_is_missed(law, a, w):
+    result = ac.simulate(Curved(law=law), stop_time=100, parameters={"a": a, "w": w})
+    loss = 1e-16 * a**2 / (w * w) if law == "spread" else 1e-9  # what rounding leaves of its differences
+    np.testing.assert_allclose(result["x"][-1], 2e4 * w, rtol=10 * loss)
+    np.testing.assert_allclose(result["y"][-1], 200 - a, rtol=1e-7)
+    assert result["n"][-1] == 1
+    assert result.stats["break_times"] == [a]
+    np.testing.assert_allclose(result.stats["event_times"], [a - w, a + w], atol=10 * loss * w)
+
+
+@pytest.mark.parametrize("intervals", [1, 400])
+def test_a_periodic_pulse_is_never_missed(intervals):
+    class Periodic(Model):
+        x: Scalar = variable("time in pulses", start=0, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == piecewise((1, sin(2 * np.pi * time) > 0.999), 0)
+
+    result = ac.simulate(Periodic(), stop_time=100, intervals=intervals)
+    np.testing.assert_allclose(result["x"][-1], 100 * (0.5 - np.arcsin(0.999) / np.pi), rtol=1e-9)
+    assert result.stats["events"] == 200
+
+
+def test_an_output_at_a_searched_instant_holds_the_values_after_it():
+    class Shown(Model):
+        u: Scalar = variable("u")
+
+        def equations(self):
+            yield self.u == piecewise((1, (time - 5) ** 2 < 1), 0)
+
+    result = ac.simulate(Shown(), stop_time=10, intervals=10)
+    assert result["u"].tolist() == [0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("inclusive", [True, False])
+def test_a_condition_that_is_zero_for_a_while(inclusive):
+    class Flat(Model):
+        x: Scalar = variable("time for which it holds", start=0, fixed=True)
+
+        def equations(self):
+            late = piecewise((time - 3.3, time > 3.3), 0, smooth=True)
+            yield der(self.x) == piecewise((1, late <= 0 if inclusive else late > 0), 0)
+
+    result = ac.simulate(Flat(), stop_time=10)
+    np.testing.assert_allclose(result["x"][-1], 3.3 if inclusive else 6.7, rtol=1e-9)
+
+
+def test_too_many_changes_are_told():
+    class Fast(Model):
+        x: Scalar = variable("x", start=0, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == piecewise((1, (sin(1e7 * time) > 0) & (time < 1e-7)), 0)
+
+    bound = ac.compile(Fast())
+    with pytest.warns(ac.AcausalWarning, match=r"(?s)Fast.*changes too often"):
+        clock_times(bound, bound.parameter_values(None), 0.0, 1.0)
 
 
 class Through(Model):
