@@ -26,6 +26,7 @@ from acausal.cli.output import Files, Progress, modes_table, progress_bar, summa
 from acausal.cli.scenes import find_scene, scenes
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.solve.settings import settled
 from acausal.solve.trials import adaptive
 
 if TYPE_CHECKING:
@@ -65,7 +66,9 @@ def simulate(
     stop_time: StopTime = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(help="Relative tolerance of a step; 1e-6 if not given.", metavar="R", show_default=False),
+        typer.Option(
+            help="Relative tolerance of a step; the scene's own or 1e-6 if not given.", metavar="R", show_default=False
+        ),
     ] = None,
     accuracy: Annotated[
         float | None,
@@ -76,18 +79,24 @@ def simulate(
             show_default=False,
         ),
     ] = None,
-    intervals: Annotated[int, typer.Option(help="The result has N + 1 points.", metavar="N")] = 400,
+    intervals: Annotated[
+        int | None,
+        typer.Option(
+            help="The result has N + 1 points; the scene's own or 400 if not given.", metavar="N", show_default=False
+        ),
+    ] = None,
     method: Annotated[
         str | None,
         typer.Option(help="auto, idas, rosenbrock or resolve; the scene's own if not given.", metavar="NAME"),
     ] = None,
     constraints: Annotated[
-        str, typer.Option(help="How loops stay closed: auto, states or projection.", metavar="NAME")
-    ] = "auto",
+        str | None,
+        typer.Option(help="How loops stay closed: auto, states or projection.", metavar="NAME", show_default=False),
+    ] = None,
     max_order: Annotated[
         int | None, typer.Option(help="Limit of the order; chosen if not given.", metavar="N", show_default=False)
     ] = None,
-    initial: Initial = "fixed",
+    initial: Initial = None,
     csv: Annotated[str | None, typer.Option(help="Write time and outputs.", metavar="FILE")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the outputs.", metavar="FILE.png")] = None,
     json: Json = None,
@@ -112,7 +121,8 @@ def simulate(
         chosen = match(compiled.tree, variables or ())
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
-        again = accuracy is not None and bool(adaptive(compiled.tree))
+        chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
+        again = chosen_by is not None and bool(adaptive(compiled.tree))
         options = {
             "stop_time": stop,
             "tolerance": tolerance,
@@ -146,7 +156,7 @@ def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Jso
 
 @app.command()
 def linearize(
-    scene: Scene, settings: Set = None, effects: Applied = None, initial: Initial = "fixed", json: Json = None
+    scene: Scene, settings: Set = None, effects: Applied = None, initial: Initial = None, json: Json = None
 ) -> None:
     """Linearise a scene about its initial point and list its modes."""
     with running(json) as standard_output:

@@ -43,8 +43,13 @@ Json = Annotated[
     str | None, typer.Option("--json", metavar="FILE|-", help="Write a JSON document; - is standard output.")
 ]
 Initial = Annotated[
-    str,
-    typer.Option("--initial", metavar="fixed|guesses|steady", help="What to do with states that no condition fixes."),
+    str | None,
+    typer.Option(
+        "--initial",
+        metavar="fixed|guesses|steady",
+        help="What to do with states that no condition fixes; fixed if neither this nor the scene tells.",
+        show_default=False,
+    ),
 ]
 StopTime = Annotated[
     float | None, typer.Option(help="In s; the scene's own if not given.", metavar="S", show_default=False)

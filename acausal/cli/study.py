@@ -53,7 +53,7 @@ def study(
     ] = 1e-4,
     stop_time: StopTime = None,
     intervals: Annotated[int, typer.Option(help="Every run has N + 1 points.", metavar="N")] = 400,
-    initial: Initial = "fixed",
+    initial: Initial = None,
     repeats: Annotated[int, typer.Option(help="Runs of a point whose median counts.", metavar="N")] = 3,
     limit: Annotated[float, typer.Option(help="Seconds after which a point is stopped.", metavar="S")] = 60.0,
     workers: Annotated[

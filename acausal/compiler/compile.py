@@ -10,6 +10,8 @@ from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.parameters import Settable
 from acausal.compiler.source import Source
+from acausal.compiler.zeros import mend_of_zeros
+from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -49,7 +51,12 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     flat = flatten(model, parameters)
     Settable(flat).values(None)  # a length of 0 also breaks the structure: say first what is wrong
     lap("flatten")
-    plan, linear = plan_of(flat)
+    try:
+        plan, linear = plan_of(flat)
+    except (UnbalancedModelError, StructurallySingularError) as error:
+        what, _, why = str(error).partition("\n")
+        mend = mend_of_zeros(model, parameters, flat, error)
+        raise type(error)("\n".join(filter(None, (what, mend, why)))) from None
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")

@@ -10,7 +10,7 @@ import casadi as ca
 from acausal.flatten.assembly import Assembly
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
-from acausal.flatten.foreign import refuse_calls
+from acausal.flatten.foreign import refuse_foreign
 from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column, hear
@@ -38,7 +38,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         Where the model is wrong, with component and line.
     """
     raw = hear(model, overrides)
-    refuse_calls(raw)
+    refuse_foreign(raw)
     variables = column([ca.vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
     declared = _declared(raw)
@@ -51,9 +51,10 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     def resolved(expressions: list[ca.SX]) -> list[ca.SX]:
         return ca.substitute(expressions, [placeholders], [derivatives])
 
+    names = [name for a in raw.arrays for name in a.names]
     for k in integrated:
         raw.equations.residuals.append(chain.levels[1][k] - declared[k])
-        raw.equations.origins.append(Origin(variables[k].name(), "root", "declared derivative"))
+        raw.equations.origins.append(Origin(names[k], "root", "declared derivative"))
         raw.equations.sides.append((chain.levels[1][k], declared[k]))
     return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
 

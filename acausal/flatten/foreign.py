@@ -1,49 +1,102 @@
-"""Refuse calls of CasADi functions that cannot be written out: the passes that follow see elementary operations only."""
+"""Refuse what only CasADi knows: calls that cannot be written out, as the passes that follow see elementary operations
+only, and symbols that nobody declared.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import casadi as ca
 
 from acausal.errors import DeclarationError
+from acausal.flatten.origin import Origin
+from acausal.language.functions import initial, time
+from acausal.symbols import scalars
 
 if TYPE_CHECKING:
     from acausal.flatten.said import Said
 
+Found = Callable[[Iterable[ca.SX]], bool]
 
-def refuse_calls(raw: Said) -> None:
-    """Raise DeclarationError if an expression of the model calls an interpolant or another external function."""
+
+def refuse_foreign(raw: Said) -> None:
+    """Raise DeclarationError if an expression of the model calls an external function or holds an undeclared symbol."""
     stated = [*zip(raw.equations.residuals, raw.equations.origins, strict=True)]
     stated += zip(raw.initial.residuals, raw.initial.origins, strict=True)
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
+    stated += [(e.sx, Origin.of(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
-    if not _calls([*[sx for sx, _ in stated], *others]):
-        return
-    where = next((f"{origin}: " for sx, origin in stated if _calls([sx])), "")
-    if not where:
-        where = _user(raw, others)
-    raise DeclarationError(
-        f"{where}an expression calls a CasADi function that cannot be differentiated and sorted as an equation, such as "
-        "an interpolant or an external function. Write a table with piecewise((value, condition), ..., otherwise), or as "
-        "a polynomial; a function of elementary operations is written out where it is called with SX."
+    everything = [*[sx for sx, _ in stated], *others]
+    if _calls(everything):
+        raise DeclarationError(
+            f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function that cannot be differentiated and "
+            "sorted as an equation, such as an interpolant or an external function. Write a table with piecewise((value, "
+            "condition), ..., otherwise), or as a polynomial; a function of elementary operations is written out where it "
+            "is called with SX."
+        )
+    known = _known(raw)
+    strangers = [s for s in ca.symvar(_column(everything)) if s.element_hash() not in known]
+    if strangers:
+        place = _place(raw, stated, others, lambda e: ca.depends_on(_column(e), strangers[0]))
+        raise DeclarationError(place + _undeclared(strangers[0]))
+
+
+def refuse_undeclared(expression: ca.SX, known: Iterable[ca.SX], place: str = "") -> None:
+    """Raise DeclarationError if an expression holds a symbol that is not among the known ones.
+
+    Parameters
+    ----------
+    expression : casadi.SX
+        Stated by the user.
+    known : iterable of casadi.SX
+        Columns of symbols.
+    place : str
+        Where it is stated.
+    """
+    hashes = {s.element_hash() for s in scalars(_column(known))}
+    for symbol in ca.symvar(expression):
+        if symbol.element_hash() not in hashes:
+            raise DeclarationError(place + _undeclared(symbol))
+
+
+def _undeclared(symbol: ca.SX) -> str:
+    name = symbol.name()
+    word = name if name.isidentifier() else "q"
+    return (
+        f"`{name}` is no variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
+        f'Declare it in the class body, `{word}: Scalar = variable("...")` or `parameter("...")`, and use self.{word}.'
     )
 
 
-def _user(raw: Said, others: list[ca.SX]) -> str:
-    """Where a derivative or an energy is used that holds the call."""
-    held = [placeholder for (placeholder, _), e in zip(raw.pending.derivatives, others, strict=False) if _calls([e])]
+def _known(raw: Said) -> set[int]:
+    """Hashes of all symbols that a model may use."""
+    pending = raw.pending
+    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx]
+    columns += [mode for mode, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
+    return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
+
+
+def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
+    """Where something is stated, or where the derivative or the energy is used that holds it."""
+    for sx, origin in stated:
+        if found([sx]):
+            return f"{origin}: "
+    held = [placeholder for (placeholder, _), e in zip(raw.pending.derivatives, others, strict=False) if found([e])]
     for residual, origin in zip(raw.equations.residuals, raw.equations.origins, strict=True):
         if any(ca.depends_on(residual, placeholder) for placeholder in held):
             return f"{origin}: "
-    name = next((name for name, e in raw.energies.items() if _calls([e])), "a start value")
+    name = next((name for name, e in raw.energies.items() if found([e])), "a start value")
     return f"{name}{'()' if name in raw.energies else ''}: "
 
 
+def _column(entries: Iterable[ca.SX]) -> ca.SX:
+    return ca.vertcat(ca.SX(0, 1), *[ca.vec(e) for e in entries])
+
+
 def _calls(entries: Iterable[ca.SX]) -> bool:
-    column = ca.vertcat(ca.SX(0, 1), *[ca.vec(e) for e in entries])
+    column = _column(entries)
     function = ca.Function("all", [ca.vertcat(ca.SX(0, 1), *ca.symvar(column))], [column])
     return any(function.instruction_id(k) == ca.OP_CALL for k in range(function.n_instructions()))

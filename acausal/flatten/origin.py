@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import Any
 
 from acausal.errors import AcausalError, DeclarationError
 from acausal.language.component import Component
+from acausal.language.expression import Expr
 
 PACKAGE = str(Path(__file__).parents[1])
 MOST = 100_000  # statements of one generator; more are an endless loop
@@ -78,7 +80,24 @@ def _brief(error: Exception) -> str:
         return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
     if isinstance(error, AttributeError) and isinstance(error.obj, Component):
         return str(error)
+    if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
+        return (
+            f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
+        )
+    foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
+    if foreign:
+        return _of_casadi(foreign[1])
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+
+
+def _of_casadi(name: str) -> str:
+    """Return the mend for a function of CasADi that was called with expressions of this package."""
+    what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
+    return (
+        f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "
+        "as piecewise((value, condition), ..., otherwise) or as a polynomial; a function of elementary operations takes "
+        "symbols: Expr(function(self.x.sx)), with Expr from acausal."
+    )
 
 
 def _place(error: BaseException, origin: Origin) -> Origin:

@@ -18,6 +18,7 @@ from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import PENDING, Pending
+from acausal.symbols import scalars
 
 
 @dataclass
@@ -49,6 +50,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         graph = build_graph(components)
         discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
+        pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(ca.vec(a.expr.sx))}
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
         # Far more statements than any component can mean, few enough to count them quickly.

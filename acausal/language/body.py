@@ -9,9 +9,11 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
-from acausal.language.refusals import shown
+from acausal.language.refusals import refuse_slips, shown
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class
+
+_ABSENT: Any = object()
 
 
 def read_body(cls: Any) -> None:
@@ -41,28 +43,27 @@ def read_body(cls: Any) -> None:
     for name, value in said.items():
         if not name.startswith("__"):
             _read(cls, name, value, fields.get(name), own, new)
+    refuse_slips(cls, {**plain, **vars(cls), **own}, fields)
     for name, field in own.items():
         if field.shape is None and not isinstance(field, f.Part | f.Outer):
             field.shape = shape_of_annotation(cls, name)
     cls.fields = {**fields, **own}
     cls._class_values = {**{n: v for n, v in settings.items() if n not in own}, **new}
-    cls._as_read = {name: vars(cls)[name] for name in (*own, *new)}
+    cls._as_read = {name: value for name, value in vars(cls).items() if not name.startswith("_")}
 
 
 def refuse_late_fields(cls: Any) -> None:
     """Raise DeclarationError for what was set on a class, or one of its bases, after it was made: nothing reads it."""
-    for base in cls.__mro__:
-        raw: dict[str, Any] = vars(base).get("_as_read", {})
-        for name, value in vars(base).items() if "_as_read" in vars(base) else ():
-            late = (name in base.fields or isinstance(value, f.Field) or holds_parts(value)) and not name.startswith(
-                "_"
-            )
-            if late and raw.get(name) is not value:
+    for base in (base for base in cls.__mro__ if "_as_read" in vars(base)):
+        late = {n: v for n, v in vars(base).items() if n[0] != "_" and base._as_read.get(n, _ABSENT) is not v}
+        for name, value in late.items():
+            if name in base.fields or isinstance(value, f.Field) or holds_parts(value):
                 mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 raise DeclarationError(
                     f"{base.__name__}.{name} = {shown(value)} was set after the class was made, when it changes no model. "
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
                 )
+        refuse_slips(base, late, base.fields)
 
 
 def _read(

@@ -13,6 +13,7 @@ from acausal.language import fields as f
 from acausal.language.body import read_body
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
+from acausal.language.slips import SETTINGS
 from acausal.language.values import check_value
 
 
@@ -41,7 +42,8 @@ class Component(f.Template):
     _own_fields: ClassVar[dict[str, f.Field]] = {}
     _own_values: ClassVar[dict[str, Any]] = {}
     _class_values: ClassVar[dict[str, Any]] = {}
-    _as_read: ClassVar[dict[str, Any]] = {}
+    _as_read: ClassVar[dict[str, Any]]
+    _settings: ClassVar[tuple[str, ...]] = ()
     _values: Mapping[str, Any] = MappingProxyType({})
     _origin = ""
     _path: str = ""
@@ -61,7 +63,7 @@ class Component(f.Template):
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self.fields:
             raise DeclarationError(refuse_value(self, name, value))
-        if not self._is_bound and name[0] != "_":
+        if name[0] != "_":
             refuse_attribute(self, name, value)
         object.__setattr__(self, name, value)
 
@@ -167,4 +169,10 @@ class Record(Component):
 
 
 class Model(Component):
-    """A component that can be compiled and simulated; its outputs are the columns of its table of results."""
+    """A component that can be compiled and simulated; its outputs are the columns of its table of results.
+
+    Plain attributes `stop_time`, `tolerance`, `accuracy`, `intervals`, `initial`, `method`, `constraints` and `max_order` are
+    what `simulate` takes where these are not given to it.
+    """
+
+    _settings = SETTINGS

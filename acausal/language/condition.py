@@ -46,7 +46,8 @@ class Condition:
     def __bool__(self) -> bool:
         raise DeclarationError(
             "a comparison of symbolic expressions has no truth value while the model is built. "
-            "Use piecewise((value, condition), ..., otherwise) or when(condition, ...), join conditions by & and |, "
+            "Use piecewise((value, condition), ..., otherwise), as piecewise((a, a > b), b) for max(a, b), or "
+            "when(condition, ...), join conditions by & and |, "
             "or declare the field structural(...) if the equations themselves depend on it."
         )
 

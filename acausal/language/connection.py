@@ -65,8 +65,10 @@ def chain(*items: Any) -> Iterator[Connect]:
     """
     if len(items) < 2:
         raise ConnectError("chain() joins at least two parts.")
-    for left, right in pairwise(items):
-        yield connect(_end(left, 1), _end(right, 0))
+    for place, item in enumerate(items, 1):
+        _refuse_no_link(item, place)
+    # At once, not when somebody goes through them: an error then tells the line of the call.
+    return iter([connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)])
 
 
 def branch(a: Any, b: Any) -> Branch:
@@ -125,16 +127,25 @@ def _refuse_outsider(item: Any) -> None:
         )
 
 
-def _end(item: Any, which: int) -> Any:
+def _refuse_no_link(item: Any, place: int) -> None:
+    """Raise ConnectError for what is neither a part nor a port; `place` counts the arguments of chain() from 1."""
     _refuse_outsider(item)
     if isinstance(item, list | tuple):
         raise ConnectError(
             "chain() joins parts and ports, not lists of them: write chain(self.a, *self.links, self.b)."
         )
+    if item is None:
+        raise ConnectError(
+            f"chain() joins parts and ports, but argument {place} is None. {_ports_of(None)} A part that was left out "
+            "(None) is left out here as well: `if self.part is not None: yield chain(...)`."
+        )
+    if not isinstance(item, Component):
+        raise ConnectError(f"chain() joins parts and ports, but argument {place}, {item!r}, is neither.")
+
+
+def _end(item: Component, which: int) -> Any:
     if isinstance(item, Connector):
         return item
-    if not isinstance(item, Component):
-        raise ConnectError(f"chain() joins parts and ports, but {item!r} is neither.")
     name = type(item).ends[which]
     end = getattr(item, name, None) if name else None
     if end is None:

@@ -12,11 +12,13 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition
+from acausal.language.entries import chosen
+from acausal.language.symbolic import Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.units import Dimension, parse
 
 
-class Expr:
+class Expr(Symbolic):
     """A symbolic scalar, vector or matrix with its unit.
 
     Parameters
@@ -30,7 +32,8 @@ class Expr:
     """
 
     __slots__ = ("name", "sx", "unit")
-    __array_ufunc__ = None
+    _lacks = "is symbolic and has no value while the model is built"
+    _instead = "declare the field structural(...) if it is a size or a count"
 
     def __init__(self, sx: ca.SX, unit: Unit = None, name: str = "") -> None:
         self.sx = sx
@@ -63,19 +66,27 @@ class Expr:
     def __repr__(self) -> str:
         return self.name or str(self.sx)
 
+    def _shown(self) -> str:
+        return _short(self)
+
     def __len__(self) -> int:
         return self.sx.shape[0]
 
     def __getitem__(self, index: Any) -> Expr:
-        try:
-            sx = self.sx[index]
-        except RuntimeError:
-            raise IndexError(f"index {index} is outside of {self!r} of shape {self.shape}") from None
-        if isinstance(self.unit, tuple):
-            unit: Unit = self.unit[index] if isinstance(index, int | slice) else None  # type: ignore[assignment]
-        else:
-            unit = self.unit
-        return Expr(sx, unit, f"{self.name}[{index}]" if self.name and isinstance(index, int) else "")
+        places = chosen(_short(self), self.shape, index)
+        sx = ca.reshape(self.sx[places.ravel(order="F").tolist()], *(places.shape or (1,)), *(1,) * (places.ndim < 2))
+        unit: Unit = self.unit if isinstance(self.unit, Dimension) else None
+        if isinstance(self.unit, tuple) and not isinstance(index, tuple):
+            unit = self.unit[index]  # type: ignore[assignment]
+        at = index if isinstance(index, tuple) else (index,)
+        whole = self.name and all(isinstance(k, int | np.integer) for k in at)
+        return Expr(sx, unit, f"{self.name}[{','.join(map(str, at))}]" if whole else "")
+
+    def __setitem__(self, index: Any, value: Any) -> None:
+        raise DeclarationError(
+            f"entries of {_short(self)} are not set: it is symbolic. Yield an equation for them, `... == ...`, or put a new "
+            "vector together, (a, b, c)."
+        )
 
     def __iter__(self):
         return (self[k] for k in range(len(self)))
@@ -119,6 +130,14 @@ class Expr:
     def __pow__(self, power: Any) -> Any:
         return Expr(self.sx ** as_expr(power).sx, unit_rules.of_power(self, power))
 
+    def __rpow__(self, base: Any) -> Any:
+        return as_expr(base) ** self
+
+    def __abs__(self) -> Any:
+        from acausal.language.functions import absolute
+
+        return absolute(self)
+
     def __eq__(self, other: object) -> Any:
         return equation(self, other)
 
@@ -142,14 +161,6 @@ class Expr:
             "Use piecewise((value, condition), ..., otherwise) for a switch, "
             "or declare the field structural(...) if the equations themselves depend on it."
         )
-
-    def _no_number(self) -> Any:
-        raise DeclarationError(
-            f"{self!r} is symbolic and has no value while the model is built, so it cannot be a Python number. "
-            "Use sin, sqrt, ... of acausal on it, or declare the field structural(...) if it is a size or a count."
-        )
-
-    __float__ = __int__ = __index__ = _no_number
 
 
 @dataclass(frozen=True, eq=False)

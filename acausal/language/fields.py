@@ -10,6 +10,7 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
+from acausal.language.symbolic import Symbolic
 
 NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "no default", "__bool__": lambda self: False})()
@@ -22,11 +23,12 @@ class Template:
     _is_port = False
 
 
-class Deferrable:
+class Deferrable(Symbolic):
     """Something in a class body whose value is known only in an instance; arithmetic with it waits as well."""
 
     is_deferred = True
-    __array_ufunc__ = None
+    _lacks = "has no value in the class body"
+    _instead = "write a function of the component where a default is wanted, default=lambda s: ..."
 
     def evaluate(self, owner: Any) -> Any:
         """Return the value in a built component."""
@@ -43,6 +45,12 @@ class Deferrable:
 
     def __neg__(self) -> Deferred:
         return Deferred(operator.neg, (self,))
+
+    def __abs__(self) -> Deferred:
+        return Deferred(abs, (self,))
+
+    def _shown(self) -> str:
+        return "a field"
 
     def __bool__(self) -> bool:
         raise DeclarationError(
@@ -73,7 +81,7 @@ def _binary(operate: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     return forward, backward
 
 
-for _name in ("add", "sub", "mul", "truediv", "floordiv", "matmul", "pow"):
+for _name in ("add", "sub", "mul", "truediv", "floordiv", "matmul", "mod", "pow"):
     _forward, _backward = _binary(getattr(operator, _name))
     setattr(Deferrable, f"__{_name}__", _forward)
     setattr(Deferrable, f"__r{_name}__", _backward)

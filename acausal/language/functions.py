@@ -30,6 +30,7 @@ class Pending:
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
     `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
+    `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.
     `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
     """
@@ -40,6 +41,7 @@ class Pending:
         self.places: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
         self.discrete: set[int] = set()
+        self.varying: set[int] = set()
         self.watches = True
         self.differentiated: list[ca.SX] = []
         self.sources: list[Any] = []
@@ -139,6 +141,22 @@ def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
 
 
 @_deferrable
+def absolute(x: Any) -> Any:
+    """Absolute value of an expression, entry by entry: what abs(x) gives.
+
+    Its value is continuous, so that only a law of time alone stops the integration at its kinks.
+    """
+    x, pending = as_expr(x), PENDING.get(None)
+    symbols = {s.element_hash() for s in ca.symvar(x.sx)}
+    if time.sx.element_hash() not in symbols or (pending is not None and symbols & pending.varying):
+        return Expr(ca.fabs(x.sx), x.unit)
+    if pending is None:
+        return Deferred(absolute, (x,))
+    entries = [piecewise((-entry, entry < 0), entry).sx for entry in map(Expr, ca.vec(x.sx).elements())]
+    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), x.unit)
+
+
+@_deferrable
 def atan2(y: Any, x: Any) -> Any:
     """Angle of the point (x, y) in rad, in (-pi, pi]."""
     y, x = as_expr(y), as_expr(x)
@@ -206,15 +224,17 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     --------
     >>> torque = piecewise((0.01 * (1 - exp(-time / 0.167)), time <= 0.7), 0)  # doctest: +SKIP
     """
+    for case in cases[:-1]:
+        if not isinstance(case, tuple | list) or len(case) != 2 or not isinstance(case[1], Condition):
+            raise DeclarationError(
+                "a case of piecewise is a pair (value, condition), with a condition such as time < 1; the last argument is "
+                "the value otherwise. That two symbols are equal, `a == b`, is no condition but an equation."
+            )
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(partial(piecewise, smooth=smooth), cases)
     value = otherwise = as_expr(cases[-1])
     for choice, condition in reversed(cases[:-1]):
-        if not isinstance(condition, Condition):
-            raise DeclarationError(
-                "a case of piecewise is a pair (value, condition), with a condition such as time < 1"
-            )
         if condition.excess.shape:
             raise DeclarationError("a condition of piecewise compares two scalars")
         choice = as_expr(choice)

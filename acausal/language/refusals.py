@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
-import sys
+import inspect
 from typing import Any
+
+import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
+from acausal.language.condition import Condition
+from acausal.language.expression import Expr
+from acausal.language.slips import at_home, slip_of
 from acausal.language.values import holds_parts, nearest_field
 
 
@@ -28,7 +32,7 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
         path = f"{component._path}.{name}" if component._path else name
         return f"`{path}` is not set on a built model. {_by_path(path, field, value, compiled=True)}"
     given = f"{name}={_start(field, value)}"
-    if _in_constructor(component):
+    if at_home(component, constructor=True):
         return f"`{name}` of {cls.__name__} goes to the constructor above: `super().__init__({given})`."
     by_path = f" {_by_path(name, field, value)}" if isinstance(field, f.Structural | f.Parameter) else ""
     return f"`{name}` of {cls.__name__} is not set on an instance: give it when it is made, `{cls.__name__}({given})`.{by_path}"
@@ -59,19 +63,75 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
     return f"`{path}` is not set on a model. {' '.join(ways)}"
 
 
-def refuse_attribute(template: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for an attribute of a template that is meant as a part, or as a field of similar name."""
-    cls = type(template)
-    if holds_parts(value):
+def refuse_attribute(component: Any, name: str, value: Any) -> None:
+    """Raise DeclarationError for an attribute that is meant as a part or a field, or that nothing would read.
+
+    Methods of the component itself, its constructor among them, may keep plain data of their own.
+    """
+    cls = type(component)
+    if holds_parts(value) and not component._is_bound:
         raise DeclarationError(
             f"`{name}` cannot become a part of {cls.__name__} by setting it: write it in the class body, "
             f"`{name} = {shown(value)}`, or, if it depends on structural values, as a method marked @part: "
             f"`@part def {name}(self): return ...`."
         )
-    if not hasattr(cls, name) and not _in_constructor(template):
-        near = difflib.get_close_matches(name, cls.fields, 1, 0.75)
+    declared = any(name in inspect.get_annotations(base) for base in cls.__mro__)
+    if hasattr(cls, name) or declared or name in cls._settings:
+        return
+    if not at_home(component):
+        setting = slip_of(cls, name, cls._settings)
+        meant = f"did you mean `{setting}`?" if setting else nearest_field(cls, name)
+        raise DeclarationError(
+            f"{cls.__name__} has no field `{name}`; {meant} Data of your own is kept under a private name, `_{name}`, or "
+            "declared in the class body."
+        )
+    near = slip_of(cls, name, [*cls.fields, *cls._settings])
+    if near:
+        raise DeclarationError(
+            f"{cls.__name__} has no field `{name}`, and no method of it reads that; did you mean `{near}`? "
+            f"Fields go to the constructor above, `super().__init__(...)`; data of your own is kept as `_{name}`."
+        )
+
+
+def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
+    """Raise DeclarationError for a name in a class body that nearly is that of an inherited field, setting or method.
+
+    Parameters
+    ----------
+    cls : Component class
+        The class.
+    said : dict of str to object
+        What its body says.
+    inherited : dict of str to Field
+        The fields of its bases.
+    """
+    annotations = inspect.get_annotations(cls)
+    new = {n: v for n, v in said.items() if n[0] != "_" and "ClassVar" not in str(annotations.get(n, ""))}
+    before = {n for base in cls.__bases__ if issubclass(base, f.Template) for n in dir(base)}
+    for name, value in new.items():
+        field = isinstance(value, f.Field) and not isinstance(value, f.Part)
+        if field or name in before or name in cls._settings:
+            continue
+        near = slip_of(cls, name, _alike(cls, value, inherited))
         if near:
-            raise DeclarationError(f"{cls.__name__} has no field `{name}`; did you mean `{near[0]}`?")
+            own = "" if callable(value) else f", or annotate it, `{name}: ClassVar = ...`"
+            raise DeclarationError(
+                f"{cls.__name__}.{name} is new, and nothing in the class reads it; did you mean `{near}`? "
+                f"If it is meant so, give it a private name, `_{name}`{own}."
+            )
+
+
+def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
+    """Names that a value could have been meant for."""
+    if inspect.isfunction(value):
+        bases = [base for base in cls.__mro__[1:] if base.__module__ == "acausal.language.component"]
+        return [n for base in bases for n, v in vars(base).items() if inspect.isfunction(v) and n[0] != "_"]
+    if isinstance(value, f.Part) or holds_parts(value):
+        return [name for name, field in inherited.items() if isinstance(field, f.Part)]
+    plain = int | float | complex | str | list | tuple | dict | np.ndarray | np.generic | None
+    if isinstance(value, plain | f.Start | f.Deferrable | Condition | Expr):
+        return [*inherited, *cls._settings]
+    return []
 
 
 def _by_path(path: str, field: f.Field | None, value: Any, compiled: bool = False) -> str:
@@ -83,12 +143,6 @@ def _by_path(path: str, field: f.Field | None, value: Any, compiled: bool = Fals
     if isinstance(field, f.Structural) or not compiled:
         return f"For one run: `ac.simulate(model, ..., {mapping})`; to keep it: `ac.compile(model, {mapping})`."
     return f"For one run: `ac.simulate(compiled, ..., {mapping})`."
-
-
-def _in_constructor(component: Any) -> bool:
-    """Whether the user's own __init__ of this component is being executed, in which the line stands."""
-    frame = sys._getframe(3)
-    return frame.f_code.co_name == "__init__" and any(v is component for v in frame.f_locals.values())
 
 
 def _start(field: f.Field, value: Any) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import caution
+from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
 from acausal.solve.consistent import Consistent
@@ -60,7 +61,11 @@ class Evaluator:
         self._solve((set(range(c.nz)) if wanted and c.closing.size else wanted) - self._solved)
         arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
         n = len(self.t)
-        call = Call(ca.Function("observe", arguments, [resolved]).map(n))
+        try:
+            call = Call(ca.Function("observe", arguments, [resolved]).map(n))
+        except RuntimeError:
+            refuse_undeclared(resolved, arguments)
+            raise
         values = [self.x.ravel(), self.z.ravel(), np.tile(self.solver.p, n), self.t, self.modes.ravel()]
         return call(*values)[0].reshape(n, -1).copy()
 

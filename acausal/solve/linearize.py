@@ -17,6 +17,7 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.solve.instant import start
 from acausal.solve.order import state_matrix
+from acausal.solve.settings import settled
 from acausal.solve.tangent import tangent
 from acausal.symbols import scalars
 
@@ -75,7 +76,7 @@ def linearize(
     model: Component | CompiledModel,
     *,
     parameters: Mapping[str, Any] | None = None,
-    initial: str = "fixed",
+    initial: str | None = None,
     time: float = 0.0,
 ) -> Linearization:
     """Linearise a model about its consistent initial point.
@@ -100,7 +101,8 @@ def linearize(
     else:
         compiled = compile(model, parameters)
         p = compiled.parameter_values(None)
-    at = start(compiled, p, time, time, initial)
+    how = settled(model, parameters, {"initial": initial})["initial"]
+    at = start(compiled, p, time, time, how)
     x, z, modes = at.x, at.z, at.modes
     inputs = _inputs(compiled)
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])

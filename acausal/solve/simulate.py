@@ -15,6 +15,7 @@ from acausal.result import Result
 from acausal.solve.accuracy import reach
 from acausal.solve.integrate import Progress
 from acausal.solve.run import Task, run
+from acausal.solve.settings import settled
 from acausal.solve.trials import Trials
 
 METHODS = ("auto", "idas", "rosenbrock", "resolve")
@@ -26,20 +27,23 @@ TOLERANCE = 1e-6
 def simulate(
     model: Component | CompiledModel,
     *,
-    stop_time: float,
+    stop_time: float | None = None,
     start_time: float = 0.0,
     tolerance: float | None = None,
     accuracy: float | None = None,
-    intervals: int = 400,
+    intervals: int | None = None,
     parameters: Mapping[str, Any] | None = None,
-    initial: str = "fixed",
+    initial: str | None = None,
     method: str | None = None,
-    constraints: str = "auto",
+    constraints: str | None = None,
     max_order: int | None = None,
     energy: bool = False,
     progress: Progress | None = None,
 ) -> Result:
     """Simulate a model.
+
+    Of stop_time, tolerance, accuracy, intervals, initial, method, constraints and max_order, what is not given is taken
+    from attributes of the same name in the model's class.
 
     Parameters
     ----------
@@ -56,21 +60,21 @@ def simulate(
         beams, whatever the model says. `stats` tells what was chosen, estimated and tried; its counts are those of the
         run that is returned, its compile and solve seconds those of all runs.
     intervals : int
-        The result has intervals + 1 equidistant points.
+        The result has intervals + 1 equidistant points; 400 if nobody tells.
     parameters : mapping of str to value, optional
         Values by path, such as {"beam.E": 7e10}.
     initial : "fixed", "guesses" or "steady"
         Whether states without a condition at the start are refused, take their guesses, or take values at which all
-        derivatives vanish.
+        derivatives vanish. Default "fixed".
     method : "auto", "idas", "rosenbrock" or "resolve"
         "idas" is a multistep method whose error test sees every velocity; "resolve" is another name for it, and follows
         every vibration. "rosenbrock" is a one-step method that damps vibrations too small to be seen in positions. "auto"
         begins with the first, and takes the other where vibrations faster than the outputs take more steps than the
-        motion. Default: that of the model, or "auto".
+        motion. Default "auto".
     constraints : "auto", "states" or "projection"
         How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
         and again where the pivots fall; "projection" integrates all of them and projects. "auto" begins with states, and
-        projects if they do not last.
+        projects if they do not last. Default "auto".
     max_order : int, optional
         Limit of the order of the multistep method, 1 to 5; chosen from the problem where it is not given.
     energy : bool
@@ -91,8 +95,23 @@ def simulate(
     SimulationError
         If the integration fails, or the accuracy is not reached; its `result` holds what was computed.
     """
-    tree = model.tree if isinstance(model, CompiledModel) else model
-    method = str(method or getattr(tree, "method", "auto"))
+    given: dict[str, Any] = {
+        "stop_time": stop_time,
+        "tolerance": tolerance,
+        "accuracy": accuracy,
+        "intervals": intervals,
+        "initial": initial,
+        "method": method,
+        "constraints": constraints,
+        "max_order": max_order,
+    }
+    stop_time, tolerance, accuracy, intervals, initial, method, constraints, max_order = settled(
+        model, parameters, given
+    ).values()
+    if stop_time is None:
+        raise DeclarationError(
+            "the model tells no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
+        )
     if accuracy is not None and tolerance is not None:
         raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
     tolerance = TOLERANCE if tolerance is None else tolerance

@@ -11,6 +11,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.errors import InitializationError
+from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation
 from acausal.solve.evaluator import Evaluator
@@ -40,7 +41,14 @@ def _watch(compiled: CompiledModel, stated: list[Stated], entries: list[ca.SX]) 
     r = compiled.reduced
     column = ca.substitute(r.resolve(ca.vertcat(ca.SX(0, 1), *entries)), initial.sx, 0)
     arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
-    return _Watch(stated, ca.Function("watch", arguments, [ca.densify(column)]), compiled.dependence.inside(column))
+    try:
+        function = ca.Function("watch", arguments, [ca.densify(column)])
+    except RuntimeError:
+        for k, entry in enumerate(entries):
+            origin = stated[k * len(stated) // len(entries)][1]
+            refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
+        raise
+    return _Watch(stated, function, compiled.dependence.inside(column))
 
 
 def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:

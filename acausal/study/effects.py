@@ -38,7 +38,7 @@ def effects(
     intervals: int = 400,
     outputs: Sequence[str] | None = None,
     parameters: Mapping[str, Any] | None = None,
-    initial: str = "fixed",
+    initial: str | None = None,
     method: str | None = None,
     repeats: int = 3,
     limit: float = 60.0,

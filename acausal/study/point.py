@@ -100,7 +100,7 @@ class Job:
         Runs whose median counts; more where they are short, unless it is 1.
     limit : float
         Seconds after which a run is stopped.
-    initial : str
+    initial : str, optional
         As of `simulate`.
     """
 
@@ -111,7 +111,7 @@ class Job:
     outputs: tuple[str, ...] = ()
     repeats: int = 1
     limit: float = 60.0
-    initial: str = "fixed"
+    initial: str | None = None
 
 
 @dataclass(frozen=True)

@@ -144,7 +144,7 @@ def study(
     reference: str | Path | None = None,
     accuracy: float = 1e-4,
     intervals: int = 400,
-    initial: str = "fixed",
+    initial: str | None = None,
     repeats: int = 3,
     limit: float = 60.0,
     workers: int | None = None,
@@ -178,7 +178,7 @@ def study(
         How well the reference is to be known, in parts of each output's range: the smallest error that is told.
     intervals : int
         Every run has intervals + 1 equidistant points.
-    initial : str
+    initial : str, optional
         As of `simulate`.
     repeats : int
         Runs of a point whose median counts; what takes seconds is not repeated.

@@ -1,9 +1,11 @@
 """Each broken model tells what is wrong, and its repaired form does not: exact messages are in messages.txt."""
 
 import inspect
+import math
 import re
 from pathlib import Path
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ from acausal import (
     chain,
     connect,
     der,
+    dot,
     fixed,
     input,
     output,
@@ -519,6 +522,130 @@ def modes_without_rest(repaired):
             yield self.z == piecewise((1, (self.x if repaired else self.z) < 0.5), 0)
 
     ac.simulate(M(), stop_time=0.1)
+
+
+def slip_on_an_instance(repaired):
+    model = Decay(p=3) if repaired else Decay()
+    if not repaired:
+        model.pp = 3
+    ac.compile(model)
+
+
+def slip_in_a_class_body(repaired):
+    class Base(Decay):
+        load: Scalar = parameter("load", default=1)
+
+    ac.compile(type("M", (Base,), {"load" if repaired else "loda": 5})())
+
+
+def slip_of_a_method(repaired):
+    class Base(Model):
+        z: Scalar = variable("z")
+
+    ac.compile(type("M", (Base,), {"equations" if repaired else "equation": lambda self: iter([self.z == time])})())
+
+
+def body_without_inertia(repaired):
+    class M(Model):
+        world = World()
+        mass = Body(m=1, I=np.eye(3) if repaired else np.zeros((3, 3)))
+
+    ac.compile(M())
+
+
+def flange_of_an_option(repaired):
+    class M(Pendulum):
+        hinge = Revolute(use_axis_flange=repaired, phi=fixed(0), w=fixed(0))
+        damper = rotational.Damper(d=1)
+
+        def connections(self):
+            yield from super().connections()
+            yield from self.damped()
+
+        def damped(self):
+            yield chain(self.hinge.support, self.damper, self.hinge.axis)
+
+    ac.compile(M())
+
+
+def state(law, repaired=lambda self: self.x):
+    """z follows from x by a law."""
+
+    def case(good):
+        class M(Decay):
+            z: Scalar = variable("z")
+
+            def more(self):
+                yield self.z == (repaired if good else law)(self)
+
+        ac.simulate(M(), stop_time=0.1)
+
+    return case
+
+
+def casadi_table(repaired):
+    table = ca.interpolant("table", "linear", [np.linspace(0, 1, 5)], np.linspace(0, 1, 5) ** 2)
+    state(lambda self: table(self.x), lambda self: self.x**2)(repaired)
+
+
+def casadi_function(repaired):
+    state(lambda self: ca.sin(self.x), lambda self: sin(self.x))(repaired)
+
+
+def casadi_symbol(repaired):
+    q = ca.SX.sym("q")
+    state(lambda self: self.x + q, lambda self: self.x + self.p)(repaired)
+
+
+def greater_of_two(repaired):
+    state(lambda self: max(self.x, self.p), lambda self: piecewise((self.x, self.x > self.p), self.p))(repaired)
+
+
+def greater_by_numpy(repaired):
+    state(lambda self: np.maximum(self.x, 0), lambda self: np.abs(self.x))(repaired)
+
+
+def array_of_numpy(repaired):
+    state(lambda self: np.array([self.x, 0, 0]) @ self.v, lambda self: dot((self.x, 0, 0), self.v))(repaired)
+
+
+def sine_of_math(repaired):
+    state(lambda self: math.sin(self.x), lambda self: np.sin(self.x))(repaired)
+
+
+def number_of_a_symbol(repaired):
+    state(lambda self: float(self.x))(repaired)
+
+
+def decision_on_a_symbol(repaired):
+    state(lambda self: 1 if self.x else 2, lambda self: piecewise((1, self.x > 0), 2))(repaired)
+
+
+def whole_part(repaired):
+    state(lambda self: self.x // 2, lambda self: self.x / 2)(repaired)
+
+
+def slice_beyond_the_end(repaired):
+    state(lambda self: sum(self.v[1:5]), lambda self: sum(self.v[1:3]))(repaired)
+
+
+def entry_by_a_symbol(repaired):
+    state(lambda self: self.v[self.p], lambda self: self.v[2])(repaired)
+
+
+def entry_is_set(repaired):
+    state(lambda self: self.v.__setitem__(0, 1), lambda self: self.v[0])(repaired)
+
+
+def equality_as_a_condition(repaired):
+    state(
+        lambda self: piecewise((1, self.x == 0), 2),
+        lambda self: piecewise((1, (self.x >= 0) & (self.x <= 0)), 2),
+    )(repaired)
+
+
+def method_of_an_expression(repaired):
+    state(lambda self: self.v.dot(self.v), lambda self: dot(self.v, self.v))(repaired)
 
 
 CASES = [

@@ -1,0 +1,82 @@
+"""Parameters that are 0 and so have left equations that a model needs: tried with other values, where it is incomplete."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import AcausalError
+from acausal.flatten import FlatModel, flatten
+from acausal.flatten.instantiate import join, walk
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.reduce import plan_of
+
+MOST, SECONDS = 12, 5.0  # parameters that are tried, and how long
+
+
+def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError) -> str:
+    """Return a line that names the parameters whose zeros leave a model incomplete, "" where it is not for them.
+
+    Parameters
+    ----------
+    model : Component
+        The model as constructed.
+    parameters : mapping of str to value or None
+        Values by path that replace those of the model.
+    flat : FlatModel
+        What was made of both.
+    error : AcausalError
+        Why its structure was refused, raised while a StructuralSingularity was handled.
+    """
+    zeros = _zeros(flat, getattr(error.__context__, "under", ()))
+    ends = clock.perf_counter() + SECONDS
+
+    def completes(*tried: str) -> bool:
+        try:
+            plan_of(flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}}))
+        except AcausalError:
+            return False
+        return True
+
+    if not zeros or not completes(*zeros):
+        return ""
+    alone = [path for path in zeros if clock.perf_counter() < ends and completes(path)]
+    needed = list(zeros)
+    for path in () if alone else zeros:
+        if clock.perf_counter() < ends and completes(*(rest := [p for p in needed if p != path])):
+            needed = rest
+    lines = [f"  {zeros[path][1]}" for path in alone or needed]
+    which = " one of" if len(alone) > 1 else ""
+    return f"A parameter is 0, and what it multiplies has left the equations. The model is complete with{which}:\n" + (
+        "\n".join(lines)
+    )
+
+
+def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
+    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the mend."""
+    parts = list(parts)
+    touched = {flat.names[v] for part in parts for v in part.variables if v < len(flat.names)}
+    touched |= {flat.origins[e].path for part in parts for e in part.equations if e < len(flat.origins)}
+    set_ = {name.partition("[")[0] for name in flat.structural_zeros}
+    some = {name.rpartition("[")[0] for name in flat.parameter_names}
+    found = {}
+    for component in walk(flat.tree):
+        path = component._path
+        if path and not any(t == path or t.startswith((f"{path}.", f"der({path}.")) for t in touched):
+            continue
+        for name, declared in component.fields.items():
+            whole = join(path, name)
+            if isinstance(declared, f.Parameter) and whole in set_ and whole not in some and len(found) < MOST:
+                where = f"{path}: " if path else ""
+                mend = f"{where}{type(component).__name__}({name}=...), {declared.description}"
+                found[whole] = (_other(getattr(component, name).shape), mend)
+    return found
+
+
+def _other(shape: tuple[int, ...]) -> Any:
+    """Another value than 0: a unit matrix, a unit vector or 1."""
+    return np.eye(*shape) if len(shape) == 2 else np.eye(1, *shape)[0] if shape else 1.0

@@ -1,0 +1,72 @@
+"""Entries of a symbolic array, chosen as numpy chooses those of an array of numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import DeclarationError
+
+
+def chosen(shown: str, shape: tuple[int, ...], index: Any) -> np.ndarray:
+    """Return the places of the chosen entries, counted column by column, in the shape that they get.
+
+    Parameters
+    ----------
+    shown : str
+        The array, for messages.
+    shape : tuple of int
+        Its shape; a scalar has one entry.
+    index : int, slice or tuple of them
+        What stands in brackets.
+
+    Raises
+    ------
+    DeclarationError
+        If this is no index, or lies outside of the array.
+    """
+    indices = index if isinstance(index, tuple) else (index,)
+    text = f"`{shown}[{', '.join(map(_written, indices))}]`"
+    ends = [end for item in indices for end in _ends(item)]
+    if any(isinstance(end, bool) or not isinstance(end, int | np.integer) for end in ends):
+        raise DeclarationError(
+            f"{text}: entries of a symbol are chosen by whole numbers, which are known when the model is built. Declare what "
+            "chooses structural(...), or choose with piecewise((value, condition), ..., otherwise)."
+        )
+    # A scalar is its own entry 0, and a vector has one column.
+    whole = (*shape, 1) if len(indices) > len(shape) else shape
+    fits = len(indices) <= len(whole) and all(
+        -n <= end < n + isinstance(item, slice)
+        for item, n in zip(indices, whole, strict=False)
+        for end in _bounds(item)
+    )
+    if not fits:
+        raise DeclarationError(f"{text} is outside of {shown}, {_extent(shown, shape)}.")
+    return np.arange(int(np.prod(shape))).reshape(whole, order="F")[index]
+
+
+def _ends(item: Any) -> list[Any]:
+    """What must be whole numbers in an index."""
+    return [e for e in (item.start, item.stop, item.step) if e is not None] if isinstance(item, slice) else [item]
+
+
+def _bounds(item: Any) -> list[int]:
+    """What must lie inside of the array."""
+    return [e for e in (item.start, item.stop) if e is not None] if isinstance(item, slice) else [item]
+
+
+def _extent(shown: str, shape: tuple[int, ...]) -> str:
+    if not shape:
+        return "which is a scalar"
+    if len(shape) == 2:
+        return f"which has {shape[0]} rows and {shape[1]} columns"
+    return f"whose entries are {shown}[0] to {shown}[{shape[0] - 1}]"
+
+
+def _written(item: Any) -> str:
+    if not isinstance(item, slice):
+        return repr(item)
+    return ":".join(
+        "" if e is None else repr(e) for e in (item.start, item.stop, item.step)[: 2 + (item.step is not None)]
+    )

@@ -1,0 +1,107 @@
+"""Names that are no fields, but nearly: slips of the pen that Python takes for attributes of their own."""
+
+from __future__ import annotations
+
+import dis
+import inspect
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from difflib import SequenceMatcher
+from functools import cached_property
+from types import CodeType, FunctionType
+from typing import Any
+
+from acausal.errors import PACKAGE
+
+# Attributes that `simulate` and the command line read from a model.
+SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")
+NEAR = 0.75
+
+
+def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
+    """Return the known name that is meant by another one: near to it, and nothing in the class reads the other one.
+
+    Parameters
+    ----------
+    cls : Component class
+        The class, whose body may be under execution.
+    name : str
+        What is no field.
+    known : iterable of str
+        What could be meant.
+    """
+    near = [(SequenceMatcher(None, name, other).ratio(), other) for other in known if _is_near(name, other)]
+    return max(near)[1] if near and not _reads(cls, name) else None
+
+
+def at_home(component: Any, constructor: bool = False) -> bool:
+    """Whether a method of the component is being executed, or its constructor: it may keep plain data of its own."""
+    codes = set() if constructor else set(_codes(type(component)))
+    frame: Any = sys._getframe(2)
+    while frame is not None:
+        code, values = frame.f_code, frame.f_locals
+        if code.co_name == "__init__" and any(v is component for v in values.values()):
+            return True
+        own = code in codes and code.co_argcount > 0 and values.get(code.co_varnames[0]) is component
+        if own and code.co_name != "__setattr__":
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _is_near(name: str, other: str) -> bool:
+    """Whether one name is taken for the other; an ending, a number or an index more or less is meant."""
+    longer = name.startswith(other) and name != other + other[-1]
+    if name.isupper() or longer or (name.endswith(other) and len(name) > len(other) + 1):
+        return False
+    if len(name) > 2 and name.lower() == other.lower():
+        return True
+    (stem, _, index), (stem_other, _, index_other) = name.rpartition("_"), other.rpartition("_")
+    if stem and stem == stem_other and max(len(index), len(index_other)) <= 2:
+        return False
+    bare, bare_other = (re.sub(r"\d", "", text) for text in (name, other))
+    swapped = len(name) > 2 and sorted(name) == sorted(other)
+    return bare != bare_other and (swapped or SequenceMatcher(None, name, other).ratio() >= NEAR)
+
+
+def _reads(cls: Any, name: str) -> bool:
+    """Whether the body of a class, or a function in it, reads a name."""
+    inside = ("LOAD_ATTR", "LOAD_METHOD", "LOAD_SUPER_ATTR", "LOAD_CONST")  # a constant: getattr(self, "name")
+    return any(_loads(code, name, inside) for code in _codes(cls)) or any(
+        _loads(code, name, ("LOAD_NAME",)) for code in _body(cls)
+    )
+
+
+def _loads(code: CodeType, name: str, operations: tuple[str, ...]) -> bool:
+    return any(i.argval == name and i.opname in operations for i in dis.get_instructions(code))
+
+
+def _body(cls: Any) -> Iterator[CodeType]:
+    """Code of the class body that was just executed, if this is a class statement."""
+    frame: Any = sys._getframe(1)
+    while frame is not None and (frame.f_code.co_filename.startswith(PACKAGE) or frame.f_code.co_name == "<genexpr>"):
+        frame = frame.f_back
+    for const in frame.f_code.co_consts if frame is not None else ():
+        if isinstance(const, CodeType) and const.co_name == cls.__name__:
+            yield const
+
+
+def _codes(cls: Any) -> Iterator[CodeType]:
+    """Code of all functions in a class and its bases, and of those inside of them."""
+    waiting: list[Any] = [value for base in cls.__mro__ for value in vars(base).values()]
+    while waiting:
+        item = waiting.pop()
+        if isinstance(item, CodeType):
+            yield item
+            waiting += [const for const in item.co_consts if isinstance(const, CodeType)]
+        elif isinstance(item, FunctionType):
+            waiting.append(inspect.unwrap(item).__code__)
+            waiting.append(item.__code__)
+        elif isinstance(item, property | cached_property | staticmethod | classmethod):
+            waiting += [getattr(item, name, None) for name in ("fget", "fset", "func", "__func__")]
+        elif not isinstance(item, type):
+            waiting += [v for k, v in getattr(item, "__dict__", {}).items() if k in _FUNCTIONS]
+
+
+_FUNCTIONS = ("make", "compute", "default", "shape", "unit", "nominal", "refine")

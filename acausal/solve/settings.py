@@ -1,0 +1,79 @@
+"""What a model tells of its own simulation: attributes that `simulate` takes where its arguments are not given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from acausal.compiler import CompiledModel
+from acausal.flatten.instantiate import Instantiation
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.solve.stop_time import own_stop_time
+
+DEFAULTS = {
+    "stop_time": None,
+    "tolerance": None,
+    "accuracy": None,
+    "intervals": 400,
+    "initial": "fixed",
+    "method": "auto",
+    "constraints": "auto",
+    "max_order": None,
+}
+
+
+def settled(
+    model: Component | CompiledModel, values: Mapping[str, Any] | None, given: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return settings of a simulation: those that are given, otherwise those of the model, otherwise the defaults.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    values : mapping of str to value or None
+        Values by path that replace those of the model.
+    given : mapping of str to value
+        Settings by the name of the argument, None where it is not given.
+    """
+    source, values = _source(model, values)
+    found = {name: own_setting(source, name, values) if v is None else v for name, v in given.items()}
+    # One of the two is enough, and what is given counts more than what the model says.
+    for one, other in (("tolerance", "accuracy"), ("accuracy", "tolerance")):
+        if given.get(one) is not None and given.get(other) is None:
+            found.pop(other, None)
+    return {name: DEFAULTS[name] if found.get(name) is None else found[name] for name in given}
+
+
+def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
+    """Return a setting that a model tells of itself, None where it has none.
+
+    Parameters
+    ----------
+    model : Component
+        Not built.
+    name : str
+        Argument of `simulate`. A plain attribute or a property tells it; a field of this name is something else, except
+        a stop time or a method.
+    values : mapping of str to value, optional
+        Values by path that replace those of the model.
+    """
+    if name == "stop_time":
+        return own_stop_time(model, values)
+    declared = getattr(type(model), name, None)
+    if isinstance(declared, property) or (name == "method" and isinstance(declared, f.Structural)):
+        return getattr(model if model._is_bound else Instantiation(model, values).root, name)
+    value = None if isinstance(declared, f.Field | f.Template) or callable(declared) else getattr(model, name, None)
+    return None if name == "initial" and not isinstance(value, str) else value  # a number is the user's own constant
+
+
+def _source(
+    model: Component | CompiledModel, values: Mapping[str, Any] | None
+) -> tuple[Component, Mapping[str, Any] | None]:
+    """Return a model that is not built, and the values that replace its own."""
+    if not isinstance(model, CompiledModel):
+        return model, values
+    if model.source is None:
+        return model.tree, None
+    return model.source.model, {**model.source.parameters, **(values or {})}

@@ -1,0 +1,149 @@
+"""What a model tells of its own simulation is taken where nothing is given, from a class, an instance or a property."""
+
+from __future__ import annotations
+
+import pytest
+from typer.testing import CliRunner
+
+import acausal as ac
+from acausal import DeclarationError, Model, Scalar, der, output, parameter, structural
+from acausal.cli.app import app
+
+
+class Decay(Model):
+    stop_time, tolerance, intervals, max_order, method = 0.5, 1e-8, 10, 2, "idas"
+    x: Scalar = output("x")
+
+    def equations(self):
+        yield der(self.x) == -self.x
+
+    def initial_equations(self):
+        yield self.x == 1
+
+
+def told(model, **given):
+    """Stop time, points, tolerance and order limit of a run."""
+    result = ac.simulate(model, **given)
+    return (result.time[-1], len(result.time), result.stats["tolerance"], result.stats["max_order"])
+
+
+@pytest.mark.parametrize("of", [lambda m: m, ac.compile])
+def test_settings_of_a_class(of):
+    assert told(of(Decay())) == (0.5, 11, 1e-8, 2)
+    assert told(of(Decay()), stop_time=1, tolerance=1e-4, intervals=3, max_order=5) == (1, 4, 1e-4, 5)
+    assert told(of(Decay()), accuracy=1e-2)[2] != 1e-8
+
+
+@pytest.mark.parametrize("of", [lambda m: m, ac.compile])
+def test_settings_of_an_instance_and_a_property(of):
+    class Chosen(Decay):
+        points: int = structural("points", default=7)
+        end: Scalar = parameter("end", unit="s", default=0.25)
+
+        @property
+        def intervals(self):
+            return self.points - 1
+
+        @property
+        def stop_time(self):
+            return 2 * self.end
+
+    model = Chosen(points=5)
+    model.tolerance = 1e-5
+    assert told(of(model))[:3] == (0.5, 5, 1e-5)
+    assert told(of(model), parameters={"end": 1})[0] == 2
+
+
+def test_tolerance_and_accuracy():
+    class Accurate(Decay):
+        accuracy = 1e-3
+
+    with pytest.raises(DeclarationError, match="accuracy and tolerance are both given"):
+        ac.simulate(Accurate())
+    assert ac.simulate(Accurate(), tolerance=1e-3).stats["tolerance"] == 1e-3
+    Accurate.tolerance = None
+    assert ac.simulate(Accurate()).stats["accuracy"] == 1e-3
+
+
+class Guessed(Decay):
+    initial, constraints = "guesses", "projection"
+
+    def initial_equations(self):
+        yield from ()
+
+
+def test_initial():
+    assert ac.simulate(Guessed()).stats["method"] == "idas"
+    assert ac.linearize(Guessed()).A.item() == pytest.approx(-1)
+    with pytest.raises(ac.InitializationError, match="1 freedom open"):
+        ac.simulate(Guessed(), initial="fixed")
+    with pytest.raises(DeclarationError, match="initial is 'rest'; it must be one of"):
+        ac.simulate(type("M", (Guessed,), {"initial": "rest"})())
+    assert ac.study(Guessed(), tolerances=[1e-4], repeats=1, workers=1).rows[0].measurement.steps > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "text"),
+    [
+        ("tolerance", "fine", "tolerance is 'fine'; it must be a number"),
+        ("intervals", 2.5, "intervals is 2.5; it must be a whole number"),
+        ("method", "rk4", "method is 'rk4'"),
+        ("constraints", "none", "constraints is 'none'"),
+        ("max_order", 6, "max_order is 6"),
+        ("stop_time", -1, "stop_time of M is -1"),
+    ],
+)
+def test_wrong_settings_are_refused(name, wrong, text):
+    with pytest.raises(DeclarationError, match=text):
+        ac.simulate(type("M", (Decay,), {name: wrong})())
+
+
+class Clearance(Decay):
+    """Fields and constants of other meaning are no settings."""
+
+    tolerance: Scalar = parameter("clearance", unit="m", default=0.02)
+    intervals: int = structural("teeth", default=12)
+    constraints: Scalar = output("reaction")
+    initial = 0.3
+
+    def equations(self):
+        yield from super().equations()
+        yield self.constraints == self.tolerance
+
+    def accuracy(self):
+        return 0.1
+
+
+@pytest.mark.parametrize("of", [lambda m: m, ac.compile])
+def test_other_meanings(of):
+    assert told(of(Clearance()))[1:3] == (401, 1e-6)
+
+
+def test_no_stop_time_at_all():
+    class Endless(Decay):
+        stop_time = None
+
+    with pytest.raises(DeclarationError, match=r"tells no stop_time; give one: stop_time=2\.0"):
+        ac.simulate(Endless())
+    assert ac.simulate(Endless(), stop_time=1).time[-1] == 1
+
+
+def test_command_line(tmp_path):
+    (tmp_path / "decay.py").write_text(
+        "from acausal import Model, Scalar, der, output\n\n"
+        "class Decay(Model):\n"
+        "    stop_time, tolerance, intervals, initial = 0.5, 1e-8, 10, 'guesses'\n"
+        "    x: Scalar = output('x')\n\n"
+        "    def equations(self):\n"
+        "        yield der(self.x) == -self.x\n"
+    )
+    table = tmp_path / "out.csv"
+    command = ["simulate", f"{tmp_path / 'decay.py'}:Decay", "--csv", str(table), "--quiet"]
+
+    def rows(*options):
+        assert CliRunner().invoke(app, [*command, *options]).exit_code == 0
+        return len(table.read_text().splitlines()) - 1
+
+    assert (rows(), rows("--intervals", "4")) == (11, 5)
+    assert CliRunner().invoke(app, [*command, "--initial", "fixed"]).exit_code == 2
+    assert CliRunner().invoke(app, ["linearize", command[1]]).exit_code == 0
