@@ -19,6 +19,7 @@ from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.requirements import Requirements
+from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.source import Source, pickled
 from acausal.language import fields as f
 from acausal.language.functions import initial, time
@@ -257,10 +258,16 @@ class CompiledModel:
         return self.reduced.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
-    def power(self) -> Call:
+    def power(self) -> Rowwise:
         """Function of x, z, parameters, time and modes: supplied and dissipated power."""
         powers = ca.substitute(self.powers, initial.sx, 0)
-        return Call(ca.Function("power", self.arguments[:-1], [ca.densify(powers)]))
+        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(powers)]))
+
+    @cached_property
+    def rates(self) -> Rowwise:
+        """Function of x, z, parameters, time and modes: derivatives of the states."""
+        ode = ca.substitute(self.reduced.ode, initial.sx, 0)
+        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(ode)]))
 
     @cached_property
     def stored(self) -> Call:

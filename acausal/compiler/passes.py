@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.call import Call
+from acausal.compiler.rowwise import Rowwise
 from acausal.language.functions import initial
 from acausal.reduce import Level, ReducedModel, solution_levels
 
@@ -22,20 +22,13 @@ class Pass:
         Positions among the algebraic unknowns.
     linear : bool
         Whether one step is enough, up to rounding.
-    function : casadi.Function
+    function : Rowwise
         From x, z, parameters, time and modes: these unknowns after the step.
     """
 
     unknowns: np.ndarray
     linear: bool
-    function: ca.Function
-    _calls: dict[int, Call] = field(default_factory=dict)
-
-    def at(self, n: int) -> Call:
-        """Return the function of n times at once."""
-        if n not in self._calls:
-            self._calls[n] = Call(self.function.map(n))
-        return self._calls[n]
+    function: Rowwise
 
 
 def make_passes(
@@ -78,4 +71,4 @@ def _joined(arguments: list[ca.SX], steps: list[tuple[Level, ca.Function]], unkn
         found = step(x, found, *others)
     chosen = np.sort(np.concatenate([unknowns[list(level.variables)] for level, _ in steps]))
     function = ca.Function("newton", [x, z, *others], [found[chosen.tolist()]])
-    return Pass(chosen, steps[0][0].linear, function)
+    return Pass(chosen, steps[0][0].linear, Rowwise(function))

@@ -6,7 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.solve.energy import between_rows
+from acausal.solve.hermite import cubic
 from acausal.solve.integrate import Integrator
+
+# Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
+FAITHFUL = 0.1
+# Steps of an integration where it is not.
+MOST_STEPS = 20_000
+LOOKS = 5  # points of an interval whose defects tell whether its cubic is the motion
 
 
 @dataclass(frozen=True)
@@ -17,8 +25,6 @@ class Between:
     ----------
     times, x, z : arrays, shapes (n,), (n, nx), (n, nz)
         Times in s, states and consistent algebraic unknowns.
-    energy : array, shape (n, 2)
-        Integrals of the supplied and of the dissipated power in J.
     defect : array, shape (n,)
         How much the states would be off at the end if their rates were off all the way as they are there, in parts of
         what the tolerance allows (defect control, Enright 1989).
@@ -27,7 +33,6 @@ class Between:
     times: np.ndarray
     x: np.ndarray
     z: np.ndarray
-    energy: np.ndarray
     defect: np.ndarray
 
 
@@ -37,7 +42,6 @@ def between(
     ends: np.ndarray,
     x: np.ndarray,
     z: np.ndarray,
-    energy: np.ndarray,
     times: np.ndarray,
 ) -> Between:
     """Interpolate.
@@ -48,7 +52,7 @@ def between(
         Tells model, parameters and tolerance.
     modes : array
         Constants of the segment.
-    ends, x, z, energy : arrays, shapes (2,), (2, nx), (2, nz), (2, 2)
+    ends, x, z : arrays, shapes (2,), (2, nx), (2, nz)
         The two points, with algebraic unknowns nearly right.
     times : array, shape (n,)
         Times between them.
@@ -58,7 +62,7 @@ def between(
     both = np.broadcast_to(modes, (2, len(modes)))
     z = run.consistent(x, z, ends, both)
     rates = run.consistent.rates(x, z, ends, both)
-    found, slope = _cubic(s, h, x, rates)
+    found, slope = cubic(s, h, x, rates)
     inner = np.broadcast_to(modes, (len(times), len(modes)))
     guess = z[0] + s * (z[1] - z[0])
     inside = run.consistent(found, guess, times, inner)
@@ -68,16 +72,17 @@ def between(
     if run.consistent.unsolved:
         run.consistent.unsolved.clear()
         defect[:] = np.inf
-    work = energy[0] + s * 0
-    if run.settings.energy:
-        at = zip(x, z, ends, strict=True)
-        powers = np.array([c.power(a, b, run.p, t, modes)[0].copy() for a, b, t in at])
-        work = _cubic(s, h, energy, powers)[0]
-    return Between(times, found, inside, work, np.nan_to_num(defect, nan=np.inf))
+    return Between(times, found, inside, np.nan_to_num(defect, nan=np.inf))
 
 
-def _cubic(s: np.ndarray, h: float, value: np.ndarray, rate: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Value and slope at parts s of an interval of length h."""
-    (a, b), (da, db) = value, rate * h
-    c3, c2 = 2 * a - 2 * b + da + db, 3 * (b - a) - 2 * da - db
-    return ((c3 * s + c2) * s + da) * s + a, ((3 * c3 * s + 2 * c2) * s + da) / h
+def work_between(run: Integrator, modes: np.ndarray, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as of `between`."""
+    c = run.compiled
+    if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
+        return np.zeros(2)
+    looks = np.linspace(*ends, LOOKS + 2)[1:-1]
+    found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
+    if not known or np.any(between(run, modes, ends, x, z, looks).defect > FAITHFUL):
+        stretch = run.attempt(ends, x[0], z[0], modes, MOST_STEPS, careful=True)
+        return found[-1] if stretch is None else stretch.energy[-1]
+    return found[-1]

@@ -10,22 +10,19 @@ from collections.abc import Iterable
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.call import Call
 from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
 from acausal.solve.initialize import algebraic
 from acausal.solve.newton import TERMS
 
-# Times in one call.
-AT_ONCE = 16
 # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
 SETTLED = 1e-7
 # The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
 ONCE = 1.0
 # Of the largest unknown: what is smaller may be rounding, which never settles.
 NOISE = 1e-9
-# Times at which sizes of terms are taken.
-LOOKS = 4
+# Times at which sizes of terms are taken, and times in a call from which on that is done anew: it costs little then.
+LOOKS, MANY = 4, 200
 
 
 class Consistent:
@@ -90,10 +87,7 @@ class Consistent:
     def rates(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """Return the derivatives of the states, shape (n, nx)."""
         self.evaluations += len(t)
-        values = (
-            self.compiled.values(a, b, self.p, time, m, 0.0)[0] for a, b, time, m in zip(x, z, t, modes, strict=True)
-        )
-        return np.array([value[: self.compiled.nx].copy() for value in values])
+        return self.compiled.rates(x, z, self.p, t, modes)
 
     def holds(
         self,
@@ -123,7 +117,7 @@ class Consistent:
         """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
         c = self.compiled
         key = tuple(unknowns)
-        if key not in self._natural or len(t) > AT_ONCE:
+        if key not in self._natural or len(t) > MANY:
             size = np.zeros(c.nz)
             for k in np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int)):
                 J = abs(c.at(x[k], z[k], self.p, float(t[k]), modes[k], 0.0).jacobian[c.nx + equations])
@@ -156,29 +150,13 @@ class Consistent:
 
     def _newton(self, step: Pass, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         """One Newton step at every time; nan where the equations are singular."""
-        n = len(t)
-        self.evaluations += n
-        call = step.at(AT_ONCE if n > 1 else 1)
-        size = len(call.inputs[3])
-        found = np.empty((n, len(step.unknowns)))
-        for first in range(0, n, size):
-            some = np.arange(first, min(first + size, n))
-            found[some] = self._some(call, x[some], z[some], t[some], modes[some])
-            bad = some[~np.all(np.isfinite(found[some]), axis=1)]
-            for k in bad if n > 1 else ():
-                # A singular one leaves nothing for the others of its call.
-                found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
+        self.evaluations += len(t)
+        found = step.function(x, z, self.p, t, modes)
+        bad = np.flatnonzero(~np.all(np.isfinite(found), axis=1))
+        for k in bad if len(t) > 1 else ():
+            # A singular one leaves nothing for the others of its call.
+            found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
         return found
-
-    def _some(self, call: Call, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
-        n, size = len(t), len(call.inputs[3])
-        rows = np.minimum(np.arange(size), n - 1)
-        given = (x[rows], z[rows], np.tile(self.p, size), t[rows], modes[rows])
-        for array, value in zip(call.inputs, given, strict=True):
-            array[:] = value.ravel()
-        done, _ = call.attempt()
-        found = call.outputs[0].reshape(size, -1)[:n].copy()
-        return found if done else np.full_like(found, np.nan)
 
     def _alone(
         self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, modes: np.ndarray

@@ -12,17 +12,22 @@ from scipy.interpolate import make_interp_spline
 
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
+from acausal.solve.hermite import cubic
 from acausal.solve.initialize import algebraic
 from acausal.solve.trace import Stretch
 
-# Nodes of a spline to begin with, and rows of a stretch that there must be at least, to have more.
-FEWEST, ROWS = 48, 192
+# Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
+FEWEST, ROWS, MOST = 48, 192, 2**17
 # Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).
 RESOLVED = 8
 # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
 GAIN = 20
-# Halvings after which the power of a model without states counts as rough.
-HALVINGS = 8
+# Points beside the nodes where the power itself is looked at, and what a spline through nodes that are near enough to
+# each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
+PROBES, ALIKE = 24, 1e-2
+GOLDEN = (5**0.5 - 1) / 2
+
+Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def powers(
@@ -44,8 +49,7 @@ def powers(
     wanted = compiled.dependence.inside(compiled.powers)
     z = solver(x, z, t, np.broadcast_to(modes, (len(t), len(modes))), wanted)
     solver.unsolved.clear()
-    rows = zip(x, z, t.tolist(), strict=True)
-    return np.array([compiled.power(a, b, solver.p, time, modes)[0].copy() for a, b, time in rows])
+    return compiled.power(x, z, solver.p, t, np.broadcast_to(modes, (len(t), len(modes))))
 
 
 def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -62,13 +66,11 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def refined(
-    compiled: CompiledModel,
-    solver: Consistent,
-    rows: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
-    given: np.ndarray,
-    tolerance: float,
-) -> np.ndarray:
-    """Work up to each row: by splines, or as the integrator gives it where these cannot tell.
+    compiled: CompiledModel, solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, bool]:
+    """Work up to each row, and whether it is known to the tolerance.
+
+    It comes from splines through some rows, or all, or points between them; or from the integrator where it agrees.
 
     Parameters
     ----------
@@ -88,13 +90,81 @@ def refined(
         power = powers(compiled, solver, x[some], z[some], t[some], modes)
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
         each, error = (np.diff(w[some], axis=0) for w in (fine, rough - fine))
-        if np.all(np.abs(error) / GAIN <= tolerance * np.mean(np.abs(each), axis=0)) or len(some) == len(t):
+        settled = bool(np.all(np.abs(error) / GAIN <= tolerance * np.mean(np.abs(each), axis=0)))
+        if settled or len(some) == len(t):
             break
         count = min(2 * count, last)
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
+    if not (settled and _seen(compiled, solver, rows, t[some], power)):
+        closer, known = between_rows(compiled, solver, rows, tolerance)
+        if known or not np.all(agree):
+            return given[0] + closer, known
     steps = np.where(np.repeat(agree, np.diff(some), axis=0), np.diff(given, axis=0), np.diff(fine, axis=0))
-    return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)])
+    return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)]), True
+
+
+def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.ndarray, bool]:
+    """Work up to each row from more and more points between them, on cubics through the states, until it settles.
+
+    Parameters
+    ----------
+    compiled, solver, rows, tolerance
+        As of `refined`.
+    """
+    x, z, t, modes = rows
+    z = solver(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
+    rows, n, agreed = (x, z, t, modes), len(t) - 1, 0
+    rates = solver.rates(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
+    found = np.full((n + 1, 2), np.inf)
+    parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
+    while n * parts <= MOST:
+        inside = _inside(rows, rates, np.arange(n * parts + 1) / parts)
+        power = powers(compiled, solver, *inside, modes)
+        before, found = found, work(inside[2], power, t)
+        scale = tolerance * np.mean(np.abs(power), axis=0) * (t[-1] - t[0])
+        agreed = agreed + 1 if np.all(np.abs(found - before) / GAIN <= scale) else 0
+        if agreed == 2 and _seen(compiled, solver, rows, inside[2], power, rates):
+            return found, True
+        parts *= 2
+    return np.nan_to_num(found), False
+
+
+def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """States, algebraic unknowns nearly right, and times; s counts rows."""
+    x, z, t, _ = rows
+    k = np.minimum(s.astype(int), len(t) - 2)
+    u = (s - k)[:, None]
+    h = (t[k + 1] - t[k])[:, None]
+    return (
+        cubic(u, h, (x[k], x[k + 1]), (rates[k], rates[k + 1]))[0],
+        z[k] + u * (z[k + 1] - z[k]),
+        t[k] + (u * h)[:, 0],
+    )
+
+
+def _seen(
+    compiled: CompiledModel,
+    solver: Consistent,
+    rows: Rows,
+    times: np.ndarray,
+    power: np.ndarray,
+    rates: np.ndarray | None = None,
+) -> bool:
+    """Whether a spline of the power is right beside its nodes."""
+    x, z, t, modes = rows
+    s = (np.arange(1, PROBES + 1) * GOLDEN) % 1 * (len(t) - 1)
+    if rates is None:
+        k = np.minimum(s.astype(int), len(t) - 2)
+        ends = np.unique([k, k + 1])
+        many = np.broadcast_to(modes, (len(ends), len(modes)))
+        z = z.copy()
+        z[ends] = solver(x[ends], z[ends], t[ends], many)
+        rates = np.zeros(x.shape)
+        rates[ends] = solver.rates(x[ends], z[ends], t[ends], many)
+    probes = _inside((x, z, t, modes), rates, s)
+    missed = np.abs(make_interp_spline(times, power, 5)(probes[2]) - powers(compiled, solver, *probes, modes))
+    return bool(np.all(missed <= ALIKE * np.max(np.abs(power), axis=0)))
 
 
 def _halved(some: np.ndarray) -> np.ndarray:
@@ -126,27 +196,7 @@ def everywhere(
     found = [z]
     for time in times[1:]:
         found.append(algebraic(compiled, found[-1], solver.p, float(time), modes))
-    n, energy = len(times) - 1, np.zeros((len(times) - 1, 2))
+    n, z, energy = len(times) - 1, np.array(found), np.zeros((len(times) - 1, 2))
     if tolerance is not None and not compiled.powers.is_zero():
-        energy = _motionless(compiled, solver, times, np.array(found), modes, tolerance)
-    return Stretch(np.array(times[1:]), np.zeros((n, 0)), np.array(found[1:]), energy, modes, 0)
-
-
-def _motionless(
-    compiled: CompiledModel, solver: Consistent, times: np.ndarray, z: np.ndarray, modes: np.ndarray, tolerance: float
-) -> np.ndarray:
-    """Work up to each output of a model without states: intervals are halved until two halvings change nothing."""
-    n, found, agreed = len(times) - 1, np.full((len(times) - 1, 2), np.inf), 0
-    parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
-    for _ in range(HALVINGS):
-        s = np.arange(n * parts + 1) / parts
-        t, near = np.interp(s, np.arange(n + 1), times), np.minimum(s.astype(int), n - 1)
-        guess = z[near] + (s - near)[:, None] * (z[near + 1] - z[near])
-        power = powers(compiled, solver, np.zeros((len(t), 0)), guess, t, modes)
-        before, found = found, work(t, power, times[1:])
-        right = np.abs(found - before) / GAIN <= tolerance * np.max(np.abs(found), axis=0)
-        agreed = agreed + 1 if right.all() else 0
-        if agreed == 2:
-            break
-        parts *= 2
-    return found
+        energy = between_rows(compiled, solver, (np.zeros((n + 1, 0)), z, times, modes), tolerance)[0][1:]
+    return Stretch(np.array(times[1:]), np.zeros((n, 0)), z[1:], energy, modes, 0)

@@ -12,14 +12,18 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.errors import InitializationError, caution
+from acausal.solve.between import work_between
 from acausal.solve.instant import Cycling, Instants, Point, places_text
 from acausal.solve.integrate import Failure, Integrator, Stretch
 from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
 from acausal.solve.passage import LONG, passage
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
-# Rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
-DENSEST, STEPS_A_ROW = 64, 4
+# Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
+DENSEST, STEPS_A_ROW = 32, 4
+# The same of all intervals, that there may be at least: few intervals are looked at as often as many.
+ROWS = 400 * DENSEST
+GOLDEN = (5**0.5 - 1) / 2
 
 
 class Chattering(Exception):
@@ -58,6 +62,8 @@ class Run:
         self.inclusive = np.array([self.guards.guards[k].inclusive for k in self.guards.timed], dtype=bool)
         self.first: Point | None = None
         self.hasty, self.piece = False, np.inf
+        self.interval = float(times[-1] - times[0]) / (len(times) - 1)
+        self.densest = max(DENSEST, ROWS // (len(times) - 1))
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -118,19 +124,22 @@ class Run:
         if stretch is None:
             return at if self.integrator.rescue(grid) else self._shorter(at, grid)
         if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3):
-            if self.density < DENSEST:
-                self.density *= 4
+            if self.density < self.densest:
+                needed = stretch.steps / (STEPS_A_ROW * (len(grid) - 1))
+                self.density = 4 ** int(np.ceil(np.log(max(needed, 4 * self.density)) / np.log(4)))
+            elif len(grid) > 2:
+                self.block = max(1, (len(grid) - 1) // FINE)
             else:
-                self.piece = float(grid[-1] - grid[0]) / FINE
+                self.piece = float(grid[1] - grid[0]) / FINE
             return at
         try:
-            crossing = self.locator.first(at, stretch)
+            crossing = self.locator.first(at, stretch, content=self.hasty)
         except TooCoarse:
-            if self.density < DENSEST:
+            if self.density < self.densest:
                 self.density *= 4
-                return at
-            self._warn_of_haste(at)
-            crossing = self.locator.first(at, stretch, depth=1)
+            else:
+                self._warn_of_haste(at)
+            return at
         except Failure:
             return self._shorter(at, grid)
         if crossing is None:
@@ -141,14 +150,13 @@ class Run:
         return self._event(at, stretch, crossing)
 
     def _warn_of_haste(self, at: Point) -> None:
-        if not self.hasty:
-            self.hasty = True
-            guards = self.instants.watched.tolist()
-            caution(
-                f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {DENSEST} times an interval; one "
-                f"that changes and changes back in between is missed. One of these:\n"
-                f"{places_text(self.integrator.compiled, guards)}\nMore intervals look more often: simulate(..., intervals=...)."
-            )
+        self.hasty = True
+        caution(
+            f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {2 * self.density} times an interval; "
+            "one that changes and changes back in between is missed. One of these:\n"
+            f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
+            "More intervals look more often: simulate(..., intervals=...)."
+        )
 
     def _grid(self, now: float, end: float) -> np.ndarray:
         """Next times: all up to the end at first, blocks of equal intervals after an event."""
@@ -164,8 +172,12 @@ class Run:
 
     def _integrate(self, at: Point, grid: np.ndarray) -> Stretch | None:
         n = len(grid) - 1
-        parts = max(self.density, FINE // n)
-        fine = np.interp(np.arange(n * parts + 1) / parts, np.arange(n + 1), grid)
+        pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
+        parts = 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n)))
+        # Uneven, so that no motion comes round from one row to the next all the time.
+        share = 0.6 + 0.8 * (np.arange(n * parts) * GOLDEN % 1).reshape(n, parts)
+        inside = np.cumsum(share, axis=1) / np.sum(share, axis=1, keepdims=True) * np.diff(grid)[:, None]
+        fine = np.concatenate([grid[:1], (grid[:-1, None] + inside).ravel()])
         fine[::parts] = grid
         return self.integrator.attempt(fine, at.x, at.z, at.modes, max(1000, LONG // n), careful=False)
 
@@ -189,7 +201,7 @@ class Run:
                 return self._event(at, stretch, crossing)
             self.integrator.keep(stretch)
             return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
-        here = self.locator.row(at, at.time, at.x, at.z, np.zeros(2), at.modes)
+        here = self.locator.row(at, at.time, at.x, at.z, at.modes)
         due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
         if not due.any():
             raise self.integrator.failure(float(grid[0]), float(grid[1]))
@@ -211,12 +223,17 @@ class Run:
         if n:
             self.integrator.keep(stretch.rows(0, n))
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
-        base = stretch.energy[n - 1] if n else np.zeros(2)
+        last = (stretch.times[n - 1], stretch.x[n - 1], stretch.z[n - 1]) if n else (at.time, at.x, at.z)
+        time, x, z = (np.array(pair) for pair in zip(last, (after.time, after.x, after.z), strict=True))
+        gained = work_between(self.integrator, after.modes, time, x, z)
         reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, modes=after.modes)
-        new = self._happen(reached, event=True, crossed=out, label=label, energy=after.energy - base)
+        new = self._happen(reached, event=True, crossed=out, label=label, energy=gained)
         if on_output and near == at.time:
             self.integrator.trace.put(-2, new.x, new.z, new.modes)
         self.block = 1
+        if self.density > DENSEST:
+            # Where there are many looks to an interval, there are many events: look no further than a few.
+            self.piece = max(4 * (after.time - at.time), self.interval * DENSEST / self.density)
         return new
 
     def _happen(

@@ -82,7 +82,7 @@ class Integrator:
         self.consistent = Consistent(compiled, p)
         self.complaint, self.outputs = "", 1
         self.moves, self.worn = settings.constraints == "projection", False
-        self.rings = settings.method == "rosenbrock"
+        self.rings, self.rough = settings.method == "rosenbrock", False
         self._floor: np.ndarray | None = None
         self.tolerance = settings.tolerance
 
@@ -229,7 +229,9 @@ class Integrator:
             return None
         if watts and steps < n * (RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1):
             rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
-            energy = refined(c, self.consistent, rows, np.vstack([np.zeros((1, 2)), energy]), self.tolerance)[1:]
+            given = np.vstack([np.zeros((1, 2)), energy])
+            work, known = refined(c, self.consistent, rows, given, self.tolerance)
+            energy, self.rough = work[1:], self.rough or not known
         return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
 
     def _settled(self, stretch: Stretch) -> Stretch | None:

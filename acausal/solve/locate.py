@@ -6,15 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.solve.between import between
+from acausal.solve.between import FAITHFUL, between
 from acausal.solve.crossing import Sides, dips, levels, root
 from acausal.solve.instant import Instants, Point
 from acausal.solve.integrate import Integrator, Stretch
 
 FINE, DEPTH, SUSPECTS, TRIALS = 8, 3, 4, 80
 TRIAL_STEPS = 20_000
-# Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
-FAITHFUL = 0.1
 # A condition may change within an interval that it could cross so much faster than it moves at the ends.
 REACH = 3.0
 # Times at which one stretch is looked at between its rows.
@@ -23,12 +21,11 @@ LOOKS = 4000
 
 @dataclass(frozen=True)
 class Row:
-    """Values at a time; `energy` counts from the start of the stretch, `value` and `rate` are positive if unchanged."""
+    """Values at a time; `value` and `rate` are positive if unchanged."""
 
     time: float
     x: np.ndarray
     z: np.ndarray
-    energy: np.ndarray
     value: np.ndarray
     rate: np.ndarray
     modes: np.ndarray
@@ -62,8 +59,19 @@ class Locator:
         self.run, self.instants = run, instants
         self.shortest = 1e-12 * instants.span
 
-    def first(self, at: Point, stretch: Stretch, depth: int = 0) -> Crossing | None:
+    def first(self, at: Point, stretch: Stretch, depth: int = 0, content: bool = False) -> Crossing | None:
         """Return the first change after `at` along a stretch that begins there.
+
+        Parameters
+        ----------
+        at : Point
+            Where the stretch begins.
+        stretch : Stretch
+            Rows after it.
+        depth : int
+            How often rows between rows were asked for.
+        content : bool
+            Whether to do without a look between the rows where there would be too many.
 
         Raises
         ------
@@ -77,7 +85,6 @@ class Locator:
             np.concatenate([[at.time], stretch.times]),
             np.vstack([at.x[None], stretch.x]),
             np.vstack([at.z[None], stretch.z]),
-            np.vstack([np.zeros((1, 2)), stretch.energy]),
             stretch.modes,
         )
         sides = Sides(
@@ -89,13 +96,21 @@ class Locator:
         end = int(np.argmax(out)) if out.any() else len(out)
         least, error = dips(sides)
         margin = least - level[:-1]
-        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * _pace(sides)
+        pace, most = _pace(sides), max(SUSPECTS, len(out) // FINE) if depth == 0 or content else len(out)
+        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * pace
+        round_about = np.any(near & (pace > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
+        turning = _near(rows[: end + 1], level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
         doubtful[end:] = False
-        doubtful[:end] |= self._seen_between(at, rows[: end + 1], level[: end + 1])
-        suspects = np.flatnonzero(doubtful)
-        if depth == 0 and len(suspects) > max(SUSPECTS, len(out) // FINE):
+        if not content and depth == 0 and (round_about.any() or len(turning) > most):
             raise TooCoarse
+        if len(turning) <= most:
+            doubtful[:end] |= self._seen_between(at, rows, level, turning, end)
+        suspects = np.flatnonzero(doubtful)
+        if len(suspects) > most:
+            if not content:
+                raise TooCoarse
+            suspects = suspects[:0]
         peak = np.maximum.accumulate(sides.value, axis=0)
         for k in suspects if depth < DEPTH else []:
             inner = self._inside(at, rows[k], rows[k + 1], depth)
@@ -105,13 +120,11 @@ class Locator:
             return None
         return self._narrow(at, rows[end], rows[end + 1], width / 100, peak[end])
 
-    def row(self, at: Point, time: float, x: np.ndarray, z: np.ndarray, energy: np.ndarray, modes: np.ndarray) -> Row:
+    def row(self, at: Point, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Row:
         """Values of the watched conditions at other states, on the side on which they are at `at`."""
-        return self._rows(at, np.array([time]), x[None], z[None], energy[None], modes)[0]
+        return self._rows(at, np.array([time]), x[None], z[None], modes)[0]
 
-    def _rows(
-        self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, energy: np.ndarray, modes: np.ndarray
-    ) -> list[Row]:
+    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> list[Row]:
         """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
         run, guards = self.run, self.instants.guards
         z = run.consistent(x, z, t, np.broadcast_to(modes, (len(t), len(modes))), guards.needs)
@@ -119,14 +132,14 @@ class Locator:
         value, rate = guards.along(x, z, run.p, t, modes)
         side = np.where(at.truth, -1.0, 1.0)
         return [
-            Row(time, a, b, work, g, d, modes)
-            for time, a, b, work, g, d in zip(t.tolist(), x, z, energy, value * side, rate * side, strict=True)
+            Row(time, a, b, g, d, modes)
+            for time, a, b, g, d in zip(t.tolist(), x, z, value * side, rate * side, strict=True)
         ]
 
-    def _seen_between(self, at: Point, rows: list[Row], level: np.ndarray) -> np.ndarray:
-        """In which intervals a condition changes and changes back, looked at closer where it turns fast enough for that."""
-        found = np.zeros(len(rows) - 1, dtype=bool)
-        todo = [(k, rows[k], rows[k + 1], level[k]) for k in _near(rows, level)]
+    def _seen_between(self, at: Point, rows: list[Row], level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
+        """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
+        found = np.zeros(end, dtype=bool)
+        todo = [(k, rows[k], rows[k + 1], level[k]) for k in turning]
         looks = 0
         while todo:
             k, a, b, least = todo.pop()
@@ -144,11 +157,10 @@ class Locator:
     def _interpolated(self, at: Point, a: Row, b: Row, times: np.ndarray) -> list[Row] | None:
         """Rows between two others; None where the cubic does not follow the motion."""
         ends = np.array([a.time, b.time])
-        x, z, energy = (np.array(pair) for pair in ((a.x, b.x), (a.z, b.z), (a.energy, b.energy)))
-        found = between(self.run, a.modes, ends, x, z, energy, times)
+        found = between(self.run, a.modes, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
         if np.any(found.defect > FAITHFUL):
             return None
-        return self._rows(at, found.times, found.x, found.z, found.energy, a.modes)
+        return self._rows(at, found.times, found.x, found.z, a.modes)
 
     def _inside(self, at: Point, a: Row, b: Row, depth: int) -> Crossing | None:
         """Look closer between two rows."""
@@ -157,10 +169,7 @@ class Locator:
         if stretch is None:
             raise self.run.failure(a.time, b.time)
         found = self.first(Point(a.time, a.x, a.z, at.modes, at.truth), stretch, depth + 1)
-        if not found:
-            return None
-        before, after = (replace(r, energy=a.energy + r.energy) for r in (found.before, found.after))
-        return Crossing(before, after, found.peak)
+        return found
 
     def _narrow(self, at: Point, a: Row, b: Row, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
@@ -217,7 +226,7 @@ class Locator:
         stretch = self._attempt(at, a, np.array([a.time, time]))
         if stretch is None:
             return None
-        return self.row(at, time, stretch.x[0], stretch.z[0], a.energy + stretch.energy[0], stretch.modes)
+        return self.row(at, time, stretch.x[0], stretch.z[0], stretch.modes)
 
     def _attempt(self, at: Point, a: Row, times: np.ndarray) -> Stretch | None:
         tries = (self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful) for careful in (False, True))

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.errors import SimulationError
+from acausal.errors import SimulationError, caution
 from acausal.result import Result
 from acausal.solve.clock_times import clock_times
 from acausal.solve.evaluator import Evaluator
@@ -21,6 +21,10 @@ from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
 from acausal.solve.validity import check_start, doubts
 
+ROUGH = (
+    "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
+    "intervals, simulate(..., intervals=...), give more points."
+)
 APART = 1e-12  # of the time: less is no room for an integration
 
 
@@ -161,6 +165,8 @@ def _result(
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
     stats["doubts"] = doubts(compiled, evaluate)
     if energy:
+        if run.rough:
+            caution(ROUGH)
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
         supplied, dissipated = trace.energy[-1][-1] if trace.energy else (0.0, 0.0)

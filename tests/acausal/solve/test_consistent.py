@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
-from acausal import Model, Scalar, der, discrete, piecewise, reinit, sin, time, variable, when
+from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, sin, time, variable, when
+from acausal.solve import events
 from acausal.solve.integrate import Integrator
 from components import rotational
 from models import SCENES, FourBarSpatial, NFourBar, SpinUp
@@ -200,19 +201,72 @@ def test_a_watched_loop_goes_where_an_unwatched_one_goes():
 
 
 class Pulses(Model):
-    """A guard that turns far faster than outputs and steps show."""
+    """A guard that turns as fast as one likes, while the steps are as long as one likes."""
 
-    x: Scalar = variable("x", start=0, fixed=True)
+    rate: Scalar = parameter("rate of its phase", unit="1/s", default=1e6)
+    least: Scalar = parameter("least value", default=2.0)
+    x: Scalar = variable("x", unit="s", start=0, fixed=True)
     n: Scalar = discrete("count", unit="1")
 
     def equations(self):
         yield der(self.x) == 1
-        yield when(sin(2000 * self.x) > 0.5, reinit(self.n, self.n + 1))
+        yield when(sin(self.rate * self.x) > self.least, reinit(self.n, self.n + 1))
 
 
-def test_conditions_faster_than_they_are_looked_at_are_told():
+@pytest.mark.parametrize("intervals", [2, 400])
+def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
     with pytest.warns(ac.AcausalWarning, match=r"turn faster than they are looked at[\s\S]*intervals"):
-        ac.simulate(Pulses(), stop_time=1.0, intervals=2, method="idas")
+        ac.simulate(Pulses(), stop_time=1.0, intervals=intervals, method="idas")
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize("intervals", [1, 2, 4, 5, 400])
+@pytest.mark.parametrize(("rate", "least"), [(100.0, 0.99), (100.0, 0.5), (51.0, 0.99), (32 * np.pi, 0.9999)])
+def test_no_turn_of_a_guard_is_missed(rate, least, intervals, method):
+    """Also where it turns by whole or half turns from one look to the next."""
+    changes = {"rate": rate, "least": least}
+    result = ac.simulate(Pulses(), stop_time=1.0, intervals=intervals, method=method, parameters=changes)
+    assert result["n"][-1] == 1 + (rate - np.arcsin(least)) // (2 * np.pi)
+
+
+def test_a_cosine_that_comes_round_from_output_to_output():
+    class Round(Pulses):
+        def equations(self):
+            yield der(self.x) == 1
+            yield when(ac.cos(self.rate * self.x) < 0, reinit(self.n, self.n + 1))
+
+    result = ac.simulate(Round(), stop_time=40.0, parameters={"rate": 20 * np.pi}, method="idas")
+    assert result["n"][-1] == 400
+
+
+class Rings(Model):
+    """An oscillator far faster than its outputs, and a condition that it never meets."""
+
+    x: Scalar = variable("x", start=1, fixed=True)
+    v: Scalar = variable("v", start=0, fixed=True)
+    n: Scalar = discrete("count", unit="1")
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == -1e6 * self.x
+        yield when(self.x > 2, reinit(self.n, self.n + 1))
+
+
+@pytest.mark.parametrize(
+    ("intervals", "tolerance", "method"),
+    [(8, 1e-8, "auto"), (10, 1e-6, "idas"), (20, 1e-6, "auto"), (10, 1e-6, "rosenbrock"), (1, 1e-6, "idas")],
+)
+def test_many_steps_an_interval_come_to_an_end(intervals, tolerance, method):
+    result = ac.simulate(Rings(), stop_time=1.0, intervals=intervals, tolerance=tolerance, method=method)
+    assert result["x"][-1] == pytest.approx(np.cos(1000.0), abs=1e4 * tolerance)
+    assert result.stats["steps"] < 200_000
+
+
+def test_stretches_are_cut_where_no_number_of_looks_is_enough(monkeypatch):
+    monkeypatch.setattr(events, "ROWS", 1)
+    monkeypatch.setattr(events, "DENSEST", 4)
+    result = ac.simulate(Rings(), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")
+    assert result["x"][-1] == pytest.approx(np.cos(500.0), abs=1e-2)
 
 
 @pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])

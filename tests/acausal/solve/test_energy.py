@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import simpson
+from scipy.integrate import quad, simpson
 
 import acausal as ac
-from acausal import Model, connect, cos, sin, time
+from acausal import Model, chain, connect, cos, fixed, quantity, sin, time
 from components import rotational
 from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
@@ -39,6 +39,55 @@ def test_work_of_a_crank_at_constant_speed(tolerance, intervals, method):
     exact = 1e3 / 2 * (stretch(3.9) ** 2 - stretch(0.0) ** 2)
     assert stats["energy_supplied"] == pytest.approx(exact, rel=max(tolerance, 1e-9))
     assert stats["energy_stored_change"] == pytest.approx(exact, rel=1e-9)
+
+
+class Spinning(Cranked):
+    """Ten times as fast."""
+
+    drive = rotational.Speed(w_ref=30 + 1e-12 * time, phi=fixed(0))
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize(("stop", "intervals"), [(1.0, 10), (50.0, 400), (80 * np.pi / 3, 400)])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8])
+def test_work_of_many_turns(tolerance, stop, intervals, method):
+    """The integrator's steps are far longer than a turn; the last stop has two whole turns in each interval."""
+    stats = ac.simulate(
+        Spinning(), stop_time=stop, tolerance=tolerance, intervals=intervals, method=method, energy=True
+    ).stats
+    turned = np.array([0.0, 30 * stop])
+    s = np.hypot(1 - 0.3 * np.cos(turned), 0.2 - 0.3 * np.sin(turned)) - 0.1
+    exact = float(np.diff(1e3 / 2 * s**2)[0])
+    # Each turn lifts and lowers this much.
+    gross = 1e3 / 2 * (1.25**2 - 0.6**2) * 30 * stop / np.pi
+    assert abs(stats["energy_supplied"] - exact) < 10 * tolerance * gross
+
+
+class Slipping(Model):
+    """A clutch between two rotors breaks away at 2.25 s, where nothing else happens."""
+
+    a = rotational.Inertia(J=1.0, phi=fixed(0.0), w=fixed(1.0))
+    clutch = rotational.Clutch(f_normalized=1.0, tau_max=5.0, peak=1.2)
+    b = rotational.Inertia(J=2.0, phi=fixed(0.0), w=fixed(1.0))
+    load = rotational.Torque(tau=quantity(4.0, "N.m/s") * time)
+
+    def connections(self):
+        yield chain(self.load.flange, self.a, self.clutch, self.b)
+
+
+@pytest.mark.parametrize("intervals", [1, 3, 13, 400])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+def test_work_up_to_an_event_between_outputs(tolerance, intervals):
+    stats = ac.simulate(
+        Slipping(), stop_time=3.0, tolerance=tolerance, intervals=intervals, method="idas", energy=True
+    ).stats
+
+    def power(t: float) -> float:
+        return 4 * t * (1 + 2 / 3 * 2.25**2 + 2 * (t**2 - 2.25**2) - 5 * (t - 2.25))
+
+    supplied = 2 * 2.25**2 + 2 / 3 * 2.25**4 + quad(power, 2.25, 3.0)[0]
+    assert stats["energy_supplied"] == pytest.approx(supplied, rel=max(tolerance, 1e-12))
+    assert abs(stats["energy_method"]) < max(tolerance, 1e-12) * supplied
 
 
 class Moved(Model):

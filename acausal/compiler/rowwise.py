@@ -1,0 +1,53 @@
+"""A function of the model at many times: some of them in one call."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+
+# Times in one call.
+AT_ONCE = 16
+
+
+class Rowwise:
+    """A function of x, z, parameters, time and modes, with one result.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        The function at one time.
+    """
+
+    def __init__(self, function: ca.Function) -> None:
+        self.function = function
+        self._calls: dict[int, Call] = {}
+
+    def __call__(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        """Return one row for each time; nan where the evaluation failed, and in those evaluated with it.
+
+        Parameters
+        ----------
+        x, z, modes : arrays, shapes (n, ...)
+            States, algebraic unknowns and constants of segments.
+        p : array
+            Parameters.
+        t : array, shape (n,)
+            Times in s.
+        """
+        n = len(t)
+        size = AT_ONCE if n > 1 else 1
+        if size not in self._calls:
+            self._calls[size] = Call(self.function.map(size))
+        call = self._calls[size]
+        found = np.empty((n, self.function.nnz_out(0)))
+        for first in range(0, n, size):
+            rows = np.minimum(np.arange(first, first + size), n - 1)
+            given = (x[rows], z[rows], np.tile(p, size), t[rows], modes[rows])
+            for array, value in zip(call.inputs, given, strict=True):
+                array[:] = value.ravel()
+            done, _ = call.attempt()
+            here = found[first : first + size]
+            here[:] = call.outputs[0].reshape(size, -1)[: len(here)] if done else np.nan
+        return found
