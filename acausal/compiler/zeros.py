@@ -81,6 +81,8 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
     return found
 
 
-def _other(shape: tuple[int, ...]) -> Any:
+def _other(shape: tuple[int, ...]) -> np.ndarray:
     """Another value than 0: a unit matrix, a unit vector or 1."""
-    return np.eye(*shape) if len(shape) == 2 else np.eye(1, *shape)[0] if shape else 1.0
+    value = np.zeros(shape)
+    value[tuple(np.arange(min(shape)) for _ in shape) if len(shape) == 2 else (0,) * len(shape)] = 1.0
+    return value
