@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.errors import AcausalError
+from acausal.errors import AcausalError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
 from acausal.flatten.instantiate import join, walk
 from acausal.language import fields as f
@@ -35,18 +35,22 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     zeros = _zeros(flat, getattr(error.__context__, "under", ()))
     ends = clock.perf_counter() + SECONDS
 
-    def completes(*tried: str) -> bool:
+    def completes(*tried: str) -> bool | None:
+        """Whether the model has as many equations as it needs, None where it does not take the values."""
         try:
             plan_of(flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}}))
-        except AcausalError:
+        except (UnbalancedModelError, StructurallySingularError):
             return False
+        except AcausalError:
+            return None
         return True
 
-    if not zeros or not completes(*zeros):
+    found = {path: completes(path) for path in zeros if clock.perf_counter() < ends}
+    alone = [path for path, complete in found.items() if complete]
+    needed = [path for path, complete in found.items() if complete is False]
+    if not alone and (len(needed) < 2 or not completes(*needed)):
         return ""
-    alone = [path for path in zeros if clock.perf_counter() < ends and completes(path)]
-    needed = list(zeros)
-    for path in () if alone else zeros:
+    for path in () if alone else tuple(needed):
         if clock.perf_counter() < ends and completes(*(rest := [p for p in needed if p != path])):
             needed = rest
     lines = [f"  {zeros[path][1]}" for path in alone or needed]
@@ -77,6 +81,8 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
     return found
 
 
-def _other(shape: tuple[int, ...]) -> Any:
+def _other(shape: tuple[int, ...]) -> np.ndarray:
     """Another value than 0: a unit matrix, a unit vector or 1."""
-    return np.eye(*shape) if len(shape) == 2 else np.eye(1, *shape)[0] if shape else 1.0
+    value = np.zeros(shape)
+    value[tuple(np.arange(min(shape)) for _ in shape) if len(shape) == 2 else (0,) * len(shape)] = 1.0
+    return value

@@ -35,7 +35,7 @@ def chosen(shown: str, shape: tuple[int, ...], index: Any) -> np.ndarray:
             "chooses structural(...), or choose with piecewise((value, condition), ..., otherwise)."
         )
     # A scalar is its own entry 0, and a vector has one column.
-    whole = (*shape, 1) if len(indices) > len(shape) else shape
+    whole = (*shape, 1) if len(indices) > len(shape) < 2 else shape
     fits = len(indices) <= len(whole) and all(
         -n <= end < n + isinstance(item, slice)
         for item, n in zip(indices, whole, strict=False)

@@ -105,20 +105,19 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    stop_time, tolerance, accuracy, intervals, initial, method, constraints, max_order = settled(
-        model, parameters, given
-    ).values()
-    if stop_time is None:
+    how = settled(model, parameters, given)
+    if how["stop_time"] is None:
         raise DeclarationError(
             "the model tells no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
         )
-    if accuracy is not None and tolerance is not None:
+    if how["accuracy"] is not None and how["tolerance"] is not None:
         raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    _check(start_time, stop_time, tolerance, accuracy, intervals, max_order)
-    _choose("method", method, METHODS)
-    _choose("constraints", constraints, CONSTRAINTS)
-    task = Task(start_time, stop_time, tolerance, intervals, initial, method, constraints, max_order, energy, progress)
+    accuracy = how.pop("accuracy")
+    how["tolerance"] = TOLERANCE if how["tolerance"] is None else how["tolerance"]
+    task = Task(start_time=start_time, energy=energy, progress=progress, **how)
+    _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
+    _choose("method", task.method, METHODS)
+    _choose("constraints", task.constraints, CONSTRAINTS)
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
