@@ -20,9 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr, expect, sqrt
+from acausal import as_expr, cos, expect, sin, sqrt
 from components.beam_strain import Bend, gauss
-from components.orientation import planar_matrix
 
 SHARE = 0.01
 SEEN = 2e-4  # of the length: errors of deflections much smaller than that are not seen
@@ -76,8 +75,25 @@ class _Chain:
         self.count = self.n * len(self.frames)
         self.EJ = self.beam.E * self.beam.J
         self.nodes = [_across(frame) for frame in self.frames]
-        forces = [_axial_forces(f, turns[0], turns[-1]) for f, (_, turns) in zip(self.frames, self.nodes, strict=True)]
-        self.tension = _joined(forces)
+        roots, tips = (_joined([turns[k]] for _, turns in self.nodes) for k in (0, -1))
+        self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
+        self.tension = self._tension()
+
+    def _tension(self) -> Any:
+        """Axial forces in N: straight between those at the ends of a frame, and by its rotation a parabola."""
+        along = []
+        for turns, ports in self.ends:
+            phi = self.frames[0]._strain.angle(turns)
+            along.append(cos(phi) * _joined([p.f[0]] for p in ports) - sin(phi) * _joined([p.f[1]] for p in ports))
+        w_y, w_z = (_joined([frame.ref.R.w[k]] for frame in self.frames) for k in (1, 2))
+        hung = self.beam.rho * self.beam.A * (self.n * self.l) * (self.n * self.l) / 2 * (w_y * w_y + w_z * w_z)
+        x = (np.arange(self.n) + 0.5) / self.n
+        parts = ((1 - x, -along[0]), (x, along[1]), (x * (1 - x), hung))
+        return sum((self._spread(weight, values) for weight, values in parts), as_expr(np.zeros(self.count)))
+
+    def _spread(self, weights: np.ndarray, values: Any) -> Any:
+        """For each frame its value times the weights of its elements."""
+        return _map(np.kron(np.eye(len(self.frames)), weights[:, None]), values)
 
     def shape(self) -> Bend:
         """Bending of every element, in m."""
@@ -99,21 +115,23 @@ class _Chain:
 
     def _end_forces(self) -> Iterator[Any]:
         """Forces on the nodal coordinates l v' at the roots and at the tips of the frames: end moments on the angle."""
-        for k, ports in ((0, [f.frame_a for f in self.frames]), (-1, [f.frame_b for f in self.frames])):
-            slopes = _joined([turns[k]] for _, turns in self.nodes) / self.l
+        for turns, ports in self.ends:
+            slopes = turns / self.l
             neglected = 3 / 8 * _power(slopes, 4) if self.beam.geometric_stiffness else _power(slopes, 2) / 2
             yield -_joined([port.t[2]] for port in ports) / self.l * neglected
 
     def _bent(self, forces: Bend, at_root: Any, at_tip: Any) -> Bend:
         """Bending by forces on the modes of the elements, at the roots and at the tips of the frames."""
         n, each = self.n, np.eye(len(self.frames))
-        across, spread = forces.d, np.kron(each, np.ones((n, 1)))
+        across, ones = forces.d, np.ones(n)
         if self.beam.reference == "pinned":  # the chord is free to turn
-            across = across - _map(np.kron(each, np.ones((n, n)) / n), across) - _map(spread / n, at_root + at_tip)
+            across = (
+                across - _map(np.kron(each, np.ones((n, n)) / n), across) - self._spread(ones / n, at_root + at_tip)
+            )
         # d = r / 2 + (slopes at both nodes) / 2, where a slope is that at the root less q of all elements before.
         beyond = np.kron(each, np.triu(np.ones((n, n)), 1) + np.eye(n) / 2)
         soft = self.l**3 / self.EJ
-        bent = soft * (forces.q - _map(beyond, across) - _map(spread, at_tip))
+        bent = soft * (forces.q - _map(beyond, across) - self._spread(ones, at_tip))
         return Bend(0 * bent, bent, soft / 3 * (forces.r + across / 2))
 
     def _heights(self, e: Bend) -> Any:
@@ -155,15 +173,6 @@ def _across(frame: Any) -> tuple[list[Any], list[Any]]:
         if index % 3:
             found[index] = as_expr(frame.q[k].sx)
     return found[1::3], [frame._l * slope for slope in found[2::3]]
-
-
-def _axial_forces(frame: Any, a: Any, b: Any) -> list[Any]:
-    """Axial force of every element in N: straight between those at the ends, and by the frame's rotation a parabola."""
-    angle, w = frame._strain.angle, frame.ref.R.w
-    N_a, N_b = -(planar_matrix(angle(a)).T @ frame.frame_a.f)[0], (planar_matrix(angle(b)).T @ frame.frame_b.f)[0]
-    hung = (w[1] * w[1] + w[2] * w[2]) * frame.rho * frame.A * frame.length * frame.length / 2
-    along = ((j + 0.5) / frame.elements for j in range(frame.elements))
-    return [(1 - x) * N_a + x * N_b + x * (1 - x) * hung for x in along]
 
 
 def _at(sign: int, by_slope: Any, by_bent: Any) -> Bend:
