@@ -78,6 +78,14 @@ class _Chain:
         roots, tips = (_joined([turns[k]] for _, turns in self.nodes) for k in (0, -1))
         self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
         self.tension = self._tension()
+        # How much each end is one of a hinge; a moment that is told of a clamp is of the size of those in the beam.
+        moment = self._stiffness(self.shape()) * self.EJ / self.beam.length
+        loads = (as_expr(port.t[2].sx) / HINGE for port in (self.beam.frame_a, self.beam.frame_b))
+        self.hinged = tuple(moment / (moment + t * t) for t in loads)
+
+    def _stiffness(self, e: Bend) -> Any:
+        """Work of the bending forces in a shape, in N.m."""
+        return self.EJ / self.l**3 * _total(e.q * e.q + 3 * e.r * e.r)
 
     def _tension(self) -> Any:
         """Axial forces in N: straight between those at the ends of a frame, and by its rotation a parabola."""
@@ -135,13 +143,15 @@ class _Chain:
         return Bend(0 * bent, bent, soft / 3 * (forces.r + across / 2))
 
     def _heights(self, e: Bend) -> Any:
-        """Heights of all nodes above the tangent at the root, or above the chord, in m."""
+        """Heights of all nodes above the chord, or the tangent at the root, or at the tip if that alone is clamped, in m."""
         k = np.arange(self.count + 1)
         steps = k[:, None] - k[:-1] - 0.5
         by_q, by_r = -np.where(steps > 0, steps, 0), np.where(steps > 0, 0.5, 0)
         if self.beam.reference == "pinned":
             by_q, by_r = (M - np.outer(k / self.count, M[-1]) for M in (by_q, by_r))
-        return _map(by_q, e.q) + _map(by_r, e.r)
+            return _map(by_q, e.q) + _map(by_r, e.r)
+        y, turned = _map(by_q, e.q) + _map(by_r, e.r), self.hinged[0] * (1 - self.hinged[1])
+        return y - turned * (np.ones(k.size) * y[self.count] - (k - self.count) * _total(e.q))
 
     def deflection(self, e: Bend) -> Any:
         """Greatest height of a node, in m, by the sum of eighth powers, which is smooth."""
@@ -154,15 +164,13 @@ class _Chain:
         as far as the frames take them up.
         """
         y, beam, w = self._heights(e), self.beam, self.frames[0].ref.R.w
-        stiff = self.EJ / self.l**3 * _total(e.q * e.q + 3 * e.r * e.r)
-        # A hinge at the root lets the beam turn until the forces across it have no moment.
-        squared, t = stiff * self.EJ / beam.length, as_expr(beam.frame_a.t[2].sx) / HINGE
+        # A beam between hinges turns until the forces across it have no moment.
         k = np.arange(self.count + 1)
-        y = y - k * (squared / (squared + t * t) * _total(k / np.sum(k * k) * y))
+        y = y - k * (self.hinged[0] * self.hinged[1] * _total(k / np.sum(k * k) * y))
         a, b = y[:-1], y[1:]
         away = beam.rho * beam.A * self.l / 3 * (w[0] * w[0] + w[2] * w[2]) * _total(a * a + a * b + b * b)
         held = _total(self.tension * (b - a) * (b - a)) / self.l
-        takes_up = len(self.frames) > 1 or beam.geometric_stiffness
+        stiff, takes_up = self._stiffness(e), len(self.frames) > 1 or beam.geometric_stiffness
         return stiff / (stiff - away + held if takes_up else stiff - away)
 
 
