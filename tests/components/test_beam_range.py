@@ -30,7 +30,7 @@ from components import (
     WorldTorque,
     rotational,
 )
-from models import FreeVibration, SpinUp
+from models import FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
 from tests.reference.elastica import tip_force
 
 SECTION: dict = {"length": 1, "E": 1e9, "rho": 1000, "A": 1e-4, "J": 1e-9, "axial": "none", "initial": "static"}
@@ -218,6 +218,89 @@ def test_one_frame_that_turns(omega, warns):
     assert not quiet
     error = np.abs(linear["tip_deflection"] - right["tip_deflection"]).max() / np.abs(right["tip_deflection"]).max()
     assert error > 0.1 if warns else error < 0.01
+
+
+class OtherWayRound(SpinUp):
+    """The beam of the spin-up held at its frame_b."""
+
+    beam = FlexibleBeam(length=8, E=6.895e10, A=7.299e-5, J=8.214e-9, rho=2767, elements=5)
+
+    def connections(self):
+        yield from (chain(self.world, self.hub, self.beam.frame_b), connect(self.drive.flange, self.hub.axis))
+
+
+def free_end(result, clamped, free):
+    """Deflection of the free end of a beam from the tangent at the clamped one."""
+    r = result[f"beam.{free}.r_0"] - result[f"beam.{clamped}.r_0"]
+    return np.einsum("ij,ij->i", result[f"beam.{clamped}.R.T"][:, 1], r)
+
+
+@pytest.mark.parametrize("omega", [0.7, 1.4])
+@pytest.mark.parametrize(("scene", "ends"), [(SpinUp, ("frame_a", "frame_b")), (OtherWayRound, ("frame_b", "frame_a"))])
+def test_told_size_of_one_frame_that_turns(scene, ends, omega):
+    formulation = {"formulation": "fem"} if scene is SpinUp else {}
+    options = {"stop_time": 9.0, "tolerance": 1e-6}
+    texts, linear = doubts(scene(omega=omega, **formulation), **options)
+    stiffened = ac.compile(scene(omega=omega, **formulation), {"beam.geometric_stiffness": True})
+    right = free_end(doubts(stiffened, **options)[1], *ends)
+    error = np.abs(free_end(linear, *ends) - right).max() / np.abs(right).max()
+    assert error > 0.02
+    check(texts, error)
+
+
+class Translating(Model):
+    """The coupler of a parallelogram: on a platform that moves on a circle without turning."""
+
+    speed: Scalar = parameter("speed on the circle", unit="rad/s", default=5)
+    world, slider = World(gravity=None), Body(m=0.05)
+    drive, back = rotational.Speed(w_ref=speed), rotational.Speed(w_ref=-speed)
+    bearing, level = Revolute(use_axis_flange=True, phi=fixed(0.3)), Revolute(use_axis_flange=True, phi=fixed(-0.3))
+    pin, wrist = Revolute(phi=guess(0)), Revolute(phi=guess(0))
+    crank, ground, guide = FixedTranslation(r=(0.15, 0, 0)), FixedTranslation(r=(1, 0, 0)), Prismatic(s=guess(0))
+    beam = FlexibleBeam(length=1, E=7e10, rho=2700, A=1e-4, J=8e-11)
+
+    def connections(self):
+        yield connect(self.drive.flange, self.bearing.axis)
+        yield connect(self.back.flange, self.level.axis)
+        yield chain(self.world, self.bearing, self.crank, self.level, self.pin, self.beam, self.wrist, self.slider)
+        yield chain(self.level, self.ground, self.guide, self.slider)
+
+
+@pytest.mark.parametrize("reference", ["tangent", "pinned"])
+@pytest.mark.parametrize("speed", [2, 7, 10])
+def test_coupler_that_does_not_turn(speed, reference):
+    # Damped in proportion to stiffness, the first vibration is gone after a turn.
+    section: dict = {"length": 1, "E": 7e10, "rho": 2700, "A": 1e-4, "J": 8e-11, "beta": 5e-3, "initial": "static"}
+    section |= {"axial": "none", "reference": reference}
+    fine = SubstructuredBeam(volumes=6, geometric_stiffness=True, **section)
+    options = {"stop_time": 12 / speed, "tolerance": 1e-6, "intervals": 200}
+    texts, linear = doubts(Translating(speed=speed, beam=FlexibleBeam(elements=6, **section)), **options)
+    ends, half = ("frame_a", "frame_b"), 100
+    _, right = doubts(Translating(speed=speed, beam=fine), **options)
+    bends = [free_end(r, *ends)[half:] for r in (linear, right)]
+    check(texts, np.abs(bends[0] - bends[1]).max() / np.abs(bends[1]).max())
+
+
+class Pendulum(FlexiblePendulum):
+    beam = FlexibleBeam(length=0.4, E=1e9, A=18e-4, J=1.215e-8, rho=5540)
+
+
+@pytest.mark.parametrize("E", [1e9, 8e9, 3e10])
+def test_pendulum(E):
+    section: dict = {"length": 0.4, "E": E, "A": 18e-4, "J": 1.215e-8, "rho": 5540, "beta": 2e6 / E + 5e-4}
+    section |= {"initial": "static", "nominal_rate": 68}
+    options = {"stop_time": 0.7, "tolerance": 1e-6, "intervals": 200}
+    texts, linear = doubts(Pendulum(beam=FlexibleBeam(elements=6, **section)), **options)
+    fine = SubstructuredBeam(volumes=6, geometric_stiffness=True, **section)
+    right = doubts(Pendulum(beam=fine), **options)[1]["tip_deflection"]
+    check(texts, np.abs(linear["tip_deflection"] - right).max() / np.abs(right).max())
+
+
+def test_slider_crank():
+    options = {"stop_time": 0.7, "tolerance": 1e-6}
+    texts, linear = doubts(SliderCrank(), **options)
+    right = doubts(ac.compile(SliderCrank(), {"rod_bar.geometric_stiffness": True}), **options)[1]["rod_tip_deflection"]
+    check(texts, np.abs(linear["rod_tip_deflection"] - right).max() / np.abs(right).max(), "rod_bar")
 
 
 def test_fine_volumes_that_turn_are_quiet():
