@@ -78,7 +78,7 @@ class _Chain:
         roots, tips = (_joined([turns[k]] for _, turns in self.nodes) for k in (0, -1))
         self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
         self.tension = self._tension()
-        # How much each end is one of a hinge; a moment that is told of a clamp is of the size of those in the beam.
+        # How much each end is one of a hinge: the moment of a clamp is of the size of those in the beam.
         moment = self._stiffness(self.shape()) * self.EJ / self.beam.length
         loads = (as_expr(port.t[2].sx) / HINGE for port in (self.beam.frame_a, self.beam.frame_b))
         self.hinged = tuple(moment / (moment + t * t) for t in loads)
