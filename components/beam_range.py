@@ -1,27 +1,31 @@
 """Where a beam is right: what its frames neglect, against its deflection.
 
-In every frame a beam is linear, or of second order (geometric_stiffness). With v(x) the deflection in a frame, N the axial
-force, and B = int EJ v''^2, first-order perturbation of v by a neglected force of work W = int f v gives dv / v = W / K,
-where K is the work of all restoring forces in the shape v: K = B - C + H, with C = w^2 int rho A v^2 the centrifugal forces
-across the beam and H = int N s^2 what the slopes s of the frames themselves take up.
+The energy of an inextensible beam whose axis has the slope v' = sin(phi) at arc length x, with the axial force N, is
 
-- Axial force on the slope, which a linear frame leaves out: W = int N v'^2. Turning stiffens (N > 0), compression softens:
-  W / K is about P / P_crit, and the ratio of squared speed and frequency.
-- Slope. The tip of a cantilever under a transverse load deflects by P L^3 / 3 EJ (1 - 4/35 (P L^2 / EJ)^2 ...) (expansion
-  of the elastica), and a linear one has a mean of v'^2 of 2/15 (P L^2 / EJ)^2: an error of 6/7 of that mean.
-- A second-order frame errs by 0.58 times the mean of v'^4 (measured against the elastica from 7 to 45 degrees).
+    V = int EJ v''^2 (1 + v'^2 + v'^4 + ...) / 2 + N (v'^2 / 2 + v'^4 / 8 + v'^6 / 16 + ...) dx,
+
+and end moments work on phi = v' + v'^3 / 6 + 3 v'^5 / 40 + ... A linear frame keeps EJ v''^2 / 2 of that, and one of second
+order all with no more than four factors v. The derivatives g of the first terms left out are the neglected forces. Their
+moments bend a frame by K^-1 g, with its bending stiffness K: to first order that is the error, whatever holds the beam at
+its ends, since the balances of whole frames are those of their deflected shapes. Two limits: it follows from loads that
+vary slowly against the first natural frequency, and where a beam vibrates freely the error of phase grows with time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import sqrt as root
 from typing import Any
 
-from acausal import as_expr, expect, sqrt
-from components.orientation import planar_matrix
+import numpy as np
+
+from acausal import as_expr, cos, expect, sin, sqrt
+from components.beam_strain import Bend, gauss
 
 SHARE = 0.01
 SEEN = 2e-4  # of the length: errors of deflections much smaller than that are not seen
+HINGE = 0.1  # of the mean bending moment: an end moment well below that is one of a hinge
 
 
 def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
@@ -34,57 +38,173 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
     frames : list of FlexibleBeam
         Its frames, from frame_a to frame_b.
     """
-    stretch, slopes, steep, bent, held, away, moved = (as_expr(0.0) for _ in range(7))
-    for frame in frames:
-        strain, l, U = frame._strain, frame._l, frame._motion()[0]
-        forces = _axial_forces(frame, U)
-        for j, (e, N) in enumerate(zip(strain._bends(U), forces, strict=True)):
-            slope = strain._slopes(e, e)  # integral of v'^2 in m
-            stretch += N * slope
-            slopes += slope
-            steep += slope * slope / l
-            bent += frame.E * frame.J / l**3 * (e.q * e.q + 3 * e.r * e.r)
-            y_1, y_2 = _aside(beam, frames, frame, U, j)
-            away += l * (y_1 * y_1 + y_1 * y_2 + y_2 * y_2) / 3
-            moved += (y_1 * y_1 + y_2 * y_2) / (2 * frame.elements * len(frames))
-            if len(frames) > 1:
-                held += N * (y_2 - y_1) * (y_2 - y_1) / l
-    w, size = frames[0].ref.R.w[2], sqrt(moved)
-    restoring = bent + held - w * w * beam.rho * beam.A * away
-    whole = sqrt(moved + (SEEN * beam.length) * (SEEN * beam.length))
+    chain = _Chain(beam, frames)
+    shape, by_axial, by_slope = chain.shape(), *chain.errors()
+    error = Bend(*(a + s for a, s in zip(by_axial, by_slope, strict=True)))
+    size, whole = chain.deflection(error) * chain.loosened(error), chain.deflection(shape)
+    whole = sqrt(whole * whole + (SEEN * beam.length) * (SEEN * beam.length))
     more = "more volumes" if len(frames) > 1 else "SubstructuredBeam(volumes=...)"
     if beam.geometric_stiffness:
         text = f"it slopes too much for frames of second order, whose error is not small against its deflection; take {more}"
-        yield expect(0.58 * size * steep / beam.length, whole, SHARE, text)
+        yield expect(size, whole, SHARE, text)
         return
+    # Of the two causes, whose errors may cancel each other, the greater one is told.
+    ahead = chain.deflection(by_axial) - chain.deflection(by_slope)
+    side = ahead / sqrt(ahead * ahead)
     text = (
         "its linear frames leave out what the axial force does to their bending (rotation and tension stiffen, compression "
         f"softens), which is not small against its deflection; take geometric_stiffness=True or {more}"
     )
-    yield expect(size * stretch / restoring, whole, SHARE, text)
+    yield expect(size * (1 + side) / 2, whole, SHARE, text)
     text = (
         "it slopes too much for linear frames, whose error is not small against its deflection; take "
         f"geometric_stiffness=True and, beyond 20 degrees, {more}"
     )
-    yield expect(6 / 7 * size * slopes / beam.length, whole, SHARE, text)
+    yield expect(size * (1 - side) / 2, whole, SHARE, text)
 
 
-def _axial_forces(frame: Any, U: Any) -> list[Any]:
-    """Axial force of every element in N, between those at the ends of the frame."""
-    root, tip = as_expr(frame.frame_a.f), planar_matrix(frame._strain.angle(U[-1])).T @ frame.frame_b.f
-    if frame.reference == "pinned":
-        root = planar_matrix(frame._strain.angle(U[2])).T @ root
-    N_a, N_b, n = -root[0], tip[0], frame.elements
-    return [N_a + (N_b - N_a) * ((j + 0.5) / n) for j in range(n)]
+@dataclass
+class _Chain:
+    """Elements of all frames of a beam, one after the other: vectors with an entry for each."""
+
+    beam: Any
+    frames: list[Any]
+
+    def __post_init__(self) -> None:
+        self.n, self.l = self.frames[0].elements, self.frames[0]._l
+        self.count = self.n * len(self.frames)
+        self.EJ = self.beam.E * self.beam.J
+        self.nodes = [_across(frame) for frame in self.frames]
+        roots, tips = (_joined([turns[k]] for _, turns in self.nodes) for k in (0, -1))
+        self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
+        self.tension = self._tension()
+        # How much each end is one of a hinge: the moment of a clamp is of the size of those in the beam.
+        moment = self._stiffness(self.shape()) * self.EJ / self.beam.length
+        loads = (as_expr(port.t[2].sx) / HINGE for port in (self.beam.frame_a, self.beam.frame_b))
+        self.hinged = tuple(moment / (moment + t * t) for t in loads)
+
+    def _stiffness(self, e: Bend) -> Any:
+        """Work of the bending forces in a shape, in N.m."""
+        return self.EJ / self.l**3 * _total(e.q * e.q + 3 * e.r * e.r)
+
+    def _tension(self) -> Any:
+        """Axial forces in N: straight between those at the ends of a frame, and by its rotation a parabola."""
+        along = []
+        for turns, ports in self.ends:
+            phi = self.frames[0]._strain.angle(turns)
+            along.append(cos(phi) * _joined([p.f[0]] for p in ports) - sin(phi) * _joined([p.f[1]] for p in ports))
+        w_y, w_z = (_joined([frame.ref.R.w[k]] for frame in self.frames) for k in (1, 2))
+        hung = self.beam.rho * self.beam.A * (self.n * self.l) * (self.n * self.l) / 2 * (w_y * w_y + w_z * w_z)
+        x = (np.arange(self.n) + 0.5) / self.n
+        parts = ((1 - x, -along[0]), (x, along[1]), (x * (1 - x), hung))
+        return sum((self._spread(weight, values) for weight, values in parts), as_expr(np.zeros(self.count)))
+
+    def _spread(self, weights: np.ndarray, values: Any) -> Any:
+        """For each frame its value times the weights of its elements."""
+        return _map(np.kron(np.eye(len(self.frames)), weights[:, None]), values)
+
+    def shape(self) -> Bend:
+        """Bending of every element, in m."""
+        v_1, a, v_2, b = (_joined(frame[i][k : self.n + k] for frame in self.nodes) for k in (0, 1) for i in (0, 1))
+        return Bend(v_2 - v_1, a - b, 2 * (v_2 - v_1) - a - b)
+
+    def errors(self) -> tuple[Bend, Bend]:
+        """Bending of every element, in m, that the neglected forces would cause: those of axial forces, and of slopes."""
+        e, N, power = self.shape(), self.tension, 2 if self.beam.geometric_stiffness else 1
+        pulls, slopes = [], []
+        for sign, slope, bent in gauss(e):
+            stiff = self.EJ / (2 * self.l ** (2 * power + 3)) * _power(slope, 2 * power - 1) * bent
+            slopes.append(_at(sign, power * stiff * bent, stiff * slope))
+            pulls.append(_at(sign, 3 * N / (16 * self.l**5) * _power(slope, 5), 0 * N))
+        if power == 1:
+            pulls = [Bend(N / self.l * e.d, N / (12 * self.l) * e.q, N / (20 * self.l) * e.r)]
+        zero = as_expr(np.zeros(len(self.frames)))
+        return self._bent(_sum(pulls), zero, zero), self._bent(_sum(slopes), *self._end_forces())
+
+    def _end_forces(self) -> Iterator[Any]:
+        """Forces on the nodal coordinates l v' at the roots and at the tips of the frames: end moments on the angle."""
+        for turns, ports in self.ends:
+            slopes = turns / self.l
+            neglected = 3 / 8 * _power(slopes, 4) if self.beam.geometric_stiffness else _power(slopes, 2) / 2
+            yield -_joined([port.t[2]] for port in ports) / self.l * neglected
+
+    def _bent(self, forces: Bend, at_root: Any, at_tip: Any) -> Bend:
+        """Bending by forces on the modes of the elements, at the roots and at the tips of the frames."""
+        n, each = self.n, np.eye(len(self.frames))
+        across, ones = forces.d, np.ones(n)
+        if self.beam.reference == "pinned":  # the chord is free to turn
+            across = (
+                across - _map(np.kron(each, np.ones((n, n)) / n), across) - self._spread(ones / n, at_root + at_tip)
+            )
+        # d = r / 2 + (slopes at both nodes) / 2, where a slope is that at the root less q of all elements before.
+        beyond = np.kron(each, np.triu(np.ones((n, n)), 1) + np.eye(n) / 2)
+        soft = self.l**3 / self.EJ
+        bent = soft * (forces.q - _map(beyond, across) - self._spread(ones, at_tip))
+        return Bend(0 * bent, bent, soft / 3 * (forces.r + across / 2))
+
+    def _heights(self, e: Bend) -> Any:
+        """Heights of all nodes above the chord, or the tangent at the root, or at the tip if that alone is clamped, in m."""
+        k = np.arange(self.count + 1)
+        steps = k[:, None] - k[:-1] - 0.5
+        by_q, by_r = -np.where(steps > 0, steps, 0), np.where(steps > 0, 0.5, 0)
+        if self.beam.reference == "pinned":
+            by_q, by_r = (M - np.outer(k / self.count, M[-1]) for M in (by_q, by_r))
+            return _map(by_q, e.q) + _map(by_r, e.r)
+        y, turned = _map(by_q, e.q) + _map(by_r, e.r), self.hinged[0] * (1 - self.hinged[1])
+        return y - turned * (np.ones(k.size) * y[self.count] - (k - self.count) * _total(e.q))
+
+    def deflection(self, e: Bend) -> Any:
+        """Greatest height of a node, in m, by the sum of eighth powers, which is smooth."""
+        return sqrt(sqrt(sqrt(_total(_power(self._heights(e), 8)))))
+
+    def loosened(self, e: Bend) -> Any:
+        """How much more a beam that turns bends than by its bending stiffness alone: B / (B - C + H) of a shape.
+
+        C is the work of the centrifugal forces across the beam, w^2 int rho A v^2, and H that of axial forces on the slopes,
+        as far as the frames take them up.
+        """
+        y, beam, w = self._heights(e), self.beam, self.frames[0].ref.R.w
+        # A beam between hinges turns until the forces across it have no moment.
+        k = np.arange(self.count + 1)
+        y = y - k * (self.hinged[0] * self.hinged[1] * _total(k / np.sum(k * k) * y))
+        a, b = y[:-1], y[1:]
+        away = beam.rho * beam.A * self.l / 3 * (w[0] * w[0] + w[2] * w[2]) * _total(a * a + a * b + b * b)
+        held = _total(self.tension * (b - a) * (b - a)) / self.l
+        stiff, takes_up = self._stiffness(e), len(self.frames) > 1 or beam.geometric_stiffness
+        return stiff / (stiff - away + held if takes_up else stiff - away)
 
 
-def _aside(beam: Any, frames: list[Any], frame: Any, U: Any, j: int) -> tuple[Any, Any]:
-    """Distances of the ends of an element from the axis of the beam's first frame, in m."""
-    v = U[3 * j + 1], U[3 * j + 4]
-    if frame is frames[0]:
-        return v
-    first, ref = frames[0].ref, frame.ref
-    T = ref.R.T @ first.R.T.T
-    origin = (first.R.T @ (ref.r_0 - first.r_0))[1]
-    u = j * frame._l + U[3 * j], (j + 1) * frame._l + U[3 * j + 3]
-    return tuple(as_expr((origin + T[0, 1] * x + T[1, 1] * y).sx) for x, y in zip(u, v, strict=True))  # type: ignore
+def _across(frame: Any) -> tuple[list[Any], list[Any]]:
+    """Displacements v and turns l v' of all nodes, in m."""
+    found = [as_expr(0.0)] * (3 * frame.elements + 3)
+    for k, index in enumerate(frame.free):
+        if index % 3:
+            found[index] = as_expr(frame.q[k].sx)
+    return found[1::3], [frame._l * slope for slope in found[2::3]]
+
+
+def _at(sign: int, by_slope: Any, by_bent: Any) -> Bend:
+    """Forces on the modes of forces on l v' and l^2 v'' at a point of Gauss."""
+    return Bend(by_slope, sign / root(12) * by_slope - by_bent, sign * root(3) * by_bent)
+
+
+def _sum(bends: list[Bend]) -> Bend:
+    return Bend(*(sum(modes[1:], modes[0]) for modes in zip(*bends, strict=True)))
+
+
+def _power(x: Any, n: int) -> Any:
+    return x if n == 1 else _power(x * x, n // 2) * (x if n % 2 else 1)
+
+
+def _joined(parts: Iterable[list[Any]]) -> Any:
+    """Vector of all entries, without units, which deflections and turns share."""
+    return as_expr([as_expr(entry.sx) for part in parts for entry in part])
+
+
+def _map(M: np.ndarray, x: Any) -> Any:
+    """Matrix of numbers times a vector, which may have one entry."""
+    return as_expr(as_expr(M).sx @ x.sx)
+
+
+def _total(x: Any) -> Any:
+    return _map(np.ones((1, x.sx.shape[0])), x)

@@ -154,7 +154,7 @@ class Strain:
     def _steep_bending(self, e: Bend) -> Bend:
         """Derivatives of E J v''^2 v'^2 / 2, integrated by two points of Gauss."""
         on = [as_expr(0.0)] * 3
-        for sign, slope, bent in _gauss(e):
+        for sign, slope, bent in gauss(e):
             by_slope, by_bent = (self.EJ / (2 * self.l**5) * x for x in (slope * bent * bent, slope * slope * bent))
             more = (by_slope, sign / sqrt(12) * by_slope - by_bent, sign * sqrt(3) * by_bent)
             on = [a + b for a, b in zip(on, more, strict=True)]
@@ -165,7 +165,7 @@ class Strain:
         total = as_expr(0.0)
         for e in self._bends(U):
             total += self.EJ / self.l**3 * (e.q * e.q + 3 * e.r * e.r) / 2
-            for _, slope, bent in _gauss(e) if self.second_order else ():
+            for _, slope, bent in gauss(e) if self.second_order else ():
                 total += self.EJ / self.l**5 * (slope * bent) * (slope * bent) / 4
         return total + (self.EA / self.l * sum(e * e for e, _ in self._extensions(U, U)) / 2 if stretches else 0.0)
 
@@ -185,8 +185,8 @@ def shifted(U: Any, lengths: list[Any]) -> Any:
     return as_expr(entries)
 
 
-def _gauss(e: Bend) -> list[tuple[int, Any, Any]]:
-    """Sign of eta, l v' and l^2 v'' at the two points of Gauss, eta = 1 / sqrt(3) and its opposite."""
+def gauss(e: Bend) -> list[tuple[int, Any, Any]]:
+    """Return the sign of eta, l v' and l^2 v'' at the two points of Gauss, eta = 1 / sqrt(3) and its opposite."""
     return [(sign, e.d + sign / sqrt(12) * e.q, sign * sqrt(3) * e.r - e.q) for sign in (1, -1)]
 
 
