@@ -17,6 +17,7 @@ from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings
 from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.promises import broken_promises
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
 from acausal.solve.validity import check_start, doubts
@@ -159,7 +160,7 @@ def _result(
     modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
-    stats["doubts"] = doubts(compiled, evaluate)
+    stats["doubts"] = doubts(compiled, evaluate) + broken_promises(run, evaluate)
     if energy:
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.requirements import Stated, refuse, statements
+from acausal.compiler.requirements import refuse, statements
 from acausal.errors import InitializationError
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation
@@ -21,10 +22,10 @@ ROWS, DEAR = 500, 40
 
 
 @dataclass(frozen=True)
-class _Watch:
+class Watch:
     """Statements of a compiled model, and the function that evaluates them at one point."""
 
-    stated: list[Stated]
+    stated: list[Any]
     function: ca.Function
     wanted: set[int]
 
@@ -36,11 +37,12 @@ class _Watch:
         return call(x.ravel(), z.ravel(), np.tile(p, n), t, modes.ravel())[0].reshape(n, -1)
 
 
-def _watch(compiled: CompiledModel, stated: list[Stated], entries: list[ca.SX]) -> _Watch:
+def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
+    """Make the function of expressions in symbols of the model, one row of the result for each point."""
     r = compiled.reduced
     column = ca.substitute(r.resolve(ca.vertcat(ca.SX(0, 1), *entries)), initial.sx, 0)
     arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
-    return _Watch(stated, ca.Function("watch", arguments, [ca.densify(column)]), compiled.dependence.inside(column))
+    return Watch(stated, ca.Function("watch", arguments, [ca.densify(column)]), compiled.dependence.inside(column))
 
 
 def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
@@ -48,11 +50,11 @@ def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
     key = "start requirements"
     if key not in compiled.cache:
         stated = compiled.requirements.at_start
-        compiled.cache[key] = _watch(compiled, stated, [r.sx for r, _ in stated]), {}
-    watch, maps = compiled.cache[key]
-    if watch.stated:
-        row = watch.along(maps, at.x, at.z, p, np.array([at.time]), at.modes)[0]
-        refuse(watch.stated, row, InitializationError)
+        compiled.cache[key] = watch(compiled, stated, [r.sx for r, _ in stated]), {}
+    found, maps = compiled.cache[key]
+    if found.stated:
+        row = found.along(maps, at.x, at.z, p, np.array([at.time]), at.modes)[0]
+        refuse(found.stated, row, InitializationError)
 
 
 def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
@@ -68,17 +70,17 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     if "validity" not in compiled.cache:
         stated = statements(compiled.tree, "validity", Expectation)
         entries = [e.sx for s, _ in stated for e in (s.part, s.whole)]
-        compiled.cache["validity"] = _watch(compiled, stated, entries), {}
-    watch, maps = compiled.cache["validity"]
-    if not watch.stated:
+        compiled.cache["validity"] = watch(compiled, stated, entries), {}
+    seen, maps = compiled.cache["validity"]
+    if not seen.stated:
         return []
-    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if watch.wanted else ROWS)).astype(int))
+    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if seen.wanted else ROWS)).astype(int))
     x, t, modes = run.x[rows], run.t[rows], run.modes[rows]
-    z = run.solver(x, run.z[rows], t, modes, watch.wanted)
+    z = run.solver(x, run.z[rows], t, modes, seen.wanted)
     run.solver.unsolved.clear()
-    values = np.abs(watch.along(maps, x, z, run.solver.p, t, modes))
+    values = np.abs(seen.along(maps, x, z, run.solver.p, t, modes))
     found = []
-    for (expectation, origin), part, whole in zip(watch.stated, values.T[::2], values.T[1::2], strict=True):
+    for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)
         so_far = np.fmax.accumulate(np.nan_to_num(whole))
         over = part > expectation.share * so_far
