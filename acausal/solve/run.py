@@ -16,6 +16,7 @@ from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings
+from acausal.solve.meeting import first_meeting
 from acausal.solve.order import eigenvalues_of, order_limit
 from acausal.solve.promises import broken_promises
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
@@ -90,7 +91,12 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     stats |= {"events": len(events.events), "event_times": events.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     first = (events.first or at) if at is first else first
+    met = None if isinstance(failure, KeyboardInterrupt) else first_meeting(integrator, first)
+    if met:
+        integrator.trace = integrator.trace.until(met.time)
     result = _result(compiled, integrator, first, times, stats, task.energy)
+    if met:
+        raise SimulationError(met.text, result)
     if failure is not None:
         _raise(failure, result, integrator, p)
     return result

@@ -10,10 +10,10 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.requirements import refuse, statements
+from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.errors import InitializationError
 from acausal.language.functions import initial, time
-from acausal.language.validity import Expectation
+from acausal.language.validity import Expectation, Separation
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.instant import Point
 
@@ -45,6 +45,19 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
     return Watch(stated, ca.Function("watch", arguments, [ca.densify(column)]), compiled.dependence.inside(column))
 
 
+def _validity(compiled: CompiledModel) -> list[Stated]:
+    return statements(compiled.tree, "validity", (Expectation, Separation))
+
+
+def separations(compiled: CompiledModel) -> tuple[Watch, dict[int, Call]]:
+    """What must not meet in a run: rate, effect and offset of each, in turn."""
+    if "separations" not in compiled.cache:
+        stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
+        entries = [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)]
+        compiled.cache["separations"] = watch(compiled, stated, entries), {}
+    return compiled.cache["separations"]
+
+
 def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
     """Raise InitializationError if variables break a requirement at the start."""
     key = "start requirements"
@@ -68,7 +81,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
         Its output points.
     """
     if "validity" not in compiled.cache:
-        stated = statements(compiled.tree, "validity", Expectation)
+        stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
         entries = [e.sx for s, _ in stated for e in (s.part, s.whole)]
         compiled.cache["validity"] = watch(compiled, stated, entries), {}
     seen, maps = compiled.cache["validity"]
