@@ -65,8 +65,9 @@ class _Search:
 
     def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> _Rows:
         """Evaluate the pair in rows of a run."""
-        maps = self.maps if len(t) == PARTS + 1 else {}
-        values = self.watch.along(maps, x, z, self.integrator.p, t, np.ascontiguousarray(modes))[:, self.columns].copy()
+        values = self.watch.along(self.maps, x, z, self.integrator.p, t, np.ascontiguousarray(modes))[
+            :, self.columns
+        ].copy()
         offset = values[:, 2:]
         return _Rows(t, x, z, modes, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
 

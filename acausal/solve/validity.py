@@ -19,6 +19,8 @@ from acausal.solve.instant import Point
 
 # Most output points that are looked at, and where each look costs a solution of the equations.
 ROWS, DEAR = 500, 40
+# Numbers of points for which a function is kept.
+KEPT = 8
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,11 @@ class Watch:
         """Evaluate at many points: x, z, parameters, times, modes."""
         x, z, p, t, modes = values
         n = len(t)
-        call = maps.setdefault(n, Call(self.function.map(n))) if n not in maps else maps[n]
+        if n not in maps:
+            if len(maps) == KEPT:
+                maps.clear()
+            maps[n] = Call(self.function.map(n))
+        call = maps[n]
         return call(x.ravel(), z.ravel(), np.tile(p, n), t, modes.ravel())[0].reshape(n, -1)
 
 
