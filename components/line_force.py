@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Scalar, dot, parameter, piecewise, require, sqrt, variable
+from acausal import Scalar, apart, dot, parameter, piecewise, require, sqrt, variable
 from components.frame import TwoFrames
 from components.orientation import resolve1, resolve2
 
@@ -19,7 +19,8 @@ class LineForce(TwoFrames):
 
     Notes
     -----
-    No branch: the component relates no orientations, each end must be held by something else.
+    No branch: the component relates no orientations, each end must be held by something else. Where the ends meet in a
+    run with a force that is not 0 there, the run ends with a SimulationError: the line has no direction there.
     """
 
     s_small: Scalar = parameter("least length that is divided by", unit="m", default=1e-10, positive=True)
@@ -48,6 +49,17 @@ class LineForce(TwoFrames):
             self.s > 1.5 * self.s_small,
             f"the ends of {name} coincide at the start, so that its force has no direction; place frame_a and frame_b "
             "apart, for instance by FixedTranslation(r=...), or start a joint elsewhere: Prismatic(s=fixed(0.1))",
+        )
+
+    def validity(self):
+        yield apart(
+            self.frame_b.r_0 - self.frame_a.r_0,
+            self.v,
+            self.f,
+            "its ends meet, where its force has no direction and turns over. Let them pass beside each other, for instance by "
+            "FixedTranslation(r=...) at one end, hold them apart by a stop that acts before, or use a law whose force is 0 "
+            "where they meet (s_unstretched=0). A spring along a guide, in both directions, acts on the axis of its joint: "
+            "Prismatic(use_axis_flange=True)",
         )
 
     def law(self) -> Any:

@@ -64,7 +64,7 @@ class Requirements:
             refuse(self._split[0], self._call(values)[0], DeclarationError)
 
 
-def statements(tree: Component, method: str, kind: type) -> list[Stated]:
+def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> list[Stated]:
     """What the components of a bound model yield in a method, with where they are constructed."""
     found: list[Stated] = []
     for component in walk(tree):
@@ -73,12 +73,12 @@ def statements(tree: Component, method: str, kind: type) -> list[Stated]:
     return found
 
 
-def _run(component: Component, method: str, kind: type) -> Iterator[Stated]:
+def _run(component: Component, method: str, kind: type | tuple[type, ...]) -> Iterator[Stated]:
     generator = getattr(component, method)()
     for statement in generator:
         if not isinstance(statement, kind):
-            word = "require" if kind is Requirement else "expect"
-            raise DeclarationError(f"{line_of(generator)}: yield {word}(...) in {method}(), not {statement!r}")
+            word = "require(...)" if kind is Requirement else "expect(...) or apart(...)"
+            raise DeclarationError(f"{line_of(generator)}: yield {word} in {method}(), not {statement!r}")
         yield statement, Origin.of(component)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.flatten.closing import closing
 from acausal.flatten.derivatives import Derivatives
-from acausal.flatten.discontinuities import guards
+from acausal.flatten.discontinuities import guards, promises
 from acausal.flatten.flat_model import FlatModel, Initial
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column
@@ -56,6 +56,7 @@ class Assembly:
         self.discretes = tuple(
             zip([ca.vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)
         )
+        self.promises = promises(raw.pending, resolved)
         self.continuous = tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True))
         self.modes = column([*[mode for mode, _ in raw.pending.switches], *[symbol for symbol, _ in self.discretes]])
         self.origins = raw.equations.scalar_origins()
@@ -125,6 +126,7 @@ class Assembly:
             guards=self.guards,
             discretes=self.discretes,
             continuous=self.continuous,
+            promises=self.promises,
             initial=self._initial(was, becomes),
             eliminated=eliminated,
             energies=self.energies,

@@ -76,6 +76,24 @@ class Guard:
         return self.condition.kind == "<="
 
 
+@dataclass(frozen=True)
+class Promise:
+    """A law that is said to be smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
+
+    A case holds where the excess is negative, where it is 0 only if `inclusive`.
+    """
+
+    excess: ca.SX
+    step: ca.SX
+    value: ca.SX
+    inclusive: bool
+    origin: Origin
+
+    def holds(self, excess: float) -> bool:
+        """Whether the case holds."""
+        return excess < 0 or (excess == 0 and self.inclusive)
+
+
 def create_discretes(components: list[Component]) -> list[Discrete]:
     """Create the symbols of the discrete variables and set them as attributes."""
     found = []
@@ -98,6 +116,15 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
         return [with_place(d.start, Origin.of(d.owner, d.declared.name)) for d in discretes]
     finally:
         PENDING.get().watches = True
+
+
+def promises(pending: Pending, resolve: Resolve) -> tuple[Promise, ...]:
+    """Put together what the equations promise of smooth laws; for the arguments see `guards`."""
+    sx = iter(resolve([sx for condition, *law in pending.promises for sx in (condition.excess.sx, *law)]))
+    return tuple(
+        Promise(next(sx), next(sx), next(sx), condition.kind == "<=", origin)
+        for (condition, *_), origin in zip(pending.promises, pending.promised, strict=False)
+    )
 
 
 def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Guard, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.discontinuities import Guard
+from acausal.flatten.discontinuities import Guard, Promise
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 from acausal.units import Dimension
@@ -106,6 +106,8 @@ class FlatModel:
         Symbols of the discrete variables, and their values at the start.
     continuous : tuple of (casadi.SX, Origin)
         Expressions that der() differentiates and that switches change: they must not jump.
+    promises : tuple of Promise
+        Laws that are said to be smooth.
     initial : tuple of Initial
         Fixed start values and initial equations.
     eliminated : (casadi.SX, casadi.SX)
@@ -146,6 +148,7 @@ class FlatModel:
     guards: tuple[Guard, ...]
     discretes: tuple[tuple[ca.SX, ca.SX], ...]
     continuous: tuple[tuple[ca.SX, Origin], ...]
+    promises: tuple[Promise, ...]
     initial: tuple[Initial, ...]
     eliminated: tuple[ca.SX, ca.SX]
     energies: Mapping[str, ca.SX]

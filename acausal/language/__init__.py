@@ -43,7 +43,7 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.types import Matrix33, Scalar, Vector3
-from acausal.language.validity import Expectation, Requirement, expect, require
+from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
 
 __all__ = [
     "ALWAYS",
@@ -63,9 +63,11 @@ __all__ = [
     "Record",
     "Requirement",
     "Scalar",
+    "Separation",
     "Vector3",
     "When",
     "acos",
+    "apart",
     "as_expr",
     "asin",
     "atan2",

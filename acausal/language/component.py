@@ -105,7 +105,7 @@ class Component(f.Template):
         yield from ()
 
     def validity(self) -> Iterator[Any]:
-        """Yield expect(...): what the component neglects, and how large that may be."""
+        """Yield expect(...), what the component neglects, and apart(...), what must not meet in a run."""
         yield from ()
 
     def stored_energy(self) -> Any:

@@ -33,6 +33,8 @@ class Pending:
     `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.
     `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
+    `promises` holds (condition, step, value) of smooth switches, `promised` where each is stated: where the condition
+    changes, the step from one case to the next should be 0.
     """
 
     def __init__(self) -> None:
@@ -45,6 +47,8 @@ class Pending:
         self.watches = True
         self.differentiated: list[ca.SX] = []
         self.sources: list[Any] = []
+        self.promises: list[tuple[Condition, ca.SX, ca.SX]] = []
+        self.promised: list[Any] = []
 
     def mode(self, condition: Condition) -> ca.SX:
         """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
@@ -60,6 +64,14 @@ class Pending:
         """Say where the switches and derivatives come from that have been asked for since the last call."""
         self.places += [origin] * (len(self.switches) - len(self.places))
         self.sources += [origin] * (len(self.differentiated) - len(self.sources))
+        self.promised += [origin] * (len(self.promises) - len(self.promised))
+
+    def promise(self, steps: list[tuple[Condition, ca.SX]], value: ca.SX) -> None:
+        """Note the steps of a smooth law from each case to the next; an earlier case that holds hides them."""
+        hidden = ca.SX(0)
+        for condition, step in steps if self.watches else ():
+            self.promises.append((condition, ca.vec(ca.if_else(hidden, 0, step)), ca.vec(value)))
+            hidden = ca.logic_or(hidden, _truth(condition))
 
     def differentiate(self, x: ca.SX) -> ca.SX:
         """Return a placeholder for the derivative of an expression."""
@@ -213,7 +225,8 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         of parameters, alone or joined with others, the instant is a break time: the integration stops there exactly.
         Any other condition is watched: the integration stops where it changes, located to about the tolerance.
     smooth : bool
-        True promises that value and first two derivatives are continuous, so that no stop is needed.
+        True promises that value and first two derivatives are continuous, so that no stop is needed. A run in which
+        the value jumps all the same ends with a warning.
 
     Returns
     -------
@@ -234,6 +247,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(partial(piecewise, smooth=smooth), cases)
     value = otherwise = as_expr(cases[-1])
+    steps: list[tuple[Condition, ca.SX]] = []
     for choice, condition in reversed(cases[:-1]):
         if condition.excess.shape:
             raise DeclarationError("a condition of piecewise compares two scalars")
@@ -241,6 +255,9 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
         unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
+        steps.insert(0, (condition, choice.sx - value.sx))
         mode = _truth(condition) if smooth else _pending("piecewise").mode(condition)
         value = Expr(ca.if_else(mode, choice.sx, value.sx), unit)
+    if smooth and (pending := PENDING.get(None)):
+        pending.promise(steps, value.sx)
     return value

@@ -47,6 +47,16 @@ class Expectation:
     text: str
 
 
+@dataclass(frozen=True)
+class Separation:
+    """Points whose `offset` must not become 0 while an `effect` acts along their line; `rate` is that of its length."""
+
+    offset: Expr
+    rate: Expr
+    effect: Expr
+    text: str
+
+
 def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Requirement:
     """State what must hold; yield it in requirements().
 
@@ -92,3 +102,27 @@ def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
         raise DeclarationError("expect compares two scalars")
     unit_rules.common(part, whole, "the part and the whole of expect")
     return Expectation(part, whole, share, text)
+
+
+def apart(offset: Any, rate: Any, effect: Any, text: str) -> Separation:
+    """State that two points must not meet in a run while something acts along their line; yield it in validity().
+
+    Where they meet, the line has no direction, and what acts along it turns over. Nothing of it is integrated: a run in
+    which they met with an effect that is not 0 there ends with a SimulationError, and what came before is kept.
+
+    Parameters
+    ----------
+    offset : Expr
+        Vector from one point to the other.
+    rate : Expr
+        Derivative of its length.
+    effect : Expr
+        What acts along the line, positive or negative. Its part in proportion to `rate` may act where they meet, as the
+        rate turns over as well.
+    text : str
+        What is wrong, and the mend.
+    """
+    offset, rate, effect = as_expr(offset), as_expr(rate), as_expr(effect)
+    if len(offset.shape) != 1 or rate.shape or effect.shape:
+        raise DeclarationError("apart needs a vector, the offset, and two scalars, rate and effect")
+    return Separation(offset, rate, effect, text)

@@ -62,7 +62,11 @@ def initialize(
         else:
             system = _system(compiled, p, time, modes, initial)
             y = _direct_values(compiled, system.direct, y, p, time, modes)
-        y = _solve(compiled, system, y, p, time, modes)
+        try:
+            y = _solve(compiled, system, y, p, time, modes)
+        except InitializationError:
+            if not _states_suffice(compiled, system):
+                raise
     # The conditions of the initial system hold no longer; the states stay, the rest follows.
     if _flag_matters(compiled):
         y = algebraic(compiled, y, p, time, modes)
@@ -78,7 +82,11 @@ def _ranked(
     """Close the loops, and choose the initial system from there by ranks."""
     nx, nz = compiled.nx, compiled.nz
     y, modes, direct = _closed(compiled, y, p, time, modes)
-    y = algebraic(compiled, y, p, time, modes)
+    try:
+        y = algebraic(compiled, y, p, time, modes)
+    except InitializationError:
+        if not compiled.cache["redundancy"].singular:
+            raise
     held = np.array(sorted(direct.values()), dtype=int)
     others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
@@ -90,6 +98,13 @@ def _ranked(
     rows = np.array([*equations, *used], int)
     demanded = [row for row in surplus if row >= 0]
     return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+
+
+def _states_suffice(compiled: CompiledModel, system: InitialSystem) -> bool:
+    """Whether only forces of a singular position lack a value: then the closed loops alone tell how to leave it."""
+    if not compiled.closing.size or not compiled.cache["redundancy"].singular or system.surplus.size:
+        return False
+    return set(system.rows[system.rows >= compiled.nz].tolist()) <= {row for row, _ in system.direct}
 
 
 def _sparse(

@@ -273,5 +273,5 @@ class Integrator:
         """Read time and reason from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed`."""
         found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", self.complaint)
         if not found:
-            return Failure(float(start), "it gave no reason")
+            return Failure(float(start), "it found no step short enough, or needs more steps than it may take")
         return Failure(float(start + float(found[1]) * (end - start)), found[2].strip().rstrip("."))

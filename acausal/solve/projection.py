@@ -19,6 +19,8 @@ from acausal.solve.rank import null_space, pivots, rank, scaled
 MOTION = 1e-2
 # Positions where ranks are lost are known only as well as the root of how well loops close.
 NEARLY = 1e-5
+# Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
+BESIDE = 1e-3
 WORN, SPARED = 0.05, 0.3
 
 
@@ -56,6 +58,15 @@ def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: fl
     weight[[k for k in range(len(rows)) if k not in droppable]] = 1e3
     order = pivots((weight[:, None] * best).T)
     return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
+
+
+def is_singular(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> bool:
+    """Whether constraints that are independent elsewhere all but depend on each other in a position."""
+    redundancy = compiled.cache.get("redundancy")
+    if not compiled.closing.size or redundancy is None:
+        return False
+    held = [rows[0] for k, rows in enumerate(compiled.closing.rows) if k not in redundancy.dropped]
+    return rank(compiled.closing(x, p, t, modes)[1][held], BESIDE) < len(held)
 
 
 def _moved(

@@ -16,7 +16,10 @@ from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
 from acausal.solve.instant import Point, go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings
+from acausal.solve.meeting import first_meeting
 from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.projection import is_singular
+from acausal.solve.promises import broken_promises
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
 from acausal.solve.validity import check_start, doubts
@@ -93,16 +96,21 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     stats |= {"events": len(events.events), "event_times": events.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     first = (events.first or at) if at is first else first
+    met = None if isinstance(failure, KeyboardInterrupt) else first_meeting(integrator, first)
+    if met:
+        integrator.trace = integrator.trace.until(met.time)
     result = _result(compiled, integrator, first, times, stats, task.energy)
+    if met:
+        raise SimulationError(met.text, result)
     if failure is not None:
-        _raise(failure, result, integrator, p)
+        _raise(failure, result, integrator, at)
     return result
 
 
-def _raise(failure: BaseException, result: Result, integrator: Integrator, p: np.ndarray) -> NoReturn:
+def _raise(failure: BaseException, result: Result, integrator: Integrator, first: Point) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     if isinstance(failure, Failure):
-        raise SimulationError(_failure_text(integrator.compiled, integrator, p, failure), result)
+        raise SimulationError(_failure_text(integrator, first, failure), result)
     if isinstance(failure, Chattering):
         raise SimulationError(str(failure), result)
     failure.result = result  # type: ignore[attr-defined]
@@ -163,7 +171,7 @@ def _result(
     modes = np.vstack([first.modes[None], *trace.modes])
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
-    stats["doubts"] = doubts(compiled, evaluate)
+    stats["doubts"] = doubts(compiled, evaluate) + broken_promises(run, evaluate)
     if energy:
         if run.rough:
             caution(ROUGH)
@@ -183,8 +191,9 @@ def _result(
     return result
 
 
-def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failure: Failure) -> str:
-    trace = run.trace
+def _failure_text(run: Integrator, first: Point, failure: Failure) -> str:
+    compiled, p, trace = run.compiled, run.p, run.trace
+    x, at, modes = first.x, first.time, first.modes
     lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
     if trace.x:
         x, z, modes = trace.x[-1][-1], trace.z[-1][-1], trace.modes[-1][-1]
@@ -193,6 +202,14 @@ def _failure_text(compiled: CompiledModel, run: Integrator, p: np.ndarray, failu
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
         lines.append(f"Until t = {at:.6g} s all is well; what changes fastest there: {names}.")
+    left: Any = compiled.cache.get("redundancy")
+    if is_singular(compiled, x, p, at, modes) or (left and left.singular and not trace.x):
+        lines.append(
+            "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "
+            "on which branch they go on, and forces have no value. Start 0.01 rad beside it, give a velocity with which they "
+            "can go on, w=fixed(...) of a joint, or try another method=. What was computed is kept."
+        )
+        return "\n".join(lines)
     lines.append(
         "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
         "stops an integrator. What was computed is kept."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,15 @@ class Trace:
         """Return a trace without rows in which the counts go on."""
         names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds")
         return Trace(**{name: getattr(self, name) for name in names}, methods=dict(self.methods))
+
+    def until(self, time: float) -> Trace:
+        """Return the rows before a time, with the same counts."""
+        cut = replace(self, times=[], x=[], z=[], energy=[], modes=[])
+        for *rows, t in zip(self.x, self.z, self.energy, self.modes, self.times, strict=True):
+            n = int(np.searchsorted(t, time))
+            for kept, values in zip((cut.x, cut.z, cut.energy, cut.modes, cut.times), (*rows, t), strict=True):
+                kept += [values[:n]] * (n > 0)
+        return cut
 
     def count(self, stats: dict, plugin: str) -> int:
         """Add the counts of a call, and return its steps."""

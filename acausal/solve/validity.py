@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.call import Call
 from acausal.compiler.requirements import Stated, refuse, statements
+from acausal.compiler.rowwise import Rowwise
 from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
-from acausal.language.validity import Expectation
+from acausal.language.validity import Expectation, Separation
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.instant import Point
 
@@ -22,22 +23,16 @@ ROWS, DEAR = 500, 40
 
 
 @dataclass(frozen=True)
-class _Watch:
-    """Statements of a compiled model, and the function that evaluates them at one point."""
+class Watch:
+    """Statements of a compiled model, and the function of them."""
 
-    stated: list[Stated]
-    function: ca.Function
+    stated: list[Any]
+    function: Rowwise
     wanted: set[int]
 
-    def along(self, maps: dict[int, Call], *values: np.ndarray) -> np.ndarray:
-        """Evaluate at many points: x, z, parameters, times, modes."""
-        x, z, p, t, modes = values
-        n = len(t)
-        call = maps.setdefault(n, Call(self.function.map(n))) if n not in maps else maps[n]
-        return call(x.ravel(), z.ravel(), np.tile(p, n), t, modes.ravel())[0].reshape(n, -1)
 
-
-def _watch(compiled: CompiledModel, stated: list[Stated], entries: list[ca.SX]) -> _Watch:
+def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
+    """Make the function of expressions in symbols of the model, one row of the result for each point."""
     r = compiled.reduced
     column = ca.substitute(r.resolve(ca.vertcat(ca.SX(0, 1), *entries)), initial.sx, 0)
     arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
@@ -48,7 +43,20 @@ def _watch(compiled: CompiledModel, stated: list[Stated], entries: list[ca.SX]) 
             origin = stated[k * len(stated) // len(entries)][1]
             refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
         raise
-    return _Watch(stated, function, compiled.dependence.inside(column))
+    return Watch(stated, Rowwise(function), compiled.dependence.inside(column))
+
+
+def _validity(compiled: CompiledModel) -> list[Stated]:
+    return statements(compiled.tree, "validity", (Expectation, Separation))
+
+
+def separations(compiled: CompiledModel) -> Watch:
+    """What must not meet in a run: rate, effect and offset of each, in turn."""
+    if "separations" not in compiled.cache:
+        stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
+        entries = [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)]
+        compiled.cache["separations"] = watch(compiled, stated, entries)
+    return compiled.cache["separations"]
 
 
 def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
@@ -56,11 +64,11 @@ def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
     key = "start requirements"
     if key not in compiled.cache:
         stated = compiled.requirements.at_start
-        compiled.cache[key] = _watch(compiled, stated, [r.sx for r, _ in stated]), {}
-    watch, maps = compiled.cache[key]
-    if watch.stated:
-        row = watch.along(maps, at.x, at.z, p, np.array([at.time]), at.modes)[0]
-        refuse(watch.stated, row, InitializationError)
+        compiled.cache[key] = watch(compiled, stated, [r.sx for r, _ in stated])
+    found = compiled.cache[key]
+    if found.stated:
+        row = found.function(at.x[None], at.z[None], p, np.array([at.time]), at.modes[None])[0]
+        refuse(found.stated, row, InitializationError)
 
 
 def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
@@ -74,19 +82,19 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
         Its output points.
     """
     if "validity" not in compiled.cache:
-        stated = statements(compiled.tree, "validity", Expectation)
+        stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
         entries = [e.sx for s, _ in stated for e in (s.part, s.whole)]
-        compiled.cache["validity"] = _watch(compiled, stated, entries), {}
-    watch, maps = compiled.cache["validity"]
-    if not watch.stated:
+        compiled.cache["validity"] = watch(compiled, stated, entries)
+    seen = compiled.cache["validity"]
+    if not seen.stated:
         return []
-    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if watch.wanted else ROWS)).astype(int))
+    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if seen.wanted else ROWS)).astype(int))
     x, t, modes = run.x[rows], run.t[rows], run.modes[rows]
-    z = run.solver(x, run.z[rows], t, modes, watch.wanted)
+    z = run.solver(x, run.z[rows], t, modes, seen.wanted)
     run.solver.unsolved.clear()
-    values = np.abs(watch.along(maps, x, z, run.solver.p, t, modes))
+    values = np.abs(seen.function(x, z, run.solver.p, t, modes))
     found = []
-    for (expectation, origin), part, whole in zip(watch.stated, values.T[::2], values.T[1::2], strict=True):
+    for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)
         so_far = np.fmax.accumulate(np.nan_to_num(whole))
         over = part > expectation.share * so_far

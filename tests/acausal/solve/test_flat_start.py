@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, chain, fixed, structural
+from acausal import Model, chain, fixed, guess, structural
 from components import BodyRod, Fixed, Revolute, World
 
 
@@ -52,3 +53,81 @@ def test_a_flat_four_bar_at_rest_is_refused(method: str, lengths: tuple[float, .
 def test_a_flat_four_bar_that_takes_its_guesses_is_refused() -> None:
     with pytest.raises(ac.InitializationError, match="singular position at rest"):
         ac.simulate(Flat(given=False), stop_time=1, initial="guesses")
+
+
+class Turned(Flat):
+    """The same with all links along a line that is turned by an angle, so that the rank is lost up to rounding only."""
+
+    angle: float = structural("of the line, in rad", default=0.3)
+    speed: Any = structural("of crank and rocker in rad/s", default=(0.0, 0.0))
+
+    @ac.part
+    def foot1(self):
+        """Bearing of the crank."""
+        return Revolute(phi=fixed(self.angle), w=fixed(self.speed[0]))
+
+    @ac.part
+    def foot2(self):
+        """Bearing of the rocker."""
+        return (
+            Revolute(phi=fixed(self.angle), w=fixed(self.speed[1])) if self.given else Revolute(phi=guess(self.angle))
+        )
+
+    @ac.part
+    def far(self):
+        """Ground."""
+        length = self.lengths[3]
+        return Fixed(r=(length * np.cos(self.angle), length * np.sin(self.angle), 0))
+
+
+@pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
+@pytest.mark.parametrize("lengths", [(1.0, 2.0, 1.0, 2.0), (1.0, 2.0, 0.5, 2.5)])
+@pytest.mark.parametrize("angle", [0.3, 1.0, np.pi / 2])
+def test_a_turned_flat_four_bar_at_rest_is_refused(method: str, lengths: tuple[float, ...], angle: float) -> None:
+    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+        ac.simulate(Turned(lengths=lengths, angle=angle), stop_time=1, method=method)
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
+def test_a_turned_flat_four_bar_that_takes_its_guesses_is_refused(method: str) -> None:
+    with pytest.raises(ac.InitializationError, match="singular position at rest"):
+        ac.simulate(Turned(given=False), stop_time=1, initial="guesses", method=method)
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
+@pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
+def test_a_speed_leads_on_from_a_turned_flat_position(method: str, angle: float) -> None:
+    model = Turned(angle=angle, speed=(1.0, 1.0), gravity=0.0)
+    result = ac.simulate(model, stop_time=0.5, method=method, tolerance=1e-8)
+    np.testing.assert_allclose(result["foot1.phi"][-1], angle + 0.5, atol=1e-6)
+    np.testing.assert_allclose(result["foot2.phi"][-1], angle + 0.5, atol=1e-6)
+
+
+class Crossed(Turned):
+    """Three rates are given, of which the loop leaves two."""
+
+    pin1 = Revolute(w=fixed(5.0))
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_rates_with_which_the_loop_opens_are_named(method: str, angle: float) -> None:
+    with pytest.raises(ac.InitializationError, match=r"(?s)cannot close.*`pin1.w`.*one too many"):
+        ac.simulate(Crossed(angle=angle, speed=(1.0, 7.0)), stop_time=1, method=method)
+
+
+class Stuck(Flat):
+    """Speeds that are on no branch: from a flat position at which crank and rocker would have to part."""
+
+    foot1 = Revolute(phi=fixed(0), w=fixed(1))
+
+    @ac.part
+    def foot2(self):
+        """Bearing of the rocker."""
+        return Revolute()
+
+
+def test_a_run_that_cannot_leave_a_singular_position_says_so() -> None:
+    with pytest.raises(ac.SimulationError, match="singular position") as caught:
+        ac.simulate(Stuck(lengths=(1.0, 2.0, 0.5, 2.5)), stop_time=1, initial="guesses", method="rosenbrock")
+    assert "no reason" not in str(caught.value)

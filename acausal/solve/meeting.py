@@ -1,0 +1,145 @@
+"""Whether points that act on each other along their line meet in a run, where the line has no direction.
+
+Between two rows they can only meet if they are as near as they may move until the next. Such an interval is integrated
+again in parts, and so are its parts, until the points are too far apart for the time that is left, or meet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from acausal.solve.instant import Point
+from acausal.solve.integrate import Integrator
+from acausal.solve.trace import Stretch, Trace
+from acausal.solve.validity import separations
+
+# So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
+NEAR, NOTHING = 1e-6, 1e-4
+# Points may move so much faster between two rows than at them.
+REACH = 3.0
+# Parts of an interval; shortest part of the run; rows that are so few, with so many steps between them, that all are suspect.
+PARTS, SHORTEST, FEW, STEPS_A_ROW = 8, 1e-13, 64, 4
+# Meetings without an effect after which no more are looked for, intervals that are looked into, and steps in each.
+HARMLESS, LOOKS, STEPS = 3, 2000, 20_000
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """When points met, and the message."""
+
+    time: float
+    text: str
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Rows of a run; and of one pair of points in them, the offset, its length, rate and effect."""
+
+    times: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    modes: np.ndarray
+    rate: np.ndarray
+    effect: np.ndarray
+    offset: np.ndarray
+    distance: np.ndarray
+
+    def suspects(self) -> np.ndarray:
+        """Intervals in which the points could meet."""
+        pace = np.maximum(np.abs(self.rate[1:]), np.abs(self.rate[:-1])) * np.diff(self.times)
+        return np.flatnonzero(REACH * pace >= self.distance[1:] + self.distance[:-1])
+
+
+class _Search:
+    """Search for meetings of one pair of points; `columns` are those of its values."""
+
+    def __init__(self, integrator: Integrator, columns: slice) -> None:
+        self.integrator, self.columns = integrator, columns
+        self.watch = separations(integrator.compiled)
+        self.looks, self.near = 0, 0.0
+        self.shortest = SHORTEST * max(abs(t) for t in integrator.span)
+
+    def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> _Rows:
+        """Evaluate the pair in rows of a run."""
+        values = self.watch.function(x, z, self.integrator.p, t, modes)[:, self.columns]
+        offset = values[:, 2:]
+        return _Rows(t, x, z, modes, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
+
+    def run(self, rows: _Rows, everywhere: bool) -> Iterator[tuple[float, float]]:
+        """Yield times of meetings in the rows of the run and effects there, in order."""
+        for k in range(len(rows.times) - 1) if everywhere else rows.suspects():
+            found = list(self._between(rows, k))
+            passed = rows.offset[k] @ rows.offset[k + 1] < 0
+            if not found and passed and (later := self._inside(rows, k, 2.0)):
+                # Integrated again, they may come a little later than in the run.
+                found = list(self._meetings(later))[:1]
+            yield from ((min(time, float(rows.times[k + 1])), effect) for time, effect in found)
+
+    def _meetings(self, rows: _Rows) -> Iterator[tuple[float, float]]:
+        for k in rows.suspects():
+            yield from self._between(rows, k)
+
+    def _between(self, rows: _Rows, k: int) -> Iterator[tuple[float, float]]:
+        """Meetings between two rows."""
+        short = rows.times[k + 1] - rows.times[k] <= self.shortest
+        if short or rows.distance[k] + rows.distance[k + 1] <= self.near:
+            rate, effect = rows.rate[k : k + 2], rows.effect[k : k + 2]
+            if rate[0] <= 0 <= rate[1]:
+                yield float(rows.times[k]), float(np.mean(effect[rate == 0] if np.any(rate == 0) else effect))
+        elif self.looks < LOOKS and (inner := self._inside(rows, k, 1.0)):
+            yield from self._meetings(inner)
+
+    def _inside(self, rows: _Rows, k: int, length: float) -> _Rows | None:
+        """Rows from a row on, `length` times the interval after it; None where they cannot be reached."""
+        self.looks += 1
+        run, x, z, modes = self.integrator, rows.x[k], rows.z[k], rows.modes[k + 1]
+        times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
+        tries = (run.attempt(times, x, z, modes, STEPS, careful) for careful in (False, True))
+        found: Stretch | None = next((stretch for stretch in tries if stretch is not None), None)
+        if found is None:
+            return None
+        all_modes = np.tile(found.modes, (PARTS + 1, 1))
+        return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), all_modes)
+
+
+def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
+    """Return the first meeting at which something acts; None if there is none.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Its trace is searched, and unchanged.
+    first : Point
+        Where the run began.
+    """
+    stated = separations(integrator.compiled).stated
+    if not stated or not integrator.trace.times:
+        return None
+    kept, integrator.trace = integrator.trace, Trace()
+    found, column = [], 0
+    try:
+        for separation, origin in stated:
+            columns = slice(column, column := column + 2 + separation.offset.sx.numel())
+            found += _search(
+                _Search(integrator, columns), first, kept, f"{origin}: at t = {{:.6g}} s {separation.text}"
+            )
+    finally:
+        integrator.trace = kept
+    return min(found, key=lambda meeting: meeting.time, default=None)
+
+
+def _search(search: _Search, first: Point, trace: Trace, text: str) -> list[Meeting]:
+    ends = ((first.x, trace.x), (first.z, trace.z), (first.modes, trace.modes))
+    x, z, modes = (np.vstack([one[None], *rest]) for one, rest in ends)
+    rows = search.rows(np.concatenate([[first.time], *trace.times]), x, z, modes)
+    search.near = NEAR * float(np.max(rows.distance))
+    least, n = NOTHING * float(np.max(np.abs(rows.effect))), len(rows.times)
+    everywhere = n <= FEW and trace.steps > STEPS_A_ROW * n
+    for time, effect in islice(search.run(rows, everywhere), HARMLESS):
+        if abs(effect) > least:
+            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). What came before is kept.")]
+    return []

@@ -1,0 +1,157 @@
+"""Whether laws that are said to be smooth are: the step from case to case at the instants at which a run switches them.
+
+Both cases are evaluated on both sides of a switch. Where they do not meet, the place is looked at closer, on the cubic
+between two outputs, until the law has one value on both sides or hardly any time is left between them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.flatten.discontinuities import Promise
+from acausal.solve.between import between
+from acausal.solve.evaluator import Evaluator
+from acausal.solve.integrate import Integrator
+from acausal.solve.validity import DEAR, ROWS, Watch, watch
+from acausal.symbols import scalars
+
+# Part of the largest value of a law that is a step; less may be rounding of its constants.
+STEP = 1e-4
+# Switches of one law that are looked at closer, how often, and times at once.
+SWITCHES, CLOSER, PARTS = 3, 12, 8
+
+
+@dataclass(frozen=True)
+class _Point:
+    """Values at a time: excess, step and law."""
+
+    time: float
+    excess: float
+    step: np.ndarray
+    value: np.ndarray
+
+
+class _Look:
+    """Values of the promises of a model along a run."""
+
+    def __init__(self, integrator: Integrator, run: Evaluator) -> None:
+        compiled = integrator.compiled
+        if "promises" not in compiled.cache:
+            compiled.cache["promises"] = _known(compiled)
+        self.seen = compiled.cache["promises"]
+        self.integrator, self.run = integrator, run
+
+    def rows(self, rows: np.ndarray) -> np.ndarray:
+        """Values at output points."""
+        run = self.run
+        return self._values(run.x[rows], run.z[rows], run.t[rows], run.modes[rows])
+
+    def inside(self, row: int, times: np.ndarray) -> np.ndarray:
+        """Values at times between an output point and the next."""
+        run, pair = self.run, slice(row, row + 2)
+        modes = run.modes[row]
+        found = between(self.integrator, modes, run.t[pair], run.x[pair], run.z[pair], times)
+        return self._values(found.x, found.z, times, np.broadcast_to(modes, (len(times), len(modes))))
+
+    def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+        solver = self.run.solver
+        z = solver(x, z, t, modes, self.seen.wanted)
+        solver.unsolved.clear()
+        return self.seen.function(x, z, solver.p, t, modes)
+
+
+def _known(compiled: CompiledModel) -> Watch:
+    """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
+    r = compiled.reduced
+    entries = [(promise, [promise.excess, promise.step, promise.value]) for promise in r.flat.promises]
+    known = {s.element_hash() for a in compiled.arguments for s in scalars(a)}
+    found = [
+        (promise, some)
+        for promise, some in entries
+        if all(s.element_hash() in known for e in some for s in ca.symvar(r.resolve(ca.densify(e))))
+    ]
+    return watch(compiled, [promise for promise, _ in found], [e for _, some in found for e in some])
+
+
+def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
+    """Say which laws jumped in a run although they are said to be smooth.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        Tells model, parameters and tolerance.
+    run : Evaluator
+        Output points of the run.
+    """
+    if not integrator.compiled.reduced.flat.promises or len(run.t) < 2:
+        return []
+    look = _Look(integrator, run)
+    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if look.seen.wanted else ROWS)).astype(int))
+    values, first, found = look.rows(rows), 0, dict[str, str]()
+    for promise in look.seen.stated:
+        n = promise.step.numel()
+        columns = slice(first, first := first + 1 + 2 * n)
+        text = _broken(look, rows, values[:, columns], columns, promise)
+        if text:
+            found.setdefault(str(promise.origin), text)
+    return list(found.values())
+
+
+def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, promise: Promise) -> str:
+    """Say that a law jumps, "" if it does not."""
+    size = float(np.max(np.abs(np.nan_to_num(values[:, 1 + promise.step.numel() :])), initial=0.0))
+    side = np.array([promise.holds(excess) for excess in values[:, 0]])
+    closer = 0
+    for k in np.flatnonzero(side[1:] != side[:-1]):
+        low, high = int(rows[k]), int(rows[k + 1])
+        while high - low > 1:
+            middle = (low + high) // 2
+            differs = promise.holds(look.rows(np.array([middle]))[0, columns][0]) != side[k]
+            low, high = (low, middle) if differs else (middle, high)
+        if closer == SWITCHES:
+            break
+        time, jump, looked = _at_switch(look, low, columns, promise, STEP * size)
+        closer += looked
+        if jump > STEP * size:
+            return (
+                f"{promise.origin}: `smooth=True` promises a law without a jump, but near t = {time:.4g} s it jumps by "
+                f"{jump:.4g}; the integration did not stop there, and its error is not known. Leave `smooth=True` out, or "
+                "let the cases of piecewise meet where they switch."
+            )
+    return ""
+
+
+def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed: float) -> tuple[float, float, bool]:
+    """Time of a switch between an output point and the next, the jump there, and whether it had to be looked at closer."""
+    n, holds = promise.step.numel(), promise.holds
+
+    def points(times: np.ndarray, values: np.ndarray) -> list[_Point]:
+        return [
+            _Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values[:, columns], strict=True)
+        ]
+
+    a, b = points(look.run.t[row : row + 2], look.rows(np.array([row, row + 1])))
+    for k in range(CLOSER):
+        if min(_step(a, b), _jump(a, b)) <= allowed:
+            return b.time, 0.0, k > 0
+        times = np.linspace(a.time, b.time, PARTS + 1)[1:-1]
+        parts = [a, *points(times, look.inside(row, times)), b]
+        place = next((i for i in range(PARTS) if holds(parts[i].excess) != holds(parts[i + 1].excess)), 0)
+        a, b = parts[place], parts[place + 1]
+    return b.time, _jump(a, b), True
+
+
+def _step(a: _Point, b: _Point) -> float:
+    """The step where the excess is 0, on the line through both sides; what has no value on one side counts as on the other."""
+    one, two = (np.where(np.isfinite(p.step), p.step, q.step) for p, q in ((a, b), (b, a)))
+    part = a.excess / (a.excess - b.excess) if a.excess != b.excess else 0.5
+    return float(np.max(np.abs(np.nan_to_num(one + part * (two - one))), initial=0.0))
+
+
+def _jump(a: _Point, b: _Point) -> float:
+    """How much the law itself differs on both sides, whatever cases it takes there."""
+    return float(np.max(np.abs(b.value - a.value), initial=0.0))
