@@ -224,13 +224,8 @@ class CompiledModel:
         Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters; if it is
         not IDAS, so are the sizes of the states.
         """
-        key = (
-            plugin,
-            grid,
-            tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items())),
-            energy,
-            moves,
-        )
+        chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
+        key = (plugin, grid, chosen, energy, moves)
         if key not in self.integrators:
             started = clock.perf_counter()
             dae = self._dae(energy, moves)

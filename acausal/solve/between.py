@@ -80,7 +80,7 @@ def work_between(run: Integrator, modes: np.ndarray, ends: np.ndarray, x: np.nda
     c = run.compiled
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)
-    looks = np.linspace(*ends, LOOKS + 2)[1:-1]
+    looks = np.linspace(ends[0], ends[1], LOOKS + 2)[1:-1]
     found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
     if not known or np.any(between(run, modes, ends, x, z, looks).defect > FAITHFUL):
         stretch = run.attempt(ends, x[0], z[0], modes, MOST_STEPS, careful=True)
