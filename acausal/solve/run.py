@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError
 from acausal.result import Result
+from acausal.solve.agenda import APART
 from acausal.solve.clock_times import clock_times
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
@@ -20,8 +21,6 @@ from acausal.solve.order import eigenvalues_of, order_limit
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.trace import Trace
 from acausal.solve.validity import check_start, doubts
-
-APART = 1e-12  # of the time: less is no room for an integration
 
 
 @dataclass(frozen=True)
