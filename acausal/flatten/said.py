@@ -102,11 +102,14 @@ def _power(component: Component, name: str) -> Expr:
 def _look_at_observed(components: list[Component]) -> None:
     """Raise UnitsError for observed quantities whose units contradict each other, looked at once for each class.
 
-    Anything else that is wrong with one is told to those who read it.
+    Those of a library may be dear to form: only classes that stand where the model's class stands are looked at. Anything
+    else that is wrong with one is told to those who read it.
     """
+    home = type(components[0]).__module__
+    own = {type(c): c for c in reversed(components) if type(c).__module__ == home}
     token = PENDING.set(Pending())  # what they ask for is no part of the model
     try:
-        for component in {type(c): c for c in reversed(components)}.values():
+        for component in own.values():
             for name, declared in component.fields.items():
                 if isinstance(declared, Observed):
                     with suppress(DeclarationError):
