@@ -7,7 +7,7 @@ break times, and the condition is watched with what these modes leave of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import casadi as ca
@@ -51,6 +51,39 @@ def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Fun
     given = [reduced.flat.parameters, time.sx]
     slope = ca.densify(ca.jacobian(excess, time.sx))
     return ca.Function("excess", given, [ca.densify(excess)]), ca.Function("slope", given, [slope])
+
+
+def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.SX]:
+    """Return which comparisons are linear in time, with factors of parameters and modes alone, and when they change.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+    excess : casadi.SX
+        Of comparisons, a column.
+    """
+    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.flat.parameters, reduced.modes, time.sx))}
+    bent = ca.which_depends(excess, time.sx, 2, True) if excess.numel() else []
+    moving = ca.which_depends(excess, time.sx, 1, True) if excess.numel() else []
+    plain = [
+        k
+        for k, e in enumerate(scalars(excess))
+        if moving[k] and not bent[k] and all(s.element_hash() in free for s in ca.symvar(e))
+    ]
+    if not plain:
+        return [], ca.SX(0, 1)
+    chosen = excess[plain]
+    return plain, ca.densify(-ca.substitute(chosen, time.sx, 0) / ca.jtimes(chosen, time.sx, 1))
+
+
+def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
+    """Return 1 where a condition holds and 0 elsewhere; `parts` are the excesses of its comparisons, in order."""
+    if not isinstance(condition, Joined):
+        e = next(parts)
+        return ca.SX(e <= 0) if condition.kind == "<=" else ca.SX(e < 0)
+    a, b = truth(condition.a, parts), truth(condition.b, parts)
+    return a * b if condition.every else ca.fmax(a, b)
 
 
 def split_clock(reduced: ReducedModel) -> ReducedModel:

@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.compiler.clock import by_clock, functions
+from acausal.compiler.clock import by_clock, functions, planned_times, truth
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -54,12 +54,16 @@ class Guards:
                 )
         decided, bent, compared = by_clock(reduced, [g.condition for g in flat.guards])
         self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
+        self._open = list[tuple[int, int, bool]]()  # comparisons of watched guards: row, guard, inclusive
         for k, guard in enumerate(flat.guards):
-            own = range(row, row := row + len(guard.condition.comparisons))
+            kinds = [part.kind == "<=" for part in guard.condition.comparisons]
+            own = range(row, row := row + len(kinds))
             if all(decided[r] for r in own):
                 self.timed.append(k)
-                kinds = [part.kind == "<=" for part in guard.condition.comparisons]
                 rows += [(r, inclusive, guard.origin) for r, inclusive in zip(own, kinds, strict=True)]
+            else:
+                self._open += [(r, k, inclusive) for r, inclusive in zip(own, kinds, strict=True)]
+        self._all, self._decided = compared, [r for r, *_ in rows]
         self._compared = compared[[r for r, *_ in rows if not bent[r]]]
         self._bent = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if bent[r]]
         self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
@@ -87,9 +91,31 @@ class Guards:
         return [(*functions(self.reduced, excess), inclusive, origin) for excess, inclusive, origin in self._bent]
 
     @cached_property
-    def timed_excess(self) -> Call:
-        """Function of parameters and time: excess of each timed guard."""
-        return Call(ca.Function("timed", [self.reduced.flat.parameters, time.sx], [self._excess[self.timed]]))
+    def holds_at(self) -> Call:
+        """Function of parameters, time and a span: 1 for each timed guard that holds.
+
+        A comparison that would be 0 within the span of time is 0.
+        """
+        near, excess = ca.SX.sym("near"), self._all[self._decided]
+        reach = ca.fabs(ca.jtimes(excess, time.sx, ca.SX(1))) * near
+        parts = iter(scalars(ca.if_else(ca.fabs(excess) <= reach, 0, excess)))
+        held = [truth(self.guards[k].condition, parts) for k in self.timed]
+        given = [self.reduced.flat.parameters, time.sx, near]
+        return Call(ca.Function("holds_at", given, [ca.densify(ca.vertcat(ca.SX(0, 1), *held))]))
+
+    @cached_property
+    def planned(self) -> Call:
+        """Function of parameters and modes: instants of comparisons of time with discrete variables, until these change."""
+        return Call(ca.Function("planned", [self.reduced.flat.parameters, self.reduced.modes], [self._planned[1]]))
+
+    @property
+    def plans(self) -> list[tuple[int, bool]]:
+        """For each entry of `planned` the guard that holds the comparison, and whether this holds where it is 0."""
+        return [self._open[k][1:] for k in self._planned[0]]
+
+    @cached_property
+    def _planned(self) -> tuple[list[int], ca.SX]:
+        return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
 
     @cached_property
     def guess(self) -> Call:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -15,10 +17,16 @@ from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, bounded, with_place
 from acausal.flatten.variables import VariableArray, create_variables
+from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
+from acausal.language.fields import Observed
 from acausal.language.functions import PENDING, Pending
 from acausal.symbols import scalars
+from acausal.units import parse
+
+ENERGIES = {"stored_energy": parse("J"), "dissipated_power": parse("W"), "supplied_power": parse("W")}
+MASS = parse("kg")
 
 
 @dataclass
@@ -64,9 +72,10 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
                 (_power(c, name) for c in components if getattr(type(c), name) is not getattr(Component, name)),
                 as_expr(0.0),
             ).sx
-            for name in ("stored_energy", "dissipated_power", "supplied_power")
+            for name in ENERGIES
         }
         pending.place(Origin.of(build.root))
+        _look_at_observed(components)
     finally:
         PENDING.reset(token)
     return Said(build, graph, arrays, equations, starts, declared, energies, pending, discretes, discrete_values)
@@ -80,5 +89,30 @@ def column(entries: Iterable[Any]) -> ca.SX:
 def _power(component: Component, name: str) -> Expr:
     origin = Origin(component._path, type(component).__name__, f"{name}()")
     value = as_expr(with_place(getattr(component, name), origin))
+    declared = Expr(value.sx, ENERGIES[name], f"{name}()")
+    code = getattr(getattr(type(component), name), "__code__", None)
+    where = f"{code.co_filename}:{code.co_firstlineno}" if code else component._origin
+    here = Origin(origin.path, origin.kind, where)
+    if value.unit != ENERGIES[name] / MASS:  # that of a unit mass
+        with_place(lambda: unit_rules.common(declared, value, "its value"), here)
     PENDING.get().place(origin)
     return Expr(value.sx)
+
+
+def _look_at_observed(components: list[Component]) -> None:
+    """Raise UnitsError for observed quantities whose units contradict each other, looked at once for each class.
+
+    Those of a library may be dear to form: only classes that stand where the model's class stands are looked at. Anything
+    else that is wrong with one is told to those who read it.
+    """
+    home = type(components[0]).__module__
+    own = {type(c): c for c in reversed(components) if type(c).__module__ == home}
+    token = PENDING.set(Pending())  # what they ask for is no part of the model
+    try:
+        for component in own.values():
+            for name, declared in component.fields.items():
+                if isinstance(declared, Observed):
+                    with suppress(DeclarationError):
+                        with_place(partial(getattr, component, name), Origin.of(component, f"{name}()"))
+    finally:
+        PENDING.reset(token)

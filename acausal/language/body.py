@@ -10,6 +10,7 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
 from acausal.language.refusals import refuse_slips, shown
+from acausal.language.slips import SETTABLE
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class
 
@@ -71,9 +72,14 @@ def _read(
 ) -> None:
     """Read one attribute of a class body; `old` is the inherited field of this name."""
     where = f"{cls.__name__}.{name}"
+    second = isinstance(value, f.Field) and _is_second_name(cls, value, name, own)
+    if second and old is None and name in cls._settings and name not in SETTABLE:
+        return  # a setting that follows from a field
     if isinstance(value, f.Field) and (value.name == name or not _has_value(old)):
         own[name] = value if value.name == name and value is not old else _named(copy(value), name)
         setattr(cls, name, own[name])
+        if second and _has_value(value):
+            settings[name] = value  # the value of the first one, unless it has its own
     elif isinstance(value, f.Template):
         own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
         # A template tells its name by being in the class: under a second name it is a second one.
@@ -100,6 +106,11 @@ def _read(
             raise DeclarationError(f"{where} is a field of {cls.__name__}; give this method {mark}.")
         settings[name] = check_value(cls, name, value)
         setattr(cls, name, copy(old))  # a path is read through it, as through the inherited one
+
+
+def _is_second_name(cls: Any, field: f.Field, name: str, own: dict[str, f.Field]) -> bool:
+    """Whether a field stands under another name in the class already."""
+    return field.name != name and any(known.get(field.name) is field for known in (own, cls.fields))
 
 
 def _has_value(field: f.Field | None) -> bool:

@@ -171,8 +171,8 @@ class Record(Component):
 class Model(Component):
     """A component that can be compiled and simulated; its outputs are the columns of its table of results.
 
-    Plain attributes `stop_time`, `tolerance`, `accuracy`, `intervals`, `initial`, `method`, `constraints` and `max_order` are
-    what `simulate` takes where these are not given to it.
+    Attributes `stop_time`, `tolerance`, `accuracy`, `intervals`, `initial`, `method`, `constraints` and `max_order` are
+    what `simulate` takes where these are not given to it; they may follow from parameters: `stop_time = 2 * end`.
     """
 
     _settings = SETTINGS

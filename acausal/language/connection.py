@@ -9,6 +9,7 @@ from typing import Any
 
 from acausal.errors import ConnectError
 from acausal.language.component import Component, Connector
+from acausal.language.fields import Field
 from acausal.language.path import Path
 
 
@@ -119,6 +120,17 @@ def _refuse_outsider(item: Any) -> None:
         raise ConnectError(
             f"{kind}() is made in connections(), where it does not become a part of the model. Write it in the class body, "
             f"`{name} = {kind}(...)`, and connect self.{name}."
+        )
+    if isinstance(item, type) and issubclass(item, Component):
+        name = item.__name__.lower()
+        raise ConnectError(
+            f"{item.__name__} is a class, no part of this model. Write a part in the class body, "
+            f"`{name} = {item.__name__}(...)`, and connect self.{name}."
+        )
+    if isinstance(item, Field):
+        raise ConnectError(
+            f"`{item.name}` is read from a class, not from a part of this model. Write the part in the class body, "
+            f"`part = ...`, and connect self.part.{item.name}."
         )
     if isinstance(item, Path):
         raise ConnectError(

@@ -16,6 +16,7 @@ from acausal.errors import PACKAGE
 
 # Attributes that `simulate` and the command line read from a model.
 SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")
+SETTABLE = ("stop_time", "method")  # those that may be fields
 NEAR = 0.75
 
 

@@ -47,6 +47,21 @@ class Dependence:
         unknowns = sorted(seen)
         return np.array(unknowns, dtype=int), np.array([self._equation_of[k] for k in unknowns], dtype=int)
 
+    def needing(self, equations: Iterable[int]) -> set[int]:
+        """Return the unknowns that cannot be solved for without some equations."""
+        wanted = set(equations)
+        needed_by: list[list[int]] = [[] for _ in self._rows]
+        for unknown, equation in enumerate(self._equation_of):
+            for other in self._rows[equation]:
+                needed_by[other].append(unknown)
+        stack = [k for k, equation in enumerate(self._equation_of) if equation in wanted]
+        seen = set(stack)
+        while stack:
+            more = [k for k in needed_by[stack.pop()] if k not in seen]
+            seen.update(more)
+            stack += more
+        return seen
+
 
 def solution_levels(J: ca.SX, unknowns: ca.SX) -> tuple[Level, ...]:
     """Return the order in which equations are solved.

@@ -27,6 +27,25 @@ def meters(compiled: CompiledModel) -> list[int]:
     return compiled.cache["meters"]
 
 
+def kinematic(compiled: CompiledModel) -> list[int]:
+    """States whose rates follow from other states without any parameter, as position and turn of a free body do."""
+    if not compiled.nx:
+        return []
+    if "kinematic" not in compiled.cache:
+        r = compiled.reduced
+        given = ca.vertcat(r.flat.parameters, r.modes, ca.SX.sym("none"))
+        forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
+        unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
+        through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))
+        driven = forced[compiled.nz :] | np.array(
+            ca.which_depends(ca.vertcat(r.ode, 0), through, 1, True)[:-1], dtype=bool
+        )
+        uses = np.zeros((compiled.nx, compiled.nx), dtype=bool)
+        uses[tuple(np.array(k, dtype=int) for k in ca.jacobian_sparsity(r.ode, r.x).get_triplet())] = True  # type: ignore[attr-defined]
+        compiled.cache["kinematic"] = np.flatnonzero(~driven & uses[:, driven].any(axis=1)).tolist()
+    return compiled.cache["kinematic"]
+
+
 def at_rest(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> bool:
     """Whether all derivatives vanish, loops are closed, and equations and initial conditions hold."""
     nx = compiled.nx

@@ -7,15 +7,18 @@ integrators, are the same after each event.
 from __future__ import annotations
 
 from collections import deque
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
 from acausal.errors import InitializationError, caution
+from acausal.solve.agenda import Agenda
 from acausal.solve.between import work_between
 from acausal.solve.instant import Cycling, Instants, Point, places_text
 from acausal.solve.integrate import Failure, Integrator, Stretch
 from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
+from acausal.solve.looks import uneven
 from acausal.solve.passage import LONG, passage
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
@@ -23,7 +26,6 @@ MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any m
 DENSEST, STEPS_A_ROW = 32, 4
 # The same of all intervals, that there may be at least: few intervals are looked at as often as many.
 ROWS = 400 * DENSEST
-GOLDEN = (5**0.5 - 1) / 2
 
 
 class Chattering(Exception):
@@ -56,10 +58,10 @@ class Run:
         settings = integrator.settings
         self.instants = Instants(c, self.p, settings.tolerance, span, settings.nominal)
         self.locator = Locator(integrator, self.instants)
+        self.agenda = Agenda(c.guards, self.p, times)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=MOST)
         self.weak, self.density, self.block = 0, 1, 0
-        self.inclusive = np.array([self.guards.guards[k].inclusive for k in self.guards.timed], dtype=bool)
         self.first: Point | None = None
         self.hasty, self.piece = False, np.inf
         self.interval = float(times[-1] - times[0]) / (len(times) - 1)
@@ -68,42 +70,53 @@ class Run:
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
         ends = [*self.breaks, float(self.times[-1])]
-        held = self._by_clock(at.time, ends[0])
-        holds = held | self._on(at.time)
-        acts = [k for k, on in zip(self.guards.timed, holds, strict=True) if on and self.guards.guards[k].at_start]
+        held = self.agenda.between(at.time, ends[0])
+        at, acts = self.agenda.at_start(at, held, self.instants)
         self.first = at = self._happen(at, event=False, fired=acts)
         for end in ends:
             if at.time != self.times[0]:
-                at = self._at_break(at, end, held)
-                held = self._by_clock(at.time, end)
+                now = self.agenda.between(at.time, end)
+                at, held = self._at_break(at, now, held), now
             at = self._segment(at, end)
+        self._at_stop(at, held)
 
-    def _by_clock(self, begin: float, end: float) -> np.ndarray:
-        """Which timed guards hold between two breaks."""
-        return self._on((begin + end) / 2)
-
-    def _on(self, time: float) -> np.ndarray:
-        """Which timed guards hold at a time."""
-        excess = self.guards.timed_excess(self.p, time)[0]
-        return (excess < 0) | ((excess == 0) & self.inclusive)
-
-    def _at_break(self, at: Point, end: float, held: np.ndarray) -> Point:
-        """Switch what the clock switches; `held` tells which timed guards held before."""
-        modes, fired = at.modes.copy(), []
-        on = self._by_clock(at.time, end)
-        changed = at.time in self.found and bool((on != held).any())
-        if changed:
+    def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
+        """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
+        if at.time in self.found and bool((on != held).any()):
             self.events.append(at.time)
             self.block = 1
-        for k, holds, before in zip(self.guards.timed, on, held, strict=True):
-            if k < self.guards.n_switches:
-                modes[k] = holds
-            elif holds and not before:
-                fired.append(k)
+        modes = self.agenda.modes(at.modes, on)
+        return self._at_row(at, self.agenda.fired(on, held), modes)
+
+    def _at_row(self, at: Point, fired: list[int] | None = None, modes: np.ndarray | None = None) -> Point:
+        """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
+        plan = self.agenda.planned(at, at.time - self.agenda.near)
         new = self._happen(at, event=False, fired=fired, modes=modes)
-        if changed:
-            self.integrator.trace.put(-1, new.x, new.z, new.modes)
+        self.integrator.trace.put(-1, new.x, new.z, new.modes)
+        before = at if modes is None else replace(at, modes=modes)
+        acted = any((getattr(new, name) != getattr(before, name)).any() for name in ("x", "modes", "truth"))
+        if acted and plan and plan[0] <= at.time + self.agenda.near:
+            self.block = 1
+            if self.events[-1:] != [at.time]:
+                self.events.append(at.time)
+            self._refuse_chattering(at, at.time, self.guards.watched)
         return new
+
+    def _at_stop(self, at: Point, held: np.ndarray) -> None:
+        """Let happen what is true at the stop time itself, and show the laws that hold after it."""
+        agenda = self.agenda
+        now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
+        plan, fired = agenda.planned(at, at.time - agenda.near), agenda.fired(now, held)
+        switched = bool((now != held).any() and len(at.truth))
+        if fired or switched or (plan and plan[0] <= at.time + agenda.near):
+            at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.modes(at.modes, now))
+        modes = agenda.modes(at.modes, after)
+        if (modes != at.modes).any():
+            acts = ~self.instants.is_switch
+            with suppress(Cycling, InitializationError, Failure):  # laws without values there hold for nobody
+                # What acts is kept from becoming true.
+                new = self.instants.settle(replace(at, truth=at.truth | acts), modes=modes, due=acts)[0]
+                self.integrator.trace.put(-1, new.x, new.z, new.modes)
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
@@ -113,7 +126,12 @@ class Run:
                 at = replace(at, time=float(grid[-1]), x=x, z=z, modes=self.integrator.trace.modes[-1][-1])
                 self.block *= 2
         while at.time < end:
-            at = self._advance(at, end)
+            instant, row = self.agenda.planned(at, at.time + self.locator.shortest) or (np.inf, np.inf)
+            target = min(instant, row, end)
+            at = self._advance(at, target)
+            if row <= end and target - self.locator.shortest <= at.time:
+                self.integrator.trace.times[-1][-1] = row
+                at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
 
@@ -174,12 +192,7 @@ class Run:
         n = len(grid) - 1
         pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
         parts = 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n)))
-        # Uneven, so that no motion comes round from one row to the next all the time.
-        share = 0.6 + 0.8 * (np.arange(n * parts) * GOLDEN % 1).reshape(n, parts)
-        inside = np.cumsum(share, axis=1) / np.sum(share, axis=1, keepdims=True) * np.diff(grid)[:, None]
-        fine = np.concatenate([grid[:1], (grid[:-1, None] + inside).ravel()])
-        fine[::parts] = grid
-        return self.integrator.attempt(fine, at.x, at.z, at.modes, max(1000, LONG // n), careful=False)
+        return self.integrator.attempt(uneven(grid, parts), at.x, at.z, at.modes, max(1000, LONG // n), careful=False)
 
     def _shorter(self, at: Point, grid: np.ndarray) -> Point:
         """The call failed, perhaps because the law is no longer right beyond an event: look at less of the time."""
@@ -264,8 +277,6 @@ class Run:
         if event:
             time = np.array([at.time if label is None else label])
             self.integrator.keep(Stretch(time, new.x[None], new.z[None], gained[None], new.modes, 0))
-        elif fired:
-            self.integrator.trace.put(-1, new.x, new.z, new.modes)
         self.integrator.trace.spend(np.zeros(2) if event else gained)
         return new
 

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError, caution
 from acausal.result import Result
+from acausal.solve.agenda import APART
 from acausal.solve.clock_times import clock_times
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
@@ -28,7 +29,6 @@ ROUGH = (
     "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
     "intervals, simulate(..., intervals=...), give more points."
 )
-APART = 1e-12  # of the time: less is no room for an integration
 
 
 @dataclass(frozen=True)

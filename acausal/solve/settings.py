@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.compiler import CompiledModel
-from acausal.flatten.instantiate import Instantiation
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.solve.stop_time import own_stop_time
+from acausal.solve.stop_time import own_stop_time, own_value
 
 DEFAULTS = {
     "stop_time": None,
@@ -21,6 +20,7 @@ DEFAULTS = {
     "constraints": "auto",
     "max_order": None,
 }
+COUNTS = ("intervals", "max_order")
 
 
 def settled(
@@ -54,17 +54,28 @@ def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = 
     model : Component
         Not built.
     name : str
-        Argument of `simulate`. A plain attribute or a property tells it; a field of this name is something else, except
-        a stop time or a method.
+        Argument of `simulate`. A plain attribute, a property or an expression of fields tells it; a field of this name is
+        something else, except a stop time or a method.
     values : mapping of str to value, optional
         Values by path that replace those of the model.
     """
     if name == "stop_time":
         return own_stop_time(model, values)
     declared = getattr(type(model), name, None)
-    if isinstance(declared, property) or (name == "method" and isinstance(declared, f.Structural)):
-        return getattr(model if model._is_bound else Instantiation(model, values).root, name)
-    value = None if isinstance(declared, f.Field | f.Template) or callable(declared) else getattr(model, name, None)
+    refers = isinstance(declared, f.Field) and declared.name != name  # tolerance = tol
+    field = (
+        isinstance(declared, f.Field) and not refers and not (name == "method" and isinstance(declared, f.Structural))
+    )
+    if field or isinstance(declared, f.Template) or callable(declared):
+        return None
+    value = own_value(model, name, values)
+    if (
+        name in COUNTS
+        and isinstance(value, float)
+        and value.is_integer()
+        and isinstance(declared, f.Deferrable | property)
+    ):
+        return int(value)  # parameters are floating point numbers
     return None if name == "initial" and not isinstance(value, str) else value  # a number is the user's own constant
 
 

@@ -14,7 +14,7 @@ from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError, caution
-from acausal.solve.at_rest import at_rest, meters, refuse_motion
+from acausal.solve.at_rest import at_rest, kinematic, meters, refuse_motion
 from acausal.solve.closing import tighten
 from acausal.solve.methods import rates_of
 from acausal.solve.newton import InitialSystem, newton
@@ -72,7 +72,8 @@ class Equilibrium:
         self.nx = compiled.nx
         self.scale = compiled.nominal[: self.nx]
         self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
-        self.coordinates = np.array([coordinate for coordinate, _ in rates_of(compiled)], dtype=int)
+        pairs = [coordinate for coordinate, _ in rates_of(compiled)]
+        self.coordinates = np.array(sorted({*pairs, *kinematic(compiled)}), dtype=int)
 
     def find(self, first: tuple[np.ndarray, np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Return states and algebraic unknowns at rest, and the constants of the segment.
@@ -216,7 +217,7 @@ class Equilibrium:
         return value, J
 
     def _far(self, step: np.ndarray) -> float:
-        """How far a step leads, in nominal values of what has a rate among the states."""
+        """How far a step leads, in nominal values of what has a rate among the states, or whose rate is kinematics."""
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
 
     def _step(self, value: np.ndarray, J: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""The stop time that a model tells of itself."""
+"""The stop time that a model tells of itself, and how such values follow from parameters."""
 
 from __future__ import annotations
 
@@ -11,8 +11,12 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.expression import Expr
+from acausal.language.functions import PENDING, Pending
+from acausal.language.refusals import shown
 from acausal.locks import alone
 
 
@@ -23,7 +27,7 @@ def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> 
     Parameters
     ----------
     model : Component
-        Not built; `stop_time` is a number in the class, a property, a parameter or structural.
+        Not built; `stop_time` is a number in the class, a property, a parameter or structural, or follows from these.
     values : mapping of str to value, optional
         Values by path that replace those of the model.
 
@@ -34,16 +38,53 @@ def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> 
     """
     cls = type(model)
     declared = getattr(cls, "stop_time", None)
-    if isinstance(declared, f.Structural | f.Parameter | property):
-        value = _number(Instantiation(model, values))
-    elif isinstance(declared, f.Field | Component):
+    if isinstance(declared, f.Field | Component) and not isinstance(declared, f.Structural | f.Parameter):
         raise DeclarationError(
             f"`stop_time` of {cls.__name__} is no number before it runs, but a part or a variable; rename it, or give a "
             "stop time: --stop-time 2, or stop_time=2.0."
         )
-    else:
-        value = getattr(model, "stop_time", None)
+    value = own_value(model, "stop_time", values)
     return None if value is None else check_stop_time(value, f" of {cls.__name__}")
+
+
+def own_value(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
+    """Return an attribute of a model; what follows from parameters or structural fields is computed from their values.
+
+    Parameters
+    ----------
+    model : Component
+        Not built.
+    name : str
+        The attribute; None where the model has none.
+    values : mapping of str to value, optional
+        Values by path that replace those of the model.
+
+    Raises
+    ------
+    DeclarationError
+        If it follows from what has no value before the model runs.
+    """
+    declared = vars(model).get(name, getattr(type(model), name, None))
+    if not isinstance(declared, f.Deferrable | Expr | property):
+        return getattr(model, name, None)
+    built = None if model._is_bound else Instantiation(model, values)
+    root = built.root if built else model
+
+    def call() -> Any:
+        now = PENDING.set(Pending())
+        PENDING.get().watches = False  # piecewise() of parameters is decided here, no switch
+        try:
+            return getattr(root, name) if isinstance(declared, property) else f.evaluate(declared, root)
+        except AttributeError as error:
+            if not isinstance(error.obj, Component) or error.name not in error.obj.fields:
+                raise
+            raise DeclarationError(f"{name} follows from the variable `{error.name}`. {_MEND.format(name)}") from None
+        finally:
+            PENDING.reset(now)
+
+    value = with_place(call, Origin.of(model))
+    sx = getattr(value, "sx", None)
+    return value if sx is None or built is None else _number(sx, built, name)
 
 
 def check_stop_time(value: Any, of: str = "") -> float:
@@ -59,16 +100,25 @@ def check_stop_time(value: Any, of: str = "") -> float:
     number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     if not number or not np.isfinite(value) or value <= 0:
         raise DeclarationError(
-            f"stop_time{of} is {value!r}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
+            f"stop_time{of} is {_shown(value)}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
         )
     return float(value)
 
 
-def _number(built: Instantiation) -> Any:
-    value = getattr(built.root, "stop_time", None)
-    sx = getattr(value, "sx", None)
-    if sx is None or sx.numel() != 1:
-        return value
+def _number(sx: ca.SX, built: Instantiation, name: str) -> float:
+    """Return the value of a scalar of parameters."""
     known = built.parameters
-    function = ca.Function("stop", [ca.vertcat(ca.SX(0, 1), *known.symbols)], [ca.densify(sx)])
+    inputs = {s.element_hash() for s in known.symbols}
+    if sx.numel() != 1 or any(s.element_hash() not in inputs for s in ca.symvar(sx)):
+        what = "time" if sx.numel() == 1 else f"an array of shape {sx.shape}"
+        raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_MEND.format(name)}")
+    function = ca.Function("own", [ca.vertcat(ca.SX(0, 1), *known.symbols)], [ca.densify(sx)])
     return float(Call(function)(np.array(known.values))[0][0])
+
+
+def _shown(value: Any) -> str:
+    text = shown(value)
+    return f"a {type(value).__name__.lower()}" if text == "..." else text
+
+
+_MEND = "Let it follow from parameters and structural fields alone, or give a number: {}=..."

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.flatten.instantiate import walk
 from acausal.language.component import Component, Connector
 
 
@@ -19,21 +21,47 @@ def missing_text(compiled: CompiledModel, free: list[int]) -> str:
         "too few start values are fixed (the model itself is complete).",
         "Fix for instance:",
     ]
-    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled.tree, name) for name in names))[:10]]
+    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled, name) for name in names))[:10]]
     lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
     return "\n".join(lines)
 
 
-def _line(tree: Component, name: str) -> str:
-    """Return the constructor argument that would fix a state; a connector's state is fixed in the part that owns it."""
+def _line(compiled: CompiledModel, name: str) -> str:
+    """Return the constructor argument that would fix a state; a connector's state is fixed in a part that has it."""
     path = re.sub(r"\[[\d,]+\]$", "", name.removeprefix("der(").removesuffix(")"))
-    owner, rest = tree, path.split(".")
+    owner, rest = compiled.tree, path.split(".")
     while len(rest) > 1 and not isinstance(owner, Connector):
         owner = _member(owner, rest.pop(0))
     variable = ".".join(rest)
     words = type(owner).start_words.get(variable, f"{variable}=fixed(...)")
-    part = owner._owner if isinstance(owner, Connector) else owner
+    part = _taker(compiled, owner, variable, words.partition("=")[0]) if isinstance(owner, Connector) else owner
+    if part is None:
+        where = f"{type(compiled.tree).__name__}.initial_equations()"
+        shape = getattr(_value(owner, variable), "shape", ())
+        return f"{where}: yield self.{path} == {'(...)' if shape else '...'}"
     return f"{part._path or 'the model'}: {type(part).__name__}({words})"
+
+
+def _taker(compiled: CompiledModel, port: Connector, variable: str, field: str) -> Component | None:
+    """Return the owner of a port, or of one connected with it, that takes a field; None if no one does."""
+    if field in port._owner.fields:
+        return port._owner
+    others = [
+        (part, ca.vec(_value(other, variable).sx))
+        for part in walk(compiled.tree)
+        if field in part.fields
+        for other in part._ports
+        if type(other) is type(port)
+    ]
+    wanted = compiled.reduced.resolve(ca.vec(_value(port, variable).sx))
+    found = (part for part, sx in others if ca.is_equal(compiled.reduced.resolve(sx), wanted, 2))
+    return next(found, None)
+
+
+def _value(owner: Any, path: str) -> Any:
+    for name in path.split("."):
+        owner = _member(owner, name)
+    return owner
 
 
 def _member(owner: Component, text: str) -> Any:

@@ -188,3 +188,42 @@ def test_values_of_parameters(wrong):
             ac.compile(Outer())
     else:
         ac.compile(Outer())
+
+
+class Sliding(Model):
+    x: Scalar = variable("x", unit="m", start=0, fixed=True)
+    v: Scalar = parameter("speed", unit="m/s", default=1)
+    m: Scalar = parameter("mass", unit="kg", default=2)
+
+    def equations(self):
+        yield der(self.x) == self.v
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "right"),
+    [
+        ("stored_energy", lambda s: s.x, lambda s: s.m * s.v**2 / 2),
+        ("stored_energy", lambda s: s.m * s.v, lambda s: s.v**2 / 2),  # that of a unit mass
+        ("supplied_power", lambda s: s.m * s.v**2, lambda s: 9.81 * s.m * s.v),
+        ("dissipated_power", lambda s: s.x + 1, lambda s: 0),
+        ("seen", ac.observed(lambda s: s.x + s.x**2), ac.observed(lambda s: s.x + s.x**2 / s.x)),
+        ("seen", ac.observed(lambda s: s.v - s.x), ac.observed(lambda s: s.absent)),  # told to those who read it
+    ],
+)
+def test_energies_and_observed_quantities(name, wrong, right):
+    class Inside(Model):
+        part = type("Right", (Sliding,), {name: right})()
+        twin = type("Wrong", (Sliding,), {name: wrong})()
+
+    ac.compile(type("Right", (Sliding,), {name: right})())
+    with pytest.raises(UnitsError, match=r"twin \(Wrong\), .*test_unit_rules\.py:\d+: units differ"):
+        ac.compile(Inside())
+
+
+def test_an_observed_quantity_that_switches_is_no_part_of_the_model():
+    class Seen(Sliding):
+        @ac.observed
+        def seen(self):
+            return piecewise((self.x, self.x > 0.5), 0) + der(self.x) * 0
+
+    assert ac.simulate(Seen(), stop_time=1).stats["events"] == 0

@@ -209,6 +209,13 @@ BUILT = ac.compile(Named()).tree
             "`tip.frame_a` belongs to a component that is not",
         ),
         (lambda s: iter([connect(s.world.frame_b, BUILT.bar_1.frame_a)]), "bar_1.frame_a.*belongs to another model"),
+        (
+            lambda s: chain(s.world, s.joint, BodyShape.frame_a),
+            r"`frame_a` is read from a class, not from .*`part = \.\.\.`, and connect self\.part\.frame_a",
+        ),
+        (lambda s: iter([connect(s.world.frame_b, BodyShape.frame_a)]), "`frame_a` is read from a class"),
+        (lambda s: iter([branch(BodyShape.frame_a, s.tip.frame_b)]), "`frame_a` is read from a class"),
+        (lambda s: chain(s.world, Revolute, s.tip), r"Revolute is a class, no part .*`revolute = Revolute\(\.\.\.\)`"),
         (lambda s: iter([root(OTHER.tip.frame_a)]), "`tip.frame_a` belongs to a component"),
         (lambda s: iter([potential_root(s.tip)]), r"potential_root\(\) takes a port, but tip .* is none"),
         (lambda s: iter([branch(s.tip.frame_a, 3)]), r"branch\(\) relates two ports, but 3 is none"),

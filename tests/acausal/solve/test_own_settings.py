@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 import acausal as ac
-from acausal import DeclarationError, Model, Scalar, der, output, parameter, structural
+from acausal import DeclarationError, Model, Scalar, der, output, parameter, piecewise, structural
 from acausal.cli.app import app
 
 
@@ -147,3 +147,113 @@ def test_command_line(tmp_path):
     assert (rows(), rows("--intervals", "4")) == (11, 5)
     assert CliRunner().invoke(app, [*command, "--initial", "fixed"]).exit_code == 2
     assert CliRunner().invoke(app, ["linearize", command[1]]).exit_code == 0
+
+
+class Fields(Model):
+    end: Scalar = parameter("end", unit="s", default=0.5)
+    points: Scalar = parameter("points", default=8)
+    loose: Scalar = parameter("tolerance", default=1e-5)
+    way: str = structural("method", default="idas")
+    x: Scalar = output("x")
+    later: Scalar = output("x, later")
+
+    def equations(self):
+        yield der(self.x) == -self.x
+        yield self.later == self.x
+
+    def initial_equations(self):
+        yield self.x == 1
+
+
+class Same(Fields):
+    stop_time, tolerance, intervals, method = Fields.end, Fields.loose, Fields.points, Fields.way
+
+
+class Computed(Fields):
+    stop_time, tolerance, intervals = 2 * Fields.end, Fields.loose / 10, Fields.points + 2
+
+
+class Own(Fields):
+    late: Scalar = parameter("end", unit="s", default=0.5)
+    stop_time, tolerance = late, late * 1e-4
+    intervals = piecewise((4, late > 0.6), 6)
+
+
+@pytest.mark.parametrize(
+    ("model", "name", "before", "after"),
+    [
+        (Same, "end", (0.5, 9, 1e-5), (0.7, 9, 1e-5)),
+        (Computed, "end", (1.0, 11, 1e-6), (1.4, 11, 1e-6)),
+        (Own, "late", (0.5, 7, 5e-5), (0.7, 5, 7e-5)),
+    ],
+)
+def test_settings_that_follow_from_fields(model, name, before, after):
+    new = {name: 0.7}
+    assert told(model())[:3] == pytest.approx(before)
+    runs = [told(model(), parameters=new), told(ac.compile(model(), new)), told(model(**new))]
+    for run in [*runs, told(ac.compile(model()), parameters=new)]:
+        assert run[:3] == pytest.approx(after)
+
+
+def test_fields_under_a_second_name_follow_the_first_and_can_be_set():
+    assert told(Same(), parameters={"stop_time": 0.9, "points": 3, "loose": 1e-3})[:3] == (0.9, 4, 1e-3)
+    assert told(Same(end=0.7, stop_time=0.6))[0] == 0.6
+    assert ac.simulate(Same(), parameters={"way": "rosenbrock"}).stats["method"] == "rosenbrock"
+
+    class Twice(Fields):
+        gain: Scalar = parameter("gain", default=2.0)
+        again = gain
+
+        def equations(self):
+            yield der(self.x) == -self.x
+            yield self.later == self.again
+
+    def last(**values):
+        return ac.simulate(Twice(), stop_time=0.1, parameters=values)["later"][-1]
+
+    assert (last(), last(gain=3), last(again=4), last(gain=3, again=4)) == (2, 3, 4, 4)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "text"),
+    [
+        ("stop_time", 2 * Fields.x, "stop_time follows from the variable `x`. Let it follow from parameters"),
+        ("tolerance", Fields.x, "tolerance follows from the variable `x`"),
+        ("stop_time", 2 * ac.time, "stop_time of Wrong follows from time"),
+        ("stop_time", Fields.end - 1, r"stop_time of Wrong is -0\.5; it must be a number of seconds"),
+        ("stop_time", Fields.end > 2, "stop_time of Wrong is a condition; it must be"),
+        ("stop_time", property(lambda s: 2 * s.x), "stop_time follows from the variable `x`"),
+        ("stop_time", property(lambda s: 2 * s.endd), "has no `endd`; did you mean `end`"),
+        ("intervals", Fields.end * 3, r"intervals is 1\.5; it must be a whole number"),
+    ],
+)
+def test_what_a_setting_cannot_follow_from(name, value, text):
+    with pytest.raises(DeclarationError, match=text) as caught:
+        ac.simulate(type("Wrong", (Fields,), {"stop_time": 1, name: value})())
+    assert "object at" not in str(caught.value)
+
+
+def test_command_line_with_parameters(tmp_path):
+    (tmp_path / "decay.py").write_text(
+        "from acausal import Model, Scalar, der, output, parameter, variable\n\n"
+        "class Decay(Model):\n"
+        "    tt: Scalar = parameter('end', unit='s', default=0.5)\n"
+        "    stop_time = tt\n"
+        "    x: Scalar = variable('x', start=1, fixed=True)\n"
+        "    y: Scalar = output('y')\n\n"
+        "    def equations(self):\n"
+        "        yield der(self.x) == -self.x\n"
+        "        yield self.y == self.x\n\n"
+        "class Twice(Decay):\n"
+        "    stop_time = 2 * Decay.tt\n"
+    )
+    table = tmp_path / "out.csv"
+
+    def last(name, *settings):
+        options = [word for text in settings for word in ("--set", text)]
+        command = ["simulate", f"{tmp_path / 'decay.py'}:{name}", "--csv", str(table), "--quiet", *options]
+        assert CliRunner().invoke(app, command).exit_code == 0
+        return float(table.read_text().splitlines()[-1].split(",")[0])
+
+    assert (last("Decay"), last("Decay", "tt=0.7"), last("Decay", "stop_time=0.9")) == (0.5, 0.7, 0.9)
+    assert (last("Twice"), last("Twice", "tt=0.7")) == (1.0, 1.4)

@@ -1,0 +1,114 @@
+"""What is known of time before it comes: conditions that the clock decides, and instants that discrete variables plan."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.compiler.guards import Guards
+from acausal.solve.instant import Instants, Point
+
+APART = 1e-12  # of the time: less is no room for an integration
+# Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
+ADDED = 1e-11
+
+
+class Agenda:
+    """Conditions by the clock in one run.
+
+    Parameters
+    ----------
+    guards : Guards
+        Conditions of the model.
+    p : array
+        Parameter values.
+    times : array
+        Output times.
+    """
+
+    def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
+        self.guards, self.p, self.times = guards, p, times
+        self.near = APART * max(abs(float(times[0])), abs(float(times[-1])))
+        self.switches = [k < guards.n_switches for k in guards.timed]
+        self._plans = bool(guards.planned.function.numel_out(0))
+
+    def on(self, time: float, near: float = 0.0) -> np.ndarray:
+        """Which timed guards hold at a time; comparisons that would be 0 within the span `near` are 0."""
+        return self.guards.holds_at(self.p, time, near)[0] > 0.5
+
+    def between(self, begin: float, end: float) -> np.ndarray:
+        """Which timed guards hold between two breaks."""
+        return self.on((begin + end) / 2)
+
+    def modes(self, modes: np.ndarray, on: np.ndarray) -> np.ndarray:
+        """Return modes with the switches that the clock decides."""
+        modes = modes.copy()
+        for k, holds, switch in zip(self.guards.timed, on, self.switches, strict=True):
+            if switch:
+                modes[k] = holds
+        return modes
+
+    def fired(self, on: np.ndarray, before: np.ndarray) -> list[int]:
+        """Timed guards with jumps whose condition becomes true."""
+        known = zip(self.guards.timed, on, before, self.switches, strict=True)
+        return [k for k, holds, held, switch in known if holds and not held and not switch]
+
+    def at_start(self, at: Point, held: np.ndarray, instants: Instants) -> tuple[Point, list[int]]:
+        """Return the start with the watched conditions that held at that very instant, and the timed guards that act.
+
+        Parameters
+        ----------
+        at : Point
+            The first point, with the modes that hold after the start.
+        held : array of bool
+            Timed guards that hold after the start.
+        instants : Instants
+            Watched conditions.
+        """
+        on = self.on(float(self.times[0]), self.near)
+        known = zip(self.guards.timed, on | held, strict=True)
+        acts = [k for k, holds in known if holds and self.guards.guards[k].at_start]
+        if len(at.truth):
+            # Before the clock switches anything; what is but a rounding error away from its instant is there.
+            value, rate = instants.rates(replace(at, modes=self.modes(at.modes, on)))
+            slack = np.maximum(-rate, 0) * self.near
+            before = np.where(self._inclusive(at), value <= slack, value < -slack)
+            before &= ~np.array([self.guards.guards[k].at_start for k in self.guards.watched])
+            at = replace(at, truth=np.where(instants.is_switch, at.truth, before))
+        return at, sorted({*acts, *self.fired(held, on)})
+
+    def planned(self, at: Point, since: float) -> tuple[float, float] | None:
+        """Return the next instant later than `since` that discrete variables plan, and the output time that it is on.
+
+        That is the instant itself if no output is so near that rounding alone is between them.
+        """
+        if not self._plans:
+            return None
+        instants = self.guards.planned(self.p, at.modes)[0]
+        ahead = instants[np.isfinite(instants) & (instants > since)]
+        if not len(ahead):
+            return None
+        instant = float(np.min(ahead))
+        near = float(self.times[np.argmin(np.abs(self.times - instant))])
+        on_output = abs(near - instant) <= ADDED * abs(instant) and near > at.time
+        return instant, near if on_output else instant
+
+    def held_back(self, at: Point, instants: Instants) -> Point:
+        """Return a point at the stop time at which what becomes true only after it does not act.
+
+        `time > due` is not true where time is `due`: a run that goes on from there begins with that.
+        """
+        if not len(at.truth):
+            return at
+        value, rate = instants.rates(at)
+        later = ~self._inclusive(at) & ~instants.is_switch & (np.abs(value) <= -rate * 2 * self.near)
+        return replace(at, truth=at.truth | later)
+
+    def _inclusive(self, at: Point) -> np.ndarray:
+        """Which watched conditions hold where they are 0; where a planned comparison just changes, that tells."""
+        found = {k: self.guards.guards[k].inclusive for k in self.guards.watched}
+        for (k, inclusive), instant in zip(self.guards.plans, self.guards.planned(self.p, at.modes)[0], strict=True):
+            if abs(instant - at.time) <= 2 * self.near:
+                found[k] = inclusive
+        return np.array([found[k] for k in self.guards.watched], dtype=bool)
