@@ -88,6 +88,8 @@ def refined(
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
         power = powers(compiled, solver, x[some], z[some], t[some], modes)
+        if not np.all(np.isfinite(power)):
+            return given, False
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
         each, error = (np.diff(w[some], axis=0) for w in (fine, rough - fine))
         settled = bool(np.all(np.abs(error) / GAIN <= tolerance * np.mean(np.abs(each), axis=0)))
@@ -96,7 +98,7 @@ def refined(
         count = min(2 * count, last)
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
-    if not (settled and _seen(compiled, solver, rows, t[some], power)):
+    if not (settled and _seen(compiled, solver, rows, t[some] - t[0], power)):
         closer, known = between_rows(compiled, solver, rows, tolerance)
         if known or not np.all(agree):
             return given[0] + closer, known
@@ -119,19 +121,21 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
     found = np.full((n + 1, 2), np.inf)
     parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
     while n * parts <= MOST:
-        inside = _inside(rows, rates, np.arange(n * parts + 1) / parts)
-        power = powers(compiled, solver, *inside, modes)
-        before, found = found, work(inside[2], power, t)
+        xs, zs, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
+        power = powers(compiled, solver, xs, zs, t[0] + since, modes)
+        if not np.all(np.isfinite(power)):
+            break
+        before, found = found, work(since, power, t - t[0])
         scale = tolerance * np.mean(np.abs(power), axis=0) * (t[-1] - t[0])
         agreed = agreed + 1 if np.all(np.abs(found - before) / GAIN <= scale) else 0
-        if agreed == 2 and _seen(compiled, solver, rows, inside[2], power, rates):
+        if agreed == 2 and _seen(compiled, solver, rows, since, power, rates):
             return found, True
         parts *= 2
     return np.nan_to_num(found), False
 
 
 def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """States, algebraic unknowns nearly right, and times; s counts rows."""
+    """States, algebraic unknowns nearly right, and times since the first row; s counts rows."""
     x, z, t, _ = rows
     k = np.minimum(s.astype(int), len(t) - 2)
     u = (s - k)[:, None]
@@ -139,7 +143,7 @@ def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, n
     return (
         cubic(u, h, (x[k], x[k + 1]), (rates[k], rates[k + 1]))[0],
         z[k] + u * (z[k + 1] - z[k]),
-        t[k] + (u * h)[:, 0],
+        t[k] - t[0] + (u * h)[:, 0],
     )
 
 
@@ -151,7 +155,7 @@ def _seen(
     power: np.ndarray,
     rates: np.ndarray | None = None,
 ) -> bool:
-    """Whether a spline of the power is right beside its nodes."""
+    """Whether a spline of the power, over times since the first row, is right beside its nodes."""
     x, z, t, modes = rows
     s = (np.arange(1, PROBES + 1) * GOLDEN) % 1 * (len(t) - 1)
     if rates is None:
@@ -163,7 +167,8 @@ def _seen(
         rates = np.zeros(x.shape)
         rates[ends] = solver.rates(x[ends], z[ends], t[ends], many)
     probes = _inside((x, z, t, modes), rates, s)
-    missed = np.abs(make_interp_spline(times, power, 5)(probes[2]) - powers(compiled, solver, *probes, modes))
+    true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], modes)
+    missed = np.abs(make_interp_spline(times, power, 5)(probes[2]) - true)
     return bool(np.all(missed <= ALIKE * np.max(np.abs(power), axis=0)))
 
 
