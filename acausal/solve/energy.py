@@ -14,6 +14,7 @@ from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
 from acausal.solve.hermite import cubic
 from acausal.solve.initialize import algebraic
+from acausal.solve.looks import GOLDEN
 from acausal.solve.trace import Stretch
 
 # Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
@@ -25,7 +26,8 @@ GAIN = 20
 # Points beside the nodes where the power itself is looked at, and what a spline through nodes that are near enough to
 # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
 PROBES, ALIKE = 24, 1e-2
-GOLDEN = (5**0.5 - 1) / 2
+# Rows at which the stored energy is looked at.
+LOOKS = 9
 
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
@@ -66,7 +68,7 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def refined(
-    compiled: CompiledModel, solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float
+    compiled: CompiledModel, solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float, smooth: bool
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row, and whether it is known to the tolerance.
 
@@ -81,10 +83,13 @@ def refined(
     given : array, shape (n, 2)
         What the integrator found, in J.
     tolerance : float
-        Relative to the work between two nodes of a spline, taken positive and on average.
+        Relative to the work between two nodes of a spline, taken positive and on average, or to what is stored meanwhile.
+    smooth : bool
+        Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
     x, z, t, modes = rows
     count, last = min(FEWEST, len(t) - 1), len(t) - 1
+    least = tolerance * _exchanged(compiled, solver, rows) / len(t)
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
         power = powers(compiled, solver, x[some], z[some], t[some], modes)
@@ -92,13 +97,13 @@ def refined(
             return given, False
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
         each, error = (np.diff(w[some], axis=0) for w in (fine, rough - fine))
-        settled = bool(np.all(np.abs(error) / GAIN <= tolerance * np.mean(np.abs(each), axis=0)))
+        settled = bool(np.all(np.abs(error) / GAIN <= np.maximum(tolerance * np.mean(np.abs(each), axis=0), least)))
         if settled or len(some) == len(t):
             break
         count = min(2 * count, last)
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
-    if not (settled and _seen(compiled, solver, rows, t[some] - t[0], power)):
+    if smooth and not (settled and _seen(compiled, solver, rows, t[some] - t[0], power)):
         closer, known = between_rows(compiled, solver, rows, tolerance)
         if known or not np.all(agree):
             return given[0] + closer, known
@@ -118,7 +123,8 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
     z = solver(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
     rows, n, agreed = (x, z, t, modes), len(t) - 1, 0
     rates = solver.rates(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
-    found = np.full((n + 1, 2), np.inf)
+    found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
+    exchanged = _exchanged(compiled, solver, rows)
     parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
     while n * parts <= MOST:
         xs, zs, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
@@ -126,12 +132,22 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
         if not np.all(np.isfinite(power)):
             break
         before, found = found, work(since, power, t - t[0])
-        scale = tolerance * np.mean(np.abs(power), axis=0) * (t[-1] - t[0])
-        agreed = agreed + 1 if np.all(np.abs(found - before) / GAIN <= scale) else 0
+        scale = np.mean(np.abs(power), axis=0) * (t[-1] - t[0]) + exchanged
+        last, change = change, np.max(np.abs(found - before), axis=0)
+        # Between its steps an integrator is not smooth: then more points do not change less.
+        rough = np.all((change >= last / 4) & (change <= ALIKE * scale))
+        agreed = agreed + 1 if np.all(change / GAIN <= tolerance * scale) or rough else 0
         if agreed == 2 and _seen(compiled, solver, rows, since, power, rates):
             return found, True
         parts *= 2
     return np.nan_to_num(found), False
+
+
+def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
+    """By how much the stored energy varies: a power that is next to nothing need not be known to its own tolerance."""
+    x, z, t, modes = rows
+    some = np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int))
+    return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], modes)[0][0] for k in some]))
 
 
 def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -143,8 +143,8 @@ class Run:
             return at if self.integrator.rescue(grid) else self._shorter(at, grid)
         if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3):
             if self.density < self.densest:
-                needed = stretch.steps / (STEPS_A_ROW * (len(grid) - 1))
-                self.density = 4 ** int(np.ceil(np.log(max(needed, 4 * self.density)) / np.log(4)))
+                needed = max(4 * self.density, stretch.steps / (STEPS_A_ROW * (len(grid) - 1)))
+                self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
             elif len(grid) > 2:
                 self.block = max(1, (len(grid) - 1) // FINE)
             else:
@@ -154,7 +154,7 @@ class Run:
             crossing = self.locator.first(at, stretch, content=self.hasty)
         except TooCoarse:
             if self.density < self.densest:
-                self.density *= 4
+                self.density = min(self.densest, 4 * self.density)
             else:
                 self._warn_of_haste(at)
             return at

@@ -187,15 +187,26 @@ class Integrator:
         return True
 
     def attempt(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, max_steps: int, careful: bool
+        self,
+        times: np.ndarray,
+        x: np.ndarray,
+        z: np.ndarray,
+        modes: np.ndarray,
+        max_steps: int,
+        careful: bool,
+        works: bool = True,
     ) -> Stretch | None:
-        """Integrate from times[0] through all other times in one call; None where the integrator gives up."""
+        """Integrate from times[0] through all other times in one call; None where the integrator gives up.
+
+        Works are 0 where they are not asked for.
+        """
         c, trace = self.compiled, self.trace
         if not c.nx:
             return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
         parts = -(-FINE // (len(times) - 1)) if c.closing.size and not self.moves else 1
-        watts = self.settings.energy and not c.powers.is_zero()
+        works = works and self.settings.energy
+        watts = works and not c.powers.is_zero()
         if watts:
             more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
             parts, max_steps = parts * more, -(-max_steps // more)
@@ -203,7 +214,7 @@ class Integrator:
         span, n = times[-1] - times[0], len(times) - 1
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         way = (one_step if self.rings else multistep)(self, times, x, z, modes, max_steps, careful)
-        call = c.integrator(way.plugin, grid, way.options, self.settings.energy, self.moves)
+        call = c.integrator(way.plugin, grid, way.options, works, self.moves)
         x_size, z_size = way.sizes
         given = {"x0": x / x_size, "z0": z / z_size}
         given["p"] = np.concatenate([[times[0], span], self.hoisted, modes, x_size if way.plugin != "idas" else []])
@@ -222,7 +233,7 @@ class Integrator:
             self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
             return None
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
-        energy = out["qf"].reshape(n, 2).copy() if self.settings.energy else np.zeros((n, 2))
+        energy = out["qf"].reshape(n, 2).copy() if works else np.zeros((n, 2))
         states, algebraics = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
         self.worn = self._is_worn(times[1:], states, modes)
         if self.worn:
@@ -230,7 +241,7 @@ class Integrator:
         if watts and steps < n * (RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1):
             rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
             given = np.vstack([np.zeros((1, 2)), energy])
-            work, known = refined(c, self.consistent, rows, given, self.tolerance)
+            work, known = refined(c, self.consistent, rows, given, self.tolerance, steps < n)
             energy, self.rough = work[1:], self.rough or not known
         return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
 

@@ -229,7 +229,7 @@ class Locator:
         return self.row(at, time, stretch.x[0], stretch.z[0], stretch.modes)
 
     def _attempt(self, at: Point, a: Row, times: np.ndarray) -> Stretch | None:
-        tries = (self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, careful) for careful in (False, True))
+        tries = (self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, c, works=False) for c in (False, True))
         return next((stretch for stretch in tries if stretch is not None), None)
 
 

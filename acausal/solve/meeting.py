@@ -77,7 +77,10 @@ class _Search:
             if not found and passed and (later := self._inside(rows, k, 2.0)):
                 # Integrated again, they may come a little later than in the run.
                 found = list(self._meetings(later))[:1]
-            yield from ((min(time, float(rows.times[k + 1])), effect) for time, effect in found)
+            # Those that touch and part again on the same side did not turn the force over.
+            touched = len(found) == 1 and not passed and rows.distance[k + 1] > self.near
+            for time, effect in found if not touched else []:
+                yield min(time, float(rows.times[k + 1])), effect
 
     def _meetings(self, rows: _Rows) -> Iterator[tuple[float, float]]:
         for k in rows.suspects():
@@ -98,7 +101,7 @@ class _Search:
         self.looks += 1
         run, x, z, modes = self.integrator, rows.x[k], rows.z[k], rows.modes[k + 1]
         times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
-        tries = (run.attempt(times, x, z, modes, STEPS, careful) for careful in (False, True))
+        tries = (run.attempt(times, x, z, modes, STEPS, careful, works=False) for careful in (False, True))
         found: Stretch | None = next((stretch for stretch in tries if stretch is not None), None)
         if found is None:
             return None

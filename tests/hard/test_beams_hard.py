@@ -44,6 +44,7 @@ class Wire(Model):
 FORCE = 3 * EJ * 0.01  # 1 cm at the tip
 
 
+@pytest.mark.slow
 def test_frequencies_of_a_slender_beam():
     """Bending from 0.5 rad/s, stretch up to 1.8e6 rad/s in one matrix: four digits are left in the lowest ones."""
     found = 2 * np.pi * ac.linearize(Wire()).frequencies_hz[:3]
@@ -53,6 +54,7 @@ def test_frequencies_of_a_slender_beam():
     within("third frequency, relative", abs(found[2] / exact[2] - 1), 3e-3)
 
 
+@pytest.mark.slow
 def test_static_shape_of_a_slender_beam():
     result = ac.simulate(Wire(force=FORCE, stays=True), stop_time=1.0, tolerance=1e-6, intervals=4)
     v, slope = cantilever.tip_force_deflection(np.linspace(0, 1, 101), 1.0, EJ, FORCE)
@@ -62,6 +64,7 @@ def test_static_shape_of_a_slender_beam():
         within(f"slope {when}, of 0.015 rad", np.abs(found[k][:, 2] - slope).max() / 0.015, 1e-6 if k == 0 else 1e-4)
 
 
+@pytest.mark.slow
 def test_motion_of_a_slender_beam():
     """A quarter of the first vibration, against the modes of independent finite elements."""
     result = ac.simulate(Wire(force=FORCE), stop_time=3.0, tolerance=1e-6, intervals=30, method="auto")
@@ -104,6 +107,7 @@ def spun(reference: str, volumes: int) -> tuple[float, float]:
 SWINGING = 2 * 0.15 / (50 * 8)
 
 
+@pytest.mark.slow
 def test_spin_up_at_50():
     widest = []
     for volumes in (5, 10, 20, 40):
@@ -117,6 +121,7 @@ def test_spin_up_at_50():
     within("largest deflection, 20 against 40 volumes, relative", changes[-1] / widest[-1], 0.01)
 
 
+@pytest.mark.slow
 def test_spin_up_at_50_with_tangent_volumes():
     """Volumes on their root tangents lack the tension N within them: stable from N l^2 < EJ on, here 40 volumes."""
     tension, bending = 2767 * 7.299e-5 * 50**2 * 8**2 / 2, 6.895e10 * 8.214e-9
@@ -156,6 +161,7 @@ class RollUp(Model):
         yield self.load.torque[2] == 2 * np.pi * self.turns * 1.0
 
 
+@pytest.mark.slow
 def test_rolled_up_into_a_circle():
     """Each volume is bent exactly; what is left is its chord's length, so that the error falls with the square."""
     x, y, angle = cantilever.rolled_up(np.array([0.5, 1.0]), 1.0, 2 * np.pi)

@@ -30,6 +30,7 @@ class Undamped(FourBar):
     damper = Damper(d=0)
 
 
+@pytest.mark.slow
 def test_four_bar_for_1000_s():
     """A redundant loop; its energy is what the reference says in the angle of the crank."""
     result = ac.simulate(Undamped(), stop_time=1000.0, tolerance=1e-8, intervals=2000)
@@ -172,6 +173,7 @@ def test_bricard_for_100_s():
     within("first return less a tenth of the tenth, s", abs(at[at > 5][0] - at[at > 95][0] / 10), 0.05)
 
 
+@pytest.mark.slow
 def test_bricard_against_its_reference():
     result = ac.simulate(Bricard(), stop_time=20.0, tolerance=1e-9, intervals=20)
     within(

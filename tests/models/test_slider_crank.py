@@ -80,6 +80,7 @@ def test_dead_centre_and_full_turns_of_the_rigid_mechanism() -> None:
     assert result["slider_position"] == pytest.approx(exact, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_many_elements_pass_the_break() -> None:
     """Stiff elements: rounding of their forces moves accelerations more than a tolerance of initial values."""
     stats = run(0.75, tolerance=1e-5, intervals=150, rod_elements=32).stats

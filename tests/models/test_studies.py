@@ -18,6 +18,7 @@ def check(study: ac.Study) -> None:
     assert best.min() == pytest.approx(EXACT, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_spin_up_with_few_points() -> None:
     names = ("one frame, stiffened", "volumes, stiffened", "volumes of 2, stiffened")
     known = {form.name: form for form in formulations_of(SpinUp(), {})}

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+import pytest
 
 from acausal.structure import Block, block_triangular, levels
 
@@ -39,9 +38,10 @@ def test_no_equations_have_no_levels():
     assert levels([Block((0,), (0,))], [[0]], [])[0].linear
 
 
-@given(st.integers(1, 12), st.integers(0, 2**31))
-def test_each_level_needs_only_those_before_it_and_is_linear_if_it_says_so(n, seed):
+@pytest.mark.parametrize("seed", range(100))
+def test_each_level_needs_only_those_before_it_and_is_linear_if_it_says_so(seed):
     random = np.random.default_rng(seed)
+    n = int(random.integers(1, 13))
     rows = [sorted({k, *random.integers(0, n, random.integers(0, 4)).tolist()}) for k in range(n)]
     products = [(k, a, b) for k in range(n) for a, b in [random.choice(rows[k], 2).tolist()] if random.random() < 0.5]
     found = solved(rows, products)
