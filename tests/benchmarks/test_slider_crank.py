@@ -12,6 +12,7 @@ def own() -> slider_crank.Curves:
     return slider_crank.by_hand()
 
 
+@pytest.mark.slow
 def test_compiled_agrees_with_the_hand(own):
     (cost,) = slider_crank.compiled_costs({}, [1e-5], own, own, repeats=1)
     assert cost.own[0] < 2e-4

@@ -96,6 +96,7 @@ def check(texts, error, name="beam"):
 
 
 @pytest.mark.parametrize("kind", BEAMS)
+@pytest.mark.slow
 def test_tip_load_against_the_elastica(kind):
     for P in (0.1, 0.25, 0.4, 0.5, 1, 2, 3):
         texts, error = tip_error(BEAMS[kind](), P)
@@ -237,6 +238,7 @@ def free_end(result, clamped, free):
 
 @pytest.mark.parametrize("omega", [0.7, 1.4])
 @pytest.mark.parametrize(("scene", "ends"), [(SpinUp, ("frame_a", "frame_b")), (OtherWayRound, ("frame_b", "frame_a"))])
+@pytest.mark.slow
 def test_told_size_of_one_frame_that_turns(scene, ends, omega):
     formulation = {"formulation": "fem"} if scene is SpinUp else {}
     options = {"stop_time": 9.0, "tolerance": 1e-6}
@@ -268,6 +270,7 @@ class Translating(Model):
 
 @pytest.mark.parametrize("reference", ["tangent", "pinned"])
 @pytest.mark.parametrize("speed", [2, 7, 10])
+@pytest.mark.slow
 def test_coupler_that_does_not_turn(speed, reference):
     # Damped in proportion to stiffness, the first vibration is gone after a turn.
     section: dict = {"length": 1, "E": 7e10, "rho": 2700, "A": 1e-4, "J": 8e-11, "beta": 5e-3, "initial": "static"}
@@ -296,6 +299,7 @@ def test_pendulum(E):
     check(texts, np.abs(linear["tip_deflection"] - right).max() / np.abs(right).max())
 
 
+@pytest.mark.slow
 def test_slider_crank():
     options = {"stop_time": 0.7, "tolerance": 1e-6}
     texts, linear = doubts(SliderCrank(), **options)

@@ -182,6 +182,7 @@ def test_buckling(model, kind, critical):
     assert (below[0].imag / rest[0].imag) ** 2 == pytest.approx(1e-3, rel=0.6)
 
 
+@pytest.mark.slow
 def test_tension_raises_frequencies():
     k = np.arange(1, 3) * np.pi
     for force in (10.0, -5.0):
@@ -260,6 +261,7 @@ def test_a_moment_bends_into_an_arc():
     # The smallest tip deflection of the geometrically exact beam, from a program that shares no formula with this one.
     [(2.0, -0.280436), (4.0, -0.534167), (10.0, -1.083913)],
 )
+@pytest.mark.slow
 def test_spin_up(omega, smallest):
     extensions = {}
     for axial, shape, tolerance in (

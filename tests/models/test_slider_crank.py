@@ -40,6 +40,7 @@ def test_defaults_break_where_the_torque_does_and_cost_little(tolerance: float) 
     assert stats["steps"] < 4000
 
 
+@pytest.mark.slow
 def test_defaults_against_the_time_converged_equations_by_hand() -> None:
     exact = by_hand(build(), CONVERGED).outputs
     result = run()
@@ -53,6 +54,7 @@ def test_elastic_and_rigid_crank_nearly_coincide() -> None:
     assert rigid.stats["states"] < elastic.stats["states"]
 
 
+@pytest.mark.slow
 def test_deflection_converges_with_elements() -> None:
     """At the break, before ringing: the error falls by far with every doubling."""
     found = [run(0.7, intervals=70, rod_elements=n, tolerance=1e-8)["rod_mid_deflection"] for n in (1, 2, 4, 16)]

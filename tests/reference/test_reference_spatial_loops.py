@@ -39,6 +39,7 @@ def test_spatial_four_bar_published_motion():
     assert end == pytest.approx((7.802134, 9.361588), abs=2e-4)
 
 
+@pytest.mark.slow
 def test_spatial_four_bar_stays_closed_and_keeps_its_energy():
     mechanism = four_bar_spatial.loop()
     states = mechanism.simulate(np.linspace(0, 2.5, 11), mechanism.rates(0, 5.235987756))

@@ -120,6 +120,7 @@ def test_every_scene_is_measured():
 
 
 @pytest.mark.parametrize(("name", "accuracy"), QUICK)
+@pytest.mark.slow
 def test_accuracy_is_reached(name, accuracy):
     stats, true = measured(name, accuracy)
     assert stats["error_estimate"] <= accuracy
@@ -159,6 +160,7 @@ def test_elements_of_a_cantilever():
     assert numbers[0] < numbers[1]
 
 
+@pytest.mark.slow
 def test_volumes_of_the_spin_up():
     """-0.534167 m is the smallest deflection of the geometrically exact beam."""
     numbers = []

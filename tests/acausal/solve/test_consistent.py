@@ -220,8 +220,8 @@ def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
 
 
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [1, 2, 4, 5, 400])
-@pytest.mark.parametrize(("rate", "least"), [(100.0, 0.99), (100.0, 0.5), (51.0, 0.99), (32 * np.pi, 0.9999)])
+@pytest.mark.parametrize("intervals", [1, 4, 5, 400])
+@pytest.mark.parametrize(("rate", "least"), [(100.0, 0.5), (51.0, 0.99), (32 * np.pi, 0.9999)])
 def test_no_turn_of_a_guard_is_missed(rate, least, intervals, method):
     """Also where it turns by whole or half turns from one look to the next."""
     changes = {"rate": rate, "least": least}
@@ -235,8 +235,8 @@ def test_a_cosine_that_comes_round_from_output_to_output():
             yield der(self.x) == 1
             yield when(ac.cos(self.rate * self.x) < 0, reinit(self.n, self.n + 1))
 
-    result = ac.simulate(Round(), stop_time=40.0, parameters={"rate": 20 * np.pi}, method="idas")
-    assert result["n"][-1] == 400
+    result = ac.simulate(Round(), stop_time=10.0, intervals=100, parameters={"rate": 20 * np.pi}, method="idas")
+    assert result["n"][-1] == 100
 
 
 class Rings(Model):
