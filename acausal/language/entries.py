@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,13 +10,13 @@ import numpy as np
 from acausal.errors import DeclarationError
 
 
-def chosen(shown: str, shape: tuple[int, ...], index: Any) -> np.ndarray:
+def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.ndarray:
     """Return the places of the chosen entries, counted column by column, in the shape that they get.
 
     Parameters
     ----------
-    shown : str
-        The array, for messages.
+    show : function
+        Writes the array, for messages: a long text.
     shape : tuple of int
         Its shape; a scalar has one entry.
     index : int, slice or tuple of them
@@ -27,11 +28,11 @@ def chosen(shown: str, shape: tuple[int, ...], index: Any) -> np.ndarray:
         If this is no index, or lies outside of the array.
     """
     indices = index if isinstance(index, tuple) else (index,)
-    text = f"`{shown}[{', '.join(map(_written, indices))}]`"
     ends = [end for item in indices for end in _ends(item)]
     if any(isinstance(end, bool) or not isinstance(end, int | np.integer) for end in ends):
         raise DeclarationError(
-            f"{text}: entries of a symbol are chosen by whole numbers, which are known when the model is built. Declare what "
+            f"{_asked(show(), indices)}: entries of a symbol are chosen by whole numbers, which are known when the model is "
+            "built. Declare what "
             "chooses structural(...), or choose with piecewise((value, condition), ..., otherwise)."
         )
     # A scalar is its own entry 0, and a vector has one column.
@@ -42,8 +43,13 @@ def chosen(shown: str, shape: tuple[int, ...], index: Any) -> np.ndarray:
         for end in _bounds(item)
     )
     if not fits:
-        raise DeclarationError(f"{text} is outside of {shown}, {_extent(shown, shape)}.")
+        shown = show()
+        raise DeclarationError(f"{_asked(shown, indices)} is outside of {shown}, {_extent(shown, shape)}.")
     return np.arange(int(np.prod(shape))).reshape(whole, order="F")[index]
+
+
+def _asked(shown: str, indices: tuple[Any, ...]) -> str:
+    return f"`{shown}[{', '.join(map(_written, indices))}]`"
 
 
 def _ends(item: Any) -> list[Any]:

@@ -73,8 +73,10 @@ class Expr(Symbolic):
         return self.sx.shape[0]
 
     def __getitem__(self, index: Any) -> Expr:
-        places = chosen(_short(self), self.shape, index)
-        sx = ca.reshape(self.sx[places.ravel(order="F").tolist()], *(places.shape or (1,)), *(1,) * (places.ndim < 2))
+        places = chosen(self._shown, self.shape, index)
+        sx = self.sx[places.ravel(order="F").tolist()]
+        if places.ndim == 2:
+            sx = ca.reshape(sx, *places.shape)
         unit: Unit = self.unit if isinstance(self.unit, Dimension) else None
         if isinstance(self.unit, tuple) and not isinstance(index, tuple):
             unit = self.unit[index]  # type: ignore[assignment]
