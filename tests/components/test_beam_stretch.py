@@ -114,6 +114,7 @@ def frequencies(model: Model) -> np.ndarray:
 
 
 @pytest.mark.parametrize("geometric_stiffness", [False, True])
+@pytest.mark.slow
 def test_frequencies_along(geometric_stiffness):
     exact = cantilever.axial_frequencies(2.0, 1.0, 100.0, 2)
     kind = {"geometric_stiffness": geometric_stiffness, "elements": 8}
@@ -145,6 +146,7 @@ class Hinged(Model):
 
 
 @pytest.mark.parametrize("geometric_stiffness", [False, True])
+@pytest.mark.slow
 def test_frequencies_of_a_rayleigh_beam(geometric_stiffness):
     k = np.arange(1, 4) * np.pi
     kind = {"geometric_stiffness": geometric_stiffness, "rotary_inertia": True}

@@ -176,6 +176,7 @@ def elastic(tolerance: float) -> float:
 
 
 @pytest.mark.parametrize("case", [simple, loop, elastic], ids=lambda case: case.__name__)
+@pytest.mark.slow
 def test_error_falls_with_tolerance(case):
     errors = [case(tolerance) for tolerance in TOLERANCES]
     for tolerance, error in zip(TOLERANCES, errors, strict=True):

@@ -142,6 +142,7 @@ def long_study(tmp_path):
     return [*command, "--tolerances", tolerances, "--max-orders", "auto,2"]
 
 
+@pytest.mark.slow
 def test_an_interrupted_study_goes_on(tmp_path):
     command, journal = long_study(tmp_path), tmp_path / "a.csv.journal"
     run = subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True)

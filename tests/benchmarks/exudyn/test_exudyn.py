@@ -74,6 +74,7 @@ def test_front_and_equal_error(tmp_path):
     assert (tmp_path / "picture.png").stat().st_size > 1000
 
 
+@pytest.mark.slow
 def test_our_curves_compile():
     for scene in SCENES[-2:]:
         ac.compile(scene.model(**scene.curves[2].options), scene.curves[2].parameters)
