@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import sys
+from collections.abc import Iterator
 from threading import get_ident
 from typing import Any
 
@@ -26,6 +27,14 @@ class _Noise(io.StringIO):
         if get_ident() == self._thread:
             return super().write(text)
         return self._others.write(text) if self._others else len(text)
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[io.StringIO]:
+    """Keep from the terminal what solvers write, and from solvers the interrupts that they would take for failures."""
+    noise = _Noise()
+    with Signals(), contextlib.redirect_stderr(noise):
+        yield noise
 
 
 class Call:
@@ -55,20 +64,24 @@ class Call:
         self.evaluate()
         return self.outputs
 
-    def attempt(self) -> tuple[bool, str]:
-        """Evaluate in place; return whether that worked, and what the solver complained about.
-
-        What is not reached, because of a failure or an interrupt, is NaN in the outputs.
-        """
+    def clear(self) -> None:
+        """Make all outputs NaN: those that an evaluation does not reach, because of a failure or an interrupt, stay so."""
         for array in self.outputs:
             array.fill(np.nan)
-        noise = _Noise()
+
+    def succeeds(self) -> bool:
+        """Evaluate in place, and return whether that worked."""
         try:
-            with Signals(), contextlib.redirect_stderr(noise):
-                self.evaluate()
+            self.evaluate()
         except RuntimeError:
-            return False, noise.getvalue()
-        return not self.buffer.ret(), noise.getvalue()
+            return False
+        return not self.buffer.ret()
+
+    def attempt(self) -> tuple[bool, str]:
+        """Evaluate in place; return whether that worked, and what the solver complained about."""
+        with quiet() as noise:
+            done = self.succeeds()
+        return done, noise.getvalue()
 
     @property
     def stats(self) -> dict:

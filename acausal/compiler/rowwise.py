@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.call import Call
+from acausal.compiler.call import Call, quiet
 
 # Times in one call.
 AT_ONCE = 16
@@ -41,13 +41,14 @@ class Rowwise:
         if size not in self._calls:
             self._calls[size] = Call(self.function.map(size))
         call = self._calls[size]
-        found = np.empty((n, self.function.nnz_out(0)))
-        for first in range(0, n, size):
-            rows = np.minimum(np.arange(first, first + size), n - 1)
-            given = (x[rows], z[rows], np.tile(p, size), t[rows], modes[rows])
-            for array, value in zip(call.inputs, given, strict=True):
-                array[:] = value.ravel()
-            done, _ = call.attempt()
-            here = found[first : first + size]
-            here[:] = call.outputs[0].reshape(size, -1)[: len(here)] if done else np.nan
+        found = np.full((n, self.function.nnz_out(0)), np.nan)
+        with quiet():
+            for first in range(0, n, size):
+                rows = np.minimum(np.arange(first, first + size), n - 1)
+                given = (x[rows], z[rows], np.tile(p, size), t[rows], modes[rows])
+                for array, value in zip(call.inputs, given, strict=True):
+                    array[:] = value.ravel()
+                if call.succeeds():
+                    here = found[first : first + size]
+                    here[:] = call.outputs[0].reshape(size, -1)[: len(here)]
         return found

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from acausal.solve.hermite import coefficients, cubic
+
 
 @dataclass(frozen=True)
 class Sides:
@@ -35,7 +37,7 @@ def dips(sides: Sides) -> tuple[np.ndarray, np.ndarray]:
     h = np.diff(sides.times)[:, None]
     a, b = sides.value[:-1], sides.value[1:]
     da, db = sides.rate[:-1] * h, sides.rate[1:] * h
-    c3, c2 = 2 * a - 2 * b + da + db, 3 * (b - a) - 2 * da - db
+    c3, c2 = coefficients(a, b, da, db)
     least = np.minimum(a, b)
     root = np.sqrt(np.maximum(c2**2 - 3 * c3 * da, 0.0))
     for sign in (1.0, -1.0):
@@ -54,13 +56,7 @@ def _errors(sides: Sides) -> np.ndarray:
         return error
     t, g, d = sides.times[:, None], sides.value, sides.rate
     h = t[2:] - t[:-2]
-    s = (t[1:-1] - t[:-2]) / h
-    middle = (
-        (1 + 2 * s) * (1 - s) ** 2 * g[:-2]
-        + s * (1 - s) ** 2 * h * d[:-2]
-        + s**2 * (3 - 2 * s) * g[2:]
-        - s**2 * (1 - s) * h * d[2:]
-    )
+    middle, _ = cubic((t[1:-1] - t[:-2]) / h, h, (g[:-2], g[2:]), (d[:-2], d[2:]))
     inner = np.abs(middle - g[1:-1])
     error[0], error[-1] = inner[0], inner[-1]
     error[1:-1] = np.maximum(inner[:-1], inner[1:])
@@ -71,7 +67,7 @@ def root(times: tuple[float, float], value: tuple[float, float], rate: tuple[flo
     """Return where the cubic through two points is 0; its values there are positive and not positive."""
     h = times[1] - times[0]
     (a, b), (da, db) = value, (rate[0] * h, rate[1] * h)
-    c3, c2 = 2 * a - 2 * b + da + db, 3 * (b - a) - 2 * da - db
+    c3, c2 = coefficients(a, b, da, db)
     if b >= 0:
         return times[1]
     return times[0] + h * float(brentq(lambda s: ((c3 * s + c2) * s + da) * s + a, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]

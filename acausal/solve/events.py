@@ -92,7 +92,7 @@ class Run:
         """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
         plan = self.agenda.planned(at, at.time - self.agenda.near)
         new = self._happen(at, event=False, fired=fired, modes=modes)
-        self.integrator.trace.put(-1, new.x, new.z, new.modes)
+        self.integrator.trace.put(-1, x=new.x, z=new.z, modes=new.modes)
         before = at if modes is None else replace(at, modes=modes)
         acted = any((getattr(new, name) != getattr(before, name)).any() for name in ("x", "modes", "truth"))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
@@ -116,21 +116,21 @@ class Run:
             with suppress(Cycling, InitializationError, Failure):  # laws without values there hold for nobody
                 # What acts is kept from becoming true.
                 new = self.instants.settle(replace(at, truth=at.truth | acts), modes=modes, due=acts)[0]
-                self.integrator.trace.put(-1, new.x, new.z, new.modes)
+                self.integrator.trace.put(-1, x=new.x, z=new.z, modes=new.modes)
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
             while at.time < end:
                 grid = self._grid(at.time, end)
-                x, z = self.integrator.segment(grid, at.x, at.z, at.modes)
-                at = replace(at, time=float(grid[-1]), x=x, z=z, modes=self.integrator.trace.modes[-1][-1])
+                last = self.integrator.segment(grid, at.x, at.z, at.modes)
+                at = replace(at, time=float(grid[-1]), x=last.x, z=last.z, modes=last.modes)
                 self.block *= 2
         while at.time < end:
             instant, row = self.agenda.planned(at, at.time + self.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)
             if row <= end and target - self.locator.shortest <= at.time:
-                self.integrator.trace.times[-1][-1] = row
+                self.integrator.trace.put(-1, times=np.array(row))
                 at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
@@ -161,7 +161,7 @@ class Run:
         except Failure:
             return self._shorter(at, grid)
         if crossing is None:
-            self.integrator.keep(stretch)
+            self.integrator.trace.add(stretch)
             self.block *= 2
             self.piece *= 2
             return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
@@ -212,7 +212,7 @@ class Run:
                 continue
             if crossing:
                 return self._event(at, stretch, crossing)
-            self.integrator.keep(stretch)
+            self.integrator.trace.add(stretch)
             return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
         here = self.locator.row(at, at.time, at.x, at.z, at.modes)
         due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
@@ -234,7 +234,7 @@ class Run:
         label = float(near) if on_output and near > at.time else after.time
         n = int(np.searchsorted(stretch.times, min(label, after.time)))
         if n:
-            self.integrator.keep(stretch.rows(0, n))
+            self.integrator.trace.add(stretch.rows(0, n))
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
         last = (stretch.times[n - 1], stretch.x[n - 1], stretch.z[n - 1]) if n else (at.time, at.x, at.z)
         time, x, z = (np.array(pair) for pair in zip(last, (after.time, after.x, after.z), strict=True))
@@ -242,7 +242,7 @@ class Run:
         reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, modes=after.modes)
         new = self._happen(reached, event=True, crossed=out, label=label, energy=gained)
         if on_output and near == at.time:
-            self.integrator.trace.put(-2, new.x, new.z, new.modes)
+            self.integrator.trace.put(-2, x=new.x, z=new.z, modes=new.modes)
         self.block = 1
         if self.density > DENSEST:
             # Where there are many looks to an interval, there are many events: look no further than a few.
@@ -276,7 +276,7 @@ class Run:
             gained = gained + np.array([max(change, 0.0), max(-change, 0.0)])
         if event:
             time = np.array([at.time if label is None else label])
-            self.integrator.keep(Stretch(time, new.x[None], new.z[None], gained[None], new.modes, 0))
+            self.integrator.trace.add(Stretch(time, new.x[None], new.z[None], gained[None], new.modes, 0))
         self.integrator.trace.spend(np.zeros(2) if event else gained)
         return new
 

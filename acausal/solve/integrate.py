@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
 from acausal.solve.consistent import Consistent
 from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.interrupted import keep_reached
-from acausal.solve.methods import multistep, one_step, rounding
+from acausal.solve.methods import Way, multistep, one_step, rounding
 from acausal.solve.passage import HOPELESS, LONG, creep
 from acausal.solve.projection import WORN, choose_projection, worn
-from acausal.solve.trace import Stretch, Trace
+from acausal.solve.trace import Rows, Stretch, Trace
 
 CHUNKS = 25
 # Times in a call at which at least the choice of states is looked at.
@@ -86,10 +87,8 @@ class Integrator:
         self._floor: np.ndarray | None = None
         self.tolerance = settings.tolerance
 
-    def segment(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Integrate from times[0] through all other times, without a break between them; return the last point.
+    def segment(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Rows:
+        """Integrate from times[0] through all other times, without a break between them; return the last row.
 
         Raises
         ------
@@ -97,22 +96,22 @@ class Integrator:
             If the integrator gives up; the trace holds what was reached.
         """
         if not self.compiled.nx:
-            self.keep(self._solve_everywhere(times, z, modes))
-            return self.last()
+            self.trace.add(self._solve_everywhere(times, z, modes))
+            return self.trace.last()
         n = self.outputs = len(times) - 1
         while not (done := self._call(times, x, z, modes, self.patience(times), careful=False)) and self.rescue(times):
             pass
         if done:
-            return self.last()
+            return self.trace.last()
         self.rings = self.settings.method == "rosenbrock"
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
             if not self._call(part, x, z, modes, HOPELESS // (len(part) - 1)):
                 creep(self, part, x, z, modes)
-            x, z = self.last()
+            _, x, z, *_ = self.trace.last()
             self.report(part[-1])
-        return x, z
+        return self.trace.last()
 
     def rounding(self, x: np.ndarray, z: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
         """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
@@ -183,7 +182,7 @@ class Integrator:
         stretch = self.attempt(times, x, z, modes, max_steps, careful)
         if stretch is None:
             return False
-        self.keep(stretch)
+        self.trace.add(stretch)
         return True
 
     def attempt(
@@ -200,18 +199,17 @@ class Integrator:
 
         Works are 0 where they are not asked for.
         """
-        c, trace = self.compiled, self.trace
+        c = self.compiled
         if not c.nx:
             return self._solve_everywhere(times, z, modes)
         x, z, modes = self._choose(times[0], x, z, modes)
         parts = -(-FINE // (len(times) - 1)) if c.closing.size and not self.moves else 1
         works = works and self.settings.energy
-        watts = works and not c.powers.is_zero()
-        if watts:
+        if works and not c.powers.is_zero():
             more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
             parts, max_steps = parts * more, -(-max_steps // more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
-        span, n = times[-1] - times[0], len(times) - 1
+        span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         way = (one_step if self.rings else multistep)(self, times, x, z, modes, max_steps, careful)
         call = c.integrator(way.plugin, grid, way.options, works, self.moves)
@@ -221,28 +219,36 @@ class Integrator:
         for k, name in enumerate(call.function.name_in()):
             if name in given:
                 call.inputs[k][:] = given[name]
-        started = clock.perf_counter()
+        call.clear()
         try:
-            done, self.complaint = call.attempt()
+            return self._outcome(call, way, x, z, times, modes, parts)
         except KeyboardInterrupt:
-            keep_reached(self, call, times, modes, x_size, z_size, parts)
+            keep_reached(self, call, way, times, modes, parts)
             raise
+
+    def _outcome(
+        self, call: Call, way: Way, x: np.ndarray, z: np.ndarray, times: np.ndarray, modes: np.ndarray, parts: int
+    ) -> Stretch | None:
+        """Evaluate a call, and return one row in so many that hold; None where it failed or went astray."""
+        c, trace, n = self.compiled, self.trace, len(times) - 1
+        started = clock.perf_counter()
+        done, self.complaint = call.attempt()
         trace.seconds += clock.perf_counter() - started
         steps = trace.count(call.stats, way.plugin)
         if not done:
             self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
             return None
-        out = dict(zip(call.function.name_out(), call.outputs, strict=True))
-        energy = out["qf"].reshape(n, 2).copy() if works else np.zeros((n, 2))
-        states, algebraics = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
+        states, algebraics, energy = way.rows(call)
         self.worn = self._is_worn(times[1:], states, modes)
         if self.worn:
             return None
-        if watts and steps < n * (RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1):
+        few = RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1
+        if energy is not None and not c.powers.is_zero() and steps < n * few:
             rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
             given = np.vstack([np.zeros((1, 2)), energy])
             work, known = refined(c, self.consistent, rows, given, self.tolerance, steps < n)
             energy, self.rough = work[1:], self.rough or not known
+        energy = np.zeros((n, 2)) if energy is None else energy
         return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
 
     def _settled(self, stretch: Stretch) -> Stretch | None:
@@ -259,20 +265,6 @@ class Integrator:
             self.worn = bool(self.compiled.closing.size)
             return None
         return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
-
-    def keep(self, stretch: Stretch) -> None:
-        """Append rows to the trace; integrals of power go on from the last one."""
-        trace = self.trace
-        before = trace.energy[-1][-1] if trace.energy else trace.before
-        trace.times.append(stretch.times)
-        trace.x.append(stretch.x)
-        trace.z.append(stretch.z)
-        trace.energy.append(before + stretch.energy)
-        trace.modes.append(np.broadcast_to(stretch.modes, (len(stretch.times), len(stretch.modes))))
-
-    def last(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return states and algebraic unknowns of the last row."""
-        return self.trace.x[-1][-1], self.trace.z[-1][-1]
 
     def report(self, time: float) -> None:
         """Tell the progress."""

@@ -11,20 +11,20 @@ from acausal.solve.trace import Stretch
 
 if TYPE_CHECKING:
     from acausal.solve.integrate import Integrator
+    from acausal.solve.methods import Way
 
 
 def keep_reached(
     integrator: Integrator,
     call: Call,
+    way: Way,
     times: np.ndarray,
     modes: np.ndarray,
-    x_size: np.ndarray | float,
-    z_size: np.ndarray | float,
     parts: int,
 ) -> None:
     """Keep the rows that an interrupted call had written.
 
-    An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.attempt`.
+    An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.clear`.
 
     Parameters
     ----------
@@ -32,32 +32,35 @@ def keep_reached(
         Its trace gets the rows.
     call : Call
         The interrupted call.
+    way : Way
+        How it integrates.
     times : array
         Its start and output times.
     modes : array
         Constants of the segment.
-    x_size, z_size : array or float
-        Units in which the call counts states and algebraic unknowns.
     parts : int
         One row in so many is kept.
     """
-    c, trace = integrator.compiled, integrator.trace
-    end = trace.times[-1][-1] if trace.times else integrator.span[0]
+    trace = integrator.trace
+    end = trace.last().times if trace.pieces else integrator.span[0]
     if not np.isclose(times[0], end, rtol=1e-9, atol=1e-9 * (integrator.span[1] - integrator.span[0])):
         return  # a trial on the way: what comes before it is not in the trace
-    out = dict(zip(call.function.name_out(), call.outputs, strict=True))
-    n = len(times) - 1
-    x, z = out["xf"].reshape(n, c.nx) * x_size, out["zf"].reshape(n, c.nz) * z_size
-    energy = out["qf"].reshape(n, 2) if integrator.settings.energy else np.zeros((n, 2))
+    x, z, energy = way.rows(call)
+    if energy is None:
+        if integrator.settings.energy:
+            return  # a trial, without works
+        energy = np.zeros((len(x), 2))
     whole = np.isfinite(x).all(axis=1) & np.isfinite(z).all(axis=1) & np.isfinite(energy).all(axis=1)
-    reached = Stretch(times[1:], x, z, energy.copy(), modes, 0).rows(0, _leading(whole)).every(parts)
+    reached = Stretch(times[1:], x, z, energy, modes, 0).rows(0, _leading(whole)).every(parts)
     if not len(reached.times) or integrator._is_worn(reached.times, reached.x, modes):
         return
     given = dict(zip(call.function.name_in(), call.inputs, strict=True))
-    start = Stretch(times[:1], given["x0"][None] * x_size, given["z0"][None] * z_size, np.zeros((1, 2)), modes, 0)
+    start = Stretch(
+        times[:1], given["x0"][None] * way.sizes[0], given["z0"][None] * way.sizes[1], np.zeros((1, 2)), modes, 0
+    )
     before = reached.rows(0, _before_event(integrator, start, reached))
     if len(before.times):
-        integrator.keep(before)
+        trace.add(before)
 
 
 def _leading(holds: Any) -> int:

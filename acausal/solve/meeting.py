@@ -120,7 +120,7 @@ def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
         Where the run began.
     """
     stated = separations(integrator.compiled).stated
-    if not stated or not integrator.trace.times:
+    if not stated or not integrator.trace.pieces:
         return None
     kept, integrator.trace = integrator.trace, Trace()
     found, column = [], 0
@@ -136,9 +136,8 @@ def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
 
 
 def _search(search: _Search, first: Point, trace: Trace, text: str) -> list[Meeting]:
-    ends = ((first.x, trace.x), (first.z, trace.z), (first.modes, trace.modes))
-    x, z, modes = (np.vstack([one[None], *rest]) for one, rest in ends)
-    rows = search.rows(np.concatenate([[first.time], *trace.times]), x, z, modes)
+    t, x, z, _, modes = trace.rows(first)
+    rows = search.rows(t, x, z, modes)
     search.near = NEAR * float(np.max(rows.distance))
     least, n = NOTHING * float(np.max(np.abs(rows.effect))), len(rows.times)
     everywhere = n <= FEW and trace.steps > STEPS_A_ROW * n

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
 from acausal.compiler.dae import UNSEEN
 
 if TYPE_CHECKING:
@@ -33,6 +34,13 @@ class Way:
     plugin: str
     options: dict[str, Any]
     sizes: tuple[np.ndarray, float]
+
+    def rows(self, call: Call) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+        """Return states, algebraic unknowns and integrals of power that a call has found; None where it has no such."""
+        out = dict(zip(call.function.name_out(), call.outputs, strict=True))
+        n = call.function.size2_out("xf")
+        x, z = out["xf"].reshape(n, -1) * self.sizes[0], out["zf"].reshape(n, -1) * self.sizes[1]
+        return x, z, out["qf"].reshape(n, 2).copy() if out["qf"].size else None
 
 
 def multistep(

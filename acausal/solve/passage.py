@@ -24,8 +24,8 @@ def creep(run: Integrator, times: np.ndarray, x: np.ndarray, z: np.ndarray, mode
         stretch = passage(run, here, x, z, modes, hard=True)
         if stretch is None:
             raise run.failure(*here)
-        run.keep(stretch)
-        x, z = run.last()
+        run.trace.add(stretch)
+        x, z = stretch.x[-1], stretch.z[-1]
 
 
 def passage(

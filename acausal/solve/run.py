@@ -82,11 +82,10 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
             events.go(at)
         except (Failure, Chattering, KeyboardInterrupt) as caught:
             failure = caught
-        reached = np.vstack([at.x[None], *integrator.trace.x])
         fitting = (
             None
             if isinstance(failure, KeyboardInterrupt)
-            else smaller_sizes(compiled, reached, nominal, task.tolerance, span)
+            else smaller_sizes(compiled, integrator.trace.rows(at).x, nominal, task.tolerance, span)
         )
         if fitting is None:
             break
@@ -164,11 +163,7 @@ def _result(
     stats: dict[str, Any],
     energy: bool,
 ) -> Result:
-    trace = run.trace
-    t = np.concatenate([[first.time], *trace.times])
-    x = np.vstack([first.x[None], *trace.x])
-    z = np.vstack([first.z[None], *trace.z])
-    modes = np.vstack([first.modes[None], *trace.modes])
+    t, x, z, works, modes = run.trace.rows(first)
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
     stats["doubts"] = doubts(compiled, evaluate) + broken_promises(run, evaluate)
@@ -177,7 +172,7 @@ def _result(
             caution(ROUGH)
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
-        supplied, dissipated = trace.energy[-1][-1] if trace.energy else (0.0, 0.0)
+        supplied, dissipated = works[-1]
         change = held[1] - held[0]
         stats |= {
             "energy_supplied": float(supplied),
@@ -195,15 +190,15 @@ def _failure_text(run: Integrator, first: Point, failure: Failure) -> str:
     compiled, p, trace = run.compiled, run.p, run.trace
     x, at, modes = first.x, first.time, first.modes
     lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
-    if trace.x:
-        x, z, modes = trace.x[-1][-1], trace.z[-1][-1], trace.modes[-1][-1]
-        at = float(trace.times[-1][-1])
+    if trace.pieces:
+        last = trace.last()
+        at, x, z, modes = float(last.times), last.x, last.z, last.modes
         rates = compiled.values(x, z, p, at, modes, 0.0)[0][: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
         lines.append(f"Until t = {at:.6g} s all is well; what changes fastest there: {names}.")
     left: Any = compiled.cache.get("redundancy")
-    if is_singular(compiled, x, p, at, modes) or (left and left.singular and not trace.x):
+    if is_singular(compiled, x, p, at, modes) or (left and left.singular and not trace.pieces):
         lines.append(
             "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "
             "on which branch they go on, and forces have no value. Start 0.01 rad beside it, give a velocity with which they "

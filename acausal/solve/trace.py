@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from acausal.solve.instant import Point
+
+
+class Rows(NamedTuple):
+    """Rows at times: states, algebraic unknowns, integrals of supplied and dissipated power, modes."""
+
+    times: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    energy: np.ndarray
+    modes: np.ndarray
 
 
 @dataclass
 class Trace:
-    """What was integrated: rows of states, algebraic unknowns, integrals of supplied and dissipated power, modes."""
+    """What was integrated: rows in pieces, each added or exchanged whole, so that an interrupt never finds a part."""
 
-    times: list[np.ndarray] = field(default_factory=list)
-    x: list[np.ndarray] = field(default_factory=list)
-    z: list[np.ndarray] = field(default_factory=list)
-    energy: list[np.ndarray] = field(default_factory=list)
-    modes: list[np.ndarray] = field(default_factory=list)
+    pieces: list[Rows] = field(default_factory=list)
     steps: int = 0
     factorisations: int = 0
     residual_evaluations: int = 0
@@ -31,14 +41,19 @@ class Trace:
         names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds")
         return Trace(**{name: getattr(self, name) for name in names}, methods=dict(self.methods))
 
+    def rows(self, first: Point) -> Rows:
+        """Return all rows, the point of the start before them."""
+        start = Rows(np.array([first.time]), first.x[None], first.z[None], np.zeros((1, 2)), first.modes[None])
+        return Rows(*(np.concatenate(columns) for columns in zip(start, *self.pieces, strict=True)))
+
+    def last(self) -> Rows:
+        """Return the last row; there must be one."""
+        return Rows(*(column[-1] for column in self.pieces[-1]))
+
     def until(self, time: float) -> Trace:
         """Return the rows before a time, with the same counts."""
-        cut = replace(self, times=[], x=[], z=[], energy=[], modes=[])
-        for *rows, t in zip(self.x, self.z, self.energy, self.modes, self.times, strict=True):
-            n = int(np.searchsorted(t, time))
-            for kept, values in zip((cut.x, cut.z, cut.energy, cut.modes, cut.times), (*rows, t), strict=True):
-                kept += [values[:n]] * (n > 0)
-        return cut
+        cut = [Rows(*(column[: np.searchsorted(piece.times, time)] for column in piece)) for piece in self.pieces]
+        return replace(self, pieces=[piece for piece in cut if len(piece.times)])
 
     def count(self, stats: dict, plugin: str) -> int:
         """Add the counts of a call, and return its steps."""
@@ -51,16 +66,23 @@ class Trace:
         self.methods[plugin] = self.methods.get(plugin, 0) + steps
         return steps
 
-    def put(self, call: int, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> None:
-        """Put other values into the last row of a call, if there is one."""
-        if len(self.x) >= -call:
-            self.x[call][-1], self.z[call][-1] = x, z
-            self.modes[call] = np.vstack([self.modes[call][:-1], modes])
+    def add(self, stretch: Stretch) -> None:
+        """Append rows; integrals of power go on from the last one."""
+        energy = stretch.energy + (self.last().energy if self.pieces else self.before)
+        modes = np.broadcast_to(stretch.modes, (len(stretch.times), len(stretch.modes)))
+        self.pieces.append(Rows(stretch.times, stretch.x, stretch.z, energy, modes))
+
+    def put(self, piece: int, **values: np.ndarray) -> None:
+        """Put other values into the last row of a piece, if there is one."""
+        if len(self.pieces) >= -piece:
+            rows = self.pieces[piece]
+            given = {name: np.concatenate([getattr(rows, name)[:-1], value[None]]) for name, value in values.items()}
+            self.pieces[piece] = rows._replace(**given)
 
     def spend(self, energy: np.ndarray) -> None:
         """Add supplied and dissipated energy to all that follows, and to the last row."""
-        if self.energy:
-            self.energy[-1][-1] += energy
+        if self.pieces:
+            self.put(-1, energy=self.last().energy + energy)
         else:
             self.before = self.before + energy
 

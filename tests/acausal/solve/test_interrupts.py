@@ -1,0 +1,78 @@
+"""A run that is interrupted anywhere keeps what it had computed, and that is right."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.solve import run as module
+
+SOLVER = str(Path(module.__file__).parent)
+WHERE = {str(Path(SOLVER, name)) for name in ("events.py", "integrate.py", "interrupted.py", "trace.py")}
+PLACES = 100
+
+
+class Bounces(ac.Model):
+    """A ball that bounces."""
+
+    h: ac.Scalar = ac.variable("height", start=1.0, fixed=True)
+    v: ac.Scalar = ac.variable("speed", start=0.0, fixed=True)
+    y: ac.Scalar = ac.output("twice the height")
+    n: ac.Scalar = ac.discrete("bounces")
+
+    def equations(self):
+        yield ac.der(self.h) == self.v
+        yield ac.der(self.v) == -9.81
+        yield self.y == 2 * self.h
+        yield ac.when(self.h < 0, ac.reinit(self.v, -0.8 * self.v), ac.reinit(self.n, self.n + 1))
+
+
+def interrupted(at: int | None, **how):
+    """Simulate, interrupted at one line of many that Python runs in the solver; the lines and the interrupt."""
+    count = 0
+
+    def trace(frame, event, _):
+        nonlocal count
+        if frame.f_code.co_filename not in WHERE:
+            return None
+        if event == "line":
+            count += 1
+            if count == at:
+                raise KeyboardInterrupt
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        ac.simulate(**how)
+    except KeyboardInterrupt as interrupt:
+        return count, interrupt
+    finally:
+        sys.settrace(before)
+    return count, None
+
+
+@pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
+@pytest.mark.parametrize("energy", [False, True])
+def test_interrupted_anywhere(energy, method):
+    model = ac.compile(Bounces())
+    how = {"model": model, "stop_time": 2.5, "intervals": 50, "method": method, "energy": energy}
+    whole = ac.simulate(**how)
+    lines, none = interrupted(None, **how)
+    assert none is None
+    kept = 0
+    for at in np.linspace(1, lines, PLACES).astype(int):
+        _, interrupt = interrupted(int(at), **how)
+        if interrupt is None or (result := getattr(interrupt, "result", None)) is None:
+            continue
+        assert np.array_equal(result.time, whole.time[: len(result.time)])
+        kept += len(result.time) > 1
+        for name in ("y", "n"):
+            # The last row may be at an event that has not happened yet.
+            rows = slice(0, len(result.time) - 1)
+            np.testing.assert_allclose(result[name][rows], whole[name][rows], atol=1e-5)
+    assert kept > PLACES / 2
