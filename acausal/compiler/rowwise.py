@@ -29,14 +29,17 @@ class Rowwise:
 
         Parameters
         ----------
-        x, z, modes : arrays, shapes (n, ...)
-            States, algebraic unknowns and constants of segments.
+        x, z : arrays, shapes (n, ...)
+            States and algebraic unknowns.
         p : array
             Parameters.
         t : array, shape (n,)
             Times in s.
+        modes : array, shape (m,) or (n, m)
+            Constants of the segment, or of that of each time.
         """
         n = len(t)
+        modes = np.broadcast_to(modes, (n, modes.shape[-1]))
         size = AT_ONCE if n > 1 else 1
         if size not in self._calls:
             self._calls[size] = Call(self.function.map(size))

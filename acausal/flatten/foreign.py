@@ -17,7 +17,7 @@ from acausal.symbols import scalars
 if TYPE_CHECKING:
     from acausal.flatten.said import Said
 
-Found = Callable[[Iterable[ca.SX]], bool]
+Found = Callable[[ca.SX], bool]
 
 
 def refuse_foreign(raw: Said) -> None:
@@ -29,8 +29,9 @@ def refuse_foreign(raw: Said) -> None:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
     stated += [(e.sx, Origin.of(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
-    everything = [*[sx for sx, _ in stated], *others]
-    if _calls(everything):
+    everything = _column([*[sx for sx, _ in stated], *others])
+    symbols = ca.symvar(everything)
+    if _calls(everything, symbols):
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function that cannot be differentiated and "
             "sorted as an equation, such as an interpolant or an external function. Write a table with piecewise((value, "
@@ -38,9 +39,9 @@ def refuse_foreign(raw: Said) -> None:
             "is called with SX."
         )
     known = _known(raw)
-    strangers = [s for s in ca.symvar(_column(everything)) if s.element_hash() not in known]
+    strangers = [s for s in symbols if s.element_hash() not in known]
     if strangers:
-        place = _place(raw, stated, others, lambda e: ca.depends_on(_column(e), strangers[0]))
+        place = _place(raw, stated, others, lambda e: ca.depends_on(e, strangers[0]))
         raise DeclarationError(place + _undeclared(strangers[0]))
 
 
@@ -82,13 +83,13 @@ def _known(raw: Said) -> set[int]:
 def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
     """Where something is stated, or where the derivative or the energy is used that holds it."""
     for sx, origin in stated:
-        if found([sx]):
+        if found(sx):
             return f"{origin}: "
-    held = [placeholder for (placeholder, _), e in zip(raw.pending.derivatives, others, strict=False) if found([e])]
+    held = [placeholder for (placeholder, _), e in zip(raw.pending.derivatives, others, strict=False) if found(e)]
     for residual, origin in zip(raw.equations.residuals, raw.equations.origins, strict=True):
         if any(ca.depends_on(residual, placeholder) for placeholder in held):
             return f"{origin}: "
-    name = next((name for name, e in raw.energies.items() if found([e])), "a start value")
+    name = next((name for name, e in raw.energies.items() if found(e)), "a start value")
     return f"{name}{'()' if name in raw.energies else ''}: "
 
 
@@ -96,7 +97,7 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
     return ca.vertcat(ca.SX(0, 1), *[ca.vec(e) for e in entries])
 
 
-def _calls(entries: Iterable[ca.SX]) -> bool:
-    column = _column(entries)
-    function = ca.Function("all", [ca.vertcat(ca.SX(0, 1), *ca.symvar(column))], [column])
-    return any(function.instruction_id(k) == ca.OP_CALL for k in range(function.n_instructions()))
+def _calls(expression: ca.SX, symbols: list[ca.SX] | None = None) -> bool:
+    """Whether an expression, of these symbols, calls functions instead of holding what they do."""
+    symbols = ca.symvar(expression) if symbols is None else symbols
+    return bool(ca.Function("all", [ca.vertcat(ca.SX(0, 1), *symbols)], [expression]).get_function())

@@ -59,14 +59,12 @@ def between(
     """
     c, h = run.compiled, ends[1] - ends[0]
     s = ((times - ends[0]) / h)[:, None]
-    both = np.broadcast_to(modes, (2, len(modes)))
-    z = run.consistent(x, z, ends, both)
-    rates = run.consistent.rates(x, z, ends, both)
+    z = run.consistent(x, z, ends, modes)
+    rates = run.consistent.rates(x, z, ends, modes)
     found, slope = cubic(s, h, x, rates)
-    inner = np.broadcast_to(modes, (len(times), len(modes)))
     guess = z[0] + s * (z[1] - z[0])
-    inside = run.consistent(found, guess, times, inner)
-    true = run.consistent.rates(found, inside, times, inner)
+    inside = run.consistent(found, guess, times, modes)
+    true = run.consistent.rates(found, inside, times, modes)
     weights = run.tolerance * (np.abs(found) + run.settings.nominal[: c.nx])
     defect = np.max(np.abs(slope - true) * h / weights, axis=1, initial=0.0)
     if run.consistent.unsolved:
@@ -81,8 +79,9 @@ def work_between(run: Integrator, modes: np.ndarray, ends: np.ndarray, x: np.nda
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)
     looks = np.linspace(ends[0], ends[1], LOOKS + 2)[1:-1]
-    found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
-    if not known or np.any(between(run, modes, ends, x, z, looks).defect > FAITHFUL):
-        stretch = run.attempt(ends, x[0], z[0], modes, MOST_STEPS, careful=True)
-        return found[-1] if stretch is None else stretch.energy[-1]
-    return found[-1]
+    if np.all(between(run, modes, ends, x, z, looks).defect <= FAITHFUL):
+        found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
+        if known:
+            return found[-1]
+    stretch = run.attempt(ends, x[0], z[0], modes, MOST_STEPS, careful=True)
+    return stretch.energy[-1] if stretch else between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)[0][-1]

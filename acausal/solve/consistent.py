@@ -65,8 +65,8 @@ class Consistent:
             States, and algebraic unknowns nearly right.
         t : array, shape (n,)
             Times in s.
-        modes : array, shape (n, m)
-            Constants of the segment of each time.
+        modes : array, shape (m,) or (n, m)
+            Constants of the segment, or of that of each time.
         wanted : iterable of int, optional
             Unknowns that must be right, with all that they need; all if not given.
         """
@@ -74,6 +74,7 @@ class Consistent:
         unknowns, equations = c.dependence.closure(range(c.nz) if wanted is None else wanted)
         if not unknowns.size or not len(t):
             return z
+        modes = np.broadcast_to(modes, (len(t), modes.shape[-1]))
         first, z = z, z.copy()
         size = self._sizes(x, z, t, modes, unknowns, equations)
         doubtful: set[int] = set()

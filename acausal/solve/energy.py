@@ -49,9 +49,9 @@ def powers(
         Constants of the segment.
     """
     wanted = compiled.dependence.inside(compiled.powers)
-    z = solver(x, z, t, np.broadcast_to(modes, (len(t), len(modes))), wanted)
+    z = solver(x, z, t, modes, wanted)
     solver.unsolved.clear()
-    return compiled.power(x, z, solver.p, t, np.broadcast_to(modes, (len(t), len(modes))))
+    return compiled.power(x, z, solver.p, t, modes)
 
 
 def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -120,9 +120,9 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
         As of `refined`.
     """
     x, z, t, modes = rows
-    z = solver(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
+    z = solver(x, z, t, modes)
     rows, n, agreed = (x, z, t, modes), len(t) - 1, 0
-    rates = solver.rates(x, z, t, np.broadcast_to(modes, (len(t), len(modes))))
+    rates = solver.rates(x, z, t, modes)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
     exchanged = _exchanged(compiled, solver, rows)
     parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
@@ -177,11 +177,10 @@ def _seen(
     if rates is None:
         k = np.minimum(s.astype(int), len(t) - 2)
         ends = np.unique([k, k + 1])
-        many = np.broadcast_to(modes, (len(ends), len(modes)))
         z = z.copy()
-        z[ends] = solver(x[ends], z[ends], t[ends], many)
+        z[ends] = solver(x[ends], z[ends], t[ends], modes)
         rates = np.zeros(x.shape)
-        rates[ends] = solver.rates(x[ends], z[ends], t[ends], many)
+        rates[ends] = solver.rates(x[ends], z[ends], t[ends], modes)
     probes = _inside((x, z, t, modes), rates, s)
     true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], modes)
     missed = np.abs(make_interp_spline(times, power, 5)(probes[2]) - true)

@@ -185,6 +185,13 @@ class Integrator:
         self.trace.add(stretch)
         return True
 
+    def trial(
+        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, max_steps: int
+    ) -> Stretch | None:
+        """Integrate as `attempt` does, carefully where that fails; nobody asks for works."""
+        tries = (self.attempt(times, x, z, modes, max_steps, careful, works=False) for careful in (False, True))
+        return next((stretch for stretch in tries if stretch is not None), None)
+
     def attempt(
         self,
         times: np.ndarray,

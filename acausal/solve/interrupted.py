@@ -76,7 +76,7 @@ def _before_event(integrator: Integrator, start: Stretch, reached: Stretch) -> i
     x, z, t = (
         np.concatenate(pair) for pair in ((start.x, reached.x), (start.z, reached.z), (start.times, reached.times))
     )
-    z = integrator.consistent(x, z, t, np.broadcast_to(reached.modes, (len(t), len(reached.modes))), guards.needs)
+    z = integrator.consistent(x, z, t, reached.modes, guards.needs)
     signs = np.sign(guards.along(x, z, integrator.p, t, reached.modes)[0])
     # Right after an event a condition is at its threshold.
     first = np.where(signs[0] == 0, signs[1], signs[0])

@@ -10,6 +10,7 @@ from acausal.solve.between import FAITHFUL, between
 from acausal.solve.crossing import Sides, dips, levels, root
 from acausal.solve.instant import Instants, Point
 from acausal.solve.integrate import Integrator, Stretch
+from acausal.solve.looks import pace
 
 FINE, DEPTH, SUSPECTS, TRIALS = 8, 3, 4, 80
 TRIAL_STEPS = 20_000
@@ -96,9 +97,10 @@ class Locator:
         end = int(np.argmax(out)) if out.any() else len(out)
         least, error = dips(sides)
         margin = least - level[:-1]
-        pace, most = _pace(sides), max(SUSPECTS, len(out) // FINE) if depth == 0 or content else len(out)
-        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * pace
-        round_about = np.any(near & (pace > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
+        travel = pace(sides.times, sides.rate)
+        most = max(SUSPECTS, len(out) // FINE) if depth == 0 or content else len(out)
+        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * travel
+        round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
         turning = _near(rows[: end + 1], level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
         doubtful[end:] = False
@@ -127,7 +129,7 @@ class Locator:
     def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> list[Row]:
         """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
         run, guards = self.run, self.instants.guards
-        z = run.consistent(x, z, t, np.broadcast_to(modes, (len(t), len(modes))), guards.needs)
+        z = run.consistent(x, z, t, modes, guards.needs)
         run.consistent.unsolved.clear()
         value, rate = guards.along(x, z, run.p, t, modes)
         side = np.where(at.truth, -1.0, 1.0)
@@ -165,7 +167,7 @@ class Locator:
     def _inside(self, at: Point, a: Row, b: Row, depth: int) -> Crossing | None:
         """Look closer between two rows."""
         times = np.linspace(a.time, b.time, FINE + 1)
-        stretch = self._attempt(at, a, times)
+        stretch = self.run.trial(times, a.x, a.z, at.modes, TRIAL_STEPS)
         if stretch is None:
             raise self.run.failure(a.time, b.time)
         found = self.first(Point(a.time, a.x, a.z, at.modes, at.truth), stretch, depth + 1)
@@ -223,20 +225,10 @@ class Locator:
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self._attempt(at, a, np.array([a.time, time]))
+        stretch = self.run.trial(np.array([a.time, time]), a.x, a.z, at.modes, TRIAL_STEPS)
         if stretch is None:
             return None
         return self.row(at, time, stretch.x[0], stretch.z[0], stretch.modes)
-
-    def _attempt(self, at: Point, a: Row, times: np.ndarray) -> Stretch | None:
-        tries = (self.run.attempt(times, a.x, a.z, at.modes, TRIAL_STEPS, c, works=False) for c in (False, True))
-        return next((stretch for stretch in tries if stretch is not None), None)
-
-
-def _pace(sides: Sides) -> np.ndarray:
-    """How far each function goes in each interval at the greater of its rates at the ends."""
-    rate = np.abs(sides.rate)
-    return np.maximum(rate[1:], rate[:-1]) * np.diff(sides.times)[:, None]
 
 
 def _near(rows: list[Row], level: np.ndarray) -> list[int]:

@@ -7,6 +7,20 @@ import numpy as np
 GOLDEN = (5**0.5 - 1) / 2
 
 
+def pace(times: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Return how far functions go in each interval at the greater of their rates at its ends.
+
+    Parameters
+    ----------
+    times : array, shape (n,)
+        Times in s.
+    rate : array, shape (n,) or (n, m)
+        Rates at the times.
+    """
+    fastest = np.maximum(np.abs(rate[1:]), np.abs(rate[:-1]))
+    return (fastest.T * np.diff(times)).T
+
+
 def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
     """Divide each interval into so many parts that no motion comes round from one look to the next all the time.
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from acausal.solve.instant import Point
 from acausal.solve.integrate import Integrator
-from acausal.solve.trace import Stretch, Trace
+from acausal.solve.looks import pace
+from acausal.solve.trace import Trace
 from acausal.solve.validity import separations
 
 # So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
@@ -50,8 +51,7 @@ class _Rows:
 
     def suspects(self) -> np.ndarray:
         """Intervals in which the points could meet."""
-        pace = np.maximum(np.abs(self.rate[1:]), np.abs(self.rate[:-1])) * np.diff(self.times)
-        return np.flatnonzero(REACH * pace >= self.distance[1:] + self.distance[:-1])
+        return np.flatnonzero(REACH * pace(self.times, self.rate) >= self.distance[1:] + self.distance[:-1])
 
 
 class _Search:
@@ -101,8 +101,7 @@ class _Search:
         self.looks += 1
         run, x, z, modes = self.integrator, rows.x[k], rows.z[k], rows.modes[k + 1]
         times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
-        tries = (run.attempt(times, x, z, modes, STEPS, careful, works=False) for careful in (False, True))
-        found: Stretch | None = next((stretch for stretch in tries if stretch is not None), None)
+        found = run.trial(times, x, z, modes, STEPS)
         if found is None:
             return None
         all_modes = np.tile(found.modes, (PARTS + 1, 1))

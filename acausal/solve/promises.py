@@ -55,7 +55,7 @@ class _Look:
         run, pair = self.run, slice(row, row + 2)
         modes = run.modes[row]
         found = between(self.integrator, modes, run.t[pair], run.x[pair], run.z[pair], times)
-        return self._values(found.x, found.z, times, np.broadcast_to(modes, (len(times), len(modes))))
+        return self._values(found.x, found.z, times, modes)
 
     def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
         solver = self.run.solver

@@ -8,26 +8,14 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import DeclarationError, Model, Scalar, chain, der, fixed, guess, observed, output, parameter, part
+from acausal import DeclarationError, Model, Scalar, der, guess, observed, output, part
 from acausal.study.shipping import pack, unpack
-from components import Body, FixedTranslation, Prismatic, Revolute, World
-from components.rotational import Damper
+from components import Body, Prismatic, Revolute
+from tests.acausal.language.test_settings import Swing as Plain
 
 
-class Swing(Model):
-    load: Scalar = parameter("mass at the tip", unit="kg", default=0.5)
-    world = World()
-    hinge = Revolute(phi=fixed(0), w=fixed(0), use_axis_flange=True)
-    damper = Damper(d=0.1)
-    bar = FixedTranslation(r=(1, 0, 0))
-    tip = Body(m=load)
-    height: Scalar = output("height of the tip", unit="m")
+class Swing(Plain):
     times = 1.0
-
-    def connections(self):
-        yield chain(self.world, self.hinge, self.bar, self.tip)
-        if self.damper is not None:
-            yield chain(self.hinge.support, self.damper, self.hinge.axis)
 
     def equations(self):
         yield self.height == self.times * self.tip.r_0[1]
