@@ -14,6 +14,7 @@ import scipy.sparse as sparse
 
 from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
+from acausal.compiler.constants import Layout
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
@@ -200,6 +201,13 @@ class CompiledModel:
             start[p.state] = start[p.coordinate]
         chosen = ca.densify(ca.vertcat(ca.SX(0, 1), *[start[k] for k in (*plan.states, *plan.algebraic)]))
         return Call(ca.Function("start", [flat.parameters, time.sx], [chosen]))
+
+    @cached_property
+    def layout(self) -> Layout:
+        """How many constants a segment has."""
+        guards, closing = self.guards, self.closing
+        n = guards.n_switches, guards.n_modes - guards.n_switches, len(closing.closures), closing.entries.shape[1]
+        return Layout(*n)
 
     @cached_property
     def guards(self) -> Guards:

@@ -228,10 +228,10 @@ class Guards:
         return made
 
     def _place(self, guard: Guard, jump: Jump) -> tuple[tuple[bool, int], ca.SX]:
-        """Where a jump goes in the states or modes, and what stands there afterwards."""
+        """Where a jump goes in the states or discrete variables, and what stands there afterwards."""
         target, value = self._resolve([jump.target], unprojected=True), self._resolve([jump.value])
         if jump.discrete is not None:
-            return (False, self.n_switches + jump.discrete), value
+            return (False, jump.discrete), value
         x = self.reduced.x
         J = ca.sparsify(ca.jacobian(target, ca.vertcat(x, *self.arguments[1:])))
         states = J.sparsity().get_triplet()[1]

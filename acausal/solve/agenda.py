@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from acausal.compiler.constants import Constants
 from acausal.compiler.guards import Guards
-from acausal.solve.instant import Instants, Point
+from acausal.solve.instant import Instants
+from acausal.solve.problem import Point
 
 APART = 1e-12  # of the time: less is no room for an integration
 # Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
@@ -41,13 +43,10 @@ class Agenda:
         """Which timed guards hold between two breaks."""
         return self.on((begin + end) / 2)
 
-    def modes(self, modes: np.ndarray, on: np.ndarray) -> np.ndarray:
-        """Return modes with the switches that the clock decides."""
-        modes = modes.copy()
-        for k, holds, switch in zip(self.guards.timed, on, self.switches, strict=True):
-            if switch:
-                modes[k] = holds
-        return modes
+    def constants(self, constants: Constants, on: np.ndarray) -> Constants:
+        """Return constants with the switches that the clock decides."""
+        decided = [k for k, switch in enumerate(self.switches) if switch]
+        return constants.switched([self.guards.timed[k] for k in decided], on[decided])
 
     def fired(self, on: np.ndarray, before: np.ndarray) -> list[int]:
         """Timed guards with jumps whose condition becomes true."""
@@ -60,7 +59,7 @@ class Agenda:
         Parameters
         ----------
         at : Point
-            The first point, with the modes that hold after the start.
+            The first point, with the constants that hold after the start.
         held : array of bool
             Timed guards that hold after the start.
         instants : Instants
@@ -71,7 +70,7 @@ class Agenda:
         acts = [k for k, holds in known if holds and self.guards.guards[k].at_start]
         if len(at.truth):
             # Before the clock switches anything; what is but a rounding error away from its instant is there.
-            value, rate = instants.rates(replace(at, modes=self.modes(at.modes, on)))
+            value, rate = instants.rates(replace(at, constants=self.constants(at.constants, on)))
             slack = np.maximum(-rate, 0) * self.near
             before = np.where(self._inclusive(at), value <= slack, value < -slack)
             before &= ~np.array([self.guards.guards[k].at_start for k in self.guards.watched])
@@ -85,7 +84,7 @@ class Agenda:
         """
         if not self._plans:
             return None
-        instants = self.guards.planned(self.p, at.modes)[0]
+        instants = self.guards.planned(self.p, at.constants.vector)[0]
         ahead = instants[np.isfinite(instants) & (instants > since)]
         if not len(ahead):
             return None
@@ -108,7 +107,9 @@ class Agenda:
     def _inclusive(self, at: Point) -> np.ndarray:
         """Which watched conditions hold where they are 0; where a planned comparison just changes, that tells."""
         found = {k: self.guards.guards[k].inclusive for k in self.guards.watched}
-        for (k, inclusive), instant in zip(self.guards.plans, self.guards.planned(self.p, at.modes)[0], strict=True):
+        for (k, inclusive), instant in zip(
+            self.guards.plans, self.guards.planned(self.p, at.constants.vector)[0], strict=True
+        ):
             if abs(instant - at.time) <= 2 * self.near:
                 found[k] = inclusive
         return np.array([found[k] for k in self.guards.watched], dtype=bool)

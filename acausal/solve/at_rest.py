@@ -11,6 +11,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.solve.newton import CONSISTENT, TERMS
+from acausal.solve.problem import Point, Problem
 from acausal.solve.words import equation_text
 from acausal.symbols import scalars
 
@@ -46,22 +47,22 @@ def kinematic(compiled: CompiledModel) -> list[int]:
     return compiled.cache["kinematic"]
 
 
-def at_rest(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> bool:
+def at_rest(problem: Problem, at: Point) -> bool:
     """Whether all derivatives vanish, loops are closed, and equations and initial conditions hold."""
-    nx = compiled.nx
-    if _moving(compiled, y, p, t, modes):
+    nx = problem.nx
+    if _moving(problem, at):
         return False
-    if compiled.closing.size and np.max(np.abs(compiled.closing(y[:nx], p, t, modes)[0])) > CONSISTENT:
+    if problem.compiled.closing.size and np.max(np.abs(problem.constraints(at)[0])) > CONSISTENT:
         return False
-    local = compiled.at(y[:nx], y[nx:], p, t, modes, 0.0)
-    allowed = CONSISTENT + _rounding(local.jacobian, y)
+    local = problem.local(at)
+    allowed = CONSISTENT + _rounding(local.jacobian, at.y)
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
 
 
-def refuse_motion(compiled: CompiledModel, y: np.ndarray, modes: np.ndarray, p: np.ndarray, t: float) -> NoReturn:
+def refuse_motion(problem: Problem, at: Point) -> NoReturn:
     """Raise InitializationError: what moves where everything else has come to rest, or what conditions stand against it."""
-    nx, nz = compiled.nx, compiled.nz
-    moving = _moving(compiled, y, p, t, modes)
+    compiled, nx, nz, t = problem.compiled, problem.nx, problem.nz, at.time
+    moving = _moving(problem, at)
     if moving:
         lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what moves on:"]
         lines += [f"  {name} = 0: off by {value:.4g}" for name, value in moving[:5]]
@@ -70,8 +71,8 @@ def refuse_motion(compiled: CompiledModel, y: np.ndarray, modes: np.ndarray, p: 
             "brake it, or stop the drive; or give guesses nearer to rest."
         )
         raise InitializationError("\n".join(lines))
-    local = compiled.at(y[:nx], y[nx:], p, t, modes, 0.0)
-    value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, y)
+    local = problem.local(at)
+    value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, at.y)
     lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
@@ -83,14 +84,12 @@ def refuse_motion(compiled: CompiledModel, y: np.ndarray, modes: np.ndarray, p: 
     raise InitializationError("\n".join(lines))
 
 
-def _moving(
-    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> list[tuple[str, float]]:
+def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     """Derivatives that do not vanish, the largest first."""
-    names, call, (rows, columns, shape) = _derivatives(compiled)
-    value, entries = call(y[: compiled.nx], y[compiled.nx :], p, t, modes, 0.0)
+    names, call, (rows, columns, shape) = _derivatives(problem.compiled)
+    value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
     rounding = np.zeros(shape[0])
-    np.add.at(rounding, rows, np.abs(entries * y[columns]))
+    np.add.at(rounding, rows, np.abs(entries * at.y[columns]))
     allowed = STILL + TERMS * np.finfo(float).eps * rounding
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]

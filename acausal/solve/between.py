@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.compiler.constants import Constants
 from acausal.solve.energy import between_rows
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate import Integrator
+from acausal.solve.problem import Point
 
 # Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
 FAITHFUL = 0.1
@@ -38,7 +40,7 @@ class Between:
 
 def between(
     run: Integrator,
-    modes: np.ndarray,
+    constants: Constants,
     ends: np.ndarray,
     x: np.ndarray,
     z: np.ndarray,
@@ -50,14 +52,14 @@ def between(
     ----------
     run : Integrator
         Tells model, parameters and tolerance.
-    modes : array
-        Constants of the segment.
+    constants : Constants
+        Those of the segment.
     ends, x, z : arrays, shapes (2,), (2, nx), (2, nz)
         The two points, with algebraic unknowns nearly right.
     times : array, shape (n,)
         Times between them.
     """
-    c, h = run.compiled, ends[1] - ends[0]
+    c, h, modes = run.compiled, ends[1] - ends[0], constants.vector
     s = ((times - ends[0]) / h)[:, None]
     z = run.consistent(x, z, ends, modes)
     rates = run.consistent.rates(x, z, ends, modes)
@@ -73,15 +75,16 @@ def between(
     return Between(times, found, inside, np.nan_to_num(defect, nan=np.inf))
 
 
-def work_between(run: Integrator, modes: np.ndarray, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as of `between`."""
-    c = run.compiled
+    c, modes = run.compiled, constants.vector
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)
     looks = np.linspace(ends[0], ends[1], LOOKS + 2)[1:-1]
-    if np.all(between(run, modes, ends, x, z, looks).defect <= FAITHFUL):
+    if np.all(between(run, constants, ends, x, z, looks).defect <= FAITHFUL):
         found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
         if known:
             return found[-1]
-    stretch = run.attempt(ends, x[0], z[0], modes, MOST_STEPS, careful=True)
+    at = Point(float(ends[0]), x[0], z[0], constants)
+    stretch = run.attempt(at, ends, MOST_STEPS, careful=True)
     return stretch.energy[-1] if stretch else between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)[0][-1]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.sparse.linalg import splu
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.solve.closing import CLOSED, close, refuse_open_loops
-from acausal.solve.methods import rates_of
-from acausal.solve.projection import choose_projection, find_redundancy, switches_of
+from acausal.solve.problem import Point, Problem
+from acausal.solve.projection import Redundancy, choose_projection, find_redundancy
 from acausal.solve.rank import RANK, null_space, pivots, rank, row_space
 from acausal.solve.words import missing_text
 
@@ -19,49 +21,33 @@ AWAY = 1e-4
 REST = 1e-4
 
 
-def closed_guess(
-    compiled: CompiledModel, x: np.ndarray, held: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Close the loops near the guesses, and find what is redundant.
-
-    Returns
-    -------
-    x, modes : arrays
-        States, and constants of the segment.
+def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, Redundancy]:
+    """Close the loops near the guesses, find what is redundant, and choose a projection.
 
     Raises
     ------
     InitializationError
         If a loop cannot close.
     """
-    closed, mismatch = close(compiled, x, held, p, t, modes)
+    closed, mismatch = close(problem, at, held)
     if not mismatch <= CLOSED:
-        refuse_open_loops(compiled, closed, held, p, t, modes)
-    redundancy = find_redundancy(compiled, closed, p, t, modes)
-    compiled.cache["redundancy"] = redundancy
-    modes = modes.copy()
-    modes[switches_of(compiled)] = [constraint not in redundancy.dropped for constraint in compiled.closing.closures]
-    return closed, choose_projection(compiled, closed, None, p, t, modes)
+        refuse_open_loops(problem, closed, held)
+    redundancy = find_redundancy(problem, closed)
+    counts = np.array([k not in redundancy.dropped for k in problem.compiled.closing.closures], dtype=float)
+    closed = replace(closed, constants=replace(closed.constants, closures=counts))
+    return replace(closed, constants=choose_projection(problem, closed, spare=False)), redundancy
 
 
 def rows_and_knowns(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    z: np.ndarray,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-    held: np.ndarray,
-    conditions: list[int],
-    refuse: bool,
+    problem: Problem, at: Point, held: np.ndarray, conditions: list[int], refuse: bool
 ) -> tuple[list[int], list[int], list[int], list[int]]:
     """Choose what completes the initial system, by the ranks of its Jacobian.
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    x, z, p, t, modes
+    at : Point
         A point where the loops are closed.
     held : array of int
         States that are given.
@@ -79,17 +65,17 @@ def rows_and_knowns(
     known : list of int
         Unknowns in (x, z) that are not solved for.
     """
-    c, nx, nz = compiled.closing, compiled.nx, compiled.nz
+    compiled, c, nx, nz = problem.compiled, problem.compiled.closing, problem.nx, problem.nz
     free = np.setdiff1d(np.arange(nx), held)
     rows = nx + np.array(conditions, dtype=int)
-    M, C = _reduced(compiled, x, z, p, t, modes, free, rows)
+    M, C = _reduced(problem, at, free, rows)
     used, surplus = _independent(M, C)
     if surplus:
         # A condition can lack influence at one position without lacking it around.
         shake = 1e-3 * np.random.default_rng(0).standard_normal(len(free))
-        moved = x.copy()
-        moved[free] += shake * compiled.nominal[free]
-        M, C = _reduced(compiled, moved, z, p, t, modes, free, rows)
+        moved = at.x.copy()
+        moved[free] += shake * problem.nominal[free]
+        M, C = _reduced(problem, replace(at, x=moved), free, rows)
         used, surplus = _independent(M, C)
     left = _left(compiled, np.vstack([M, C[used]]), rank(M) + len(used), free)
     if left and refuse:
@@ -98,7 +84,7 @@ def rows_and_knowns(
     position = {e: k for k, e in enumerate(plan.residuals)}
     off = {
         position[row]
-        for k, on in zip(c.closures, modes[switches_of(compiled)], strict=True)
+        for k, on in zip(c.closures, at.constants.closures, strict=True)
         if not on
         for row in plan.constrained.constraints[k].rows
     }
@@ -107,20 +93,11 @@ def rows_and_knowns(
     return equations, used, surplus, [*held.tolist(), *left, *(nx + c.multipliers).tolist()]
 
 
-def _reduced(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    z: np.ndarray,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-    free: np.ndarray,
-    rows: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray]:
+def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
-    nx, nz = compiled.nx, compiled.nz
-    M = compiled.closing(x, p, t, modes)[1][:, free]
-    J = compiled.at(x, z, p, t, modes, 1.0).jacobian.tocsc()
+    nx, nz = problem.nx, problem.nz
+    M = problem.constraints(at)[1][:, free]
+    J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     try:
         dz = -splu(inner).solve(right) if nz else right
@@ -161,26 +138,19 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
     return sorted(int(free[k]) for k in order)
 
 
-def leave_singular(
-    compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> tuple[float, np.ndarray]:
-    """Go on from a singular position along the velocity, so short a way that accelerations do not matter.
-
-    Returns
-    -------
-    t, x
-        A moment later.
-    """
-    pairs = np.array(rates_of(compiled), dtype=int).reshape(-1, 2)
-    moving = np.isin(pairs[:, 0], compiled.closing.states)
+def leave_singular(problem: Problem, at: Point) -> Point:
+    """Go on from a singular position along the velocity, so short a way that accelerations do not matter."""
+    x = at.x
+    pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
+    moving = np.isin(pairs[:, 0], problem.compiled.closing.states)
     coordinates, rates = pairs[moving].T
     speed = float(np.max(np.abs(x[rates]), initial=0.0))
     if not speed > REST:
         raise InitializationError(
-            f"the start at t = {t:g} s is a singular position at rest: nothing tells on which branch the loops go on. "
+            f"the start at t = {at.time:g} s is a singular position at rest: nothing tells on which branch the loops go on. "
             "Give a velocity, for instance w=fixed(...) of a joint, or start beside it."
         )
     later = AWAY / speed
     moved = x.copy()
     moved[coordinates] += later * x[rates]
-    return t + later, close(compiled, moved, np.empty(0, int), p, t + later, modes)[0]
+    return close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]

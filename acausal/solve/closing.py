@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,9 @@ from scipy.optimize import least_squares
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.solve.problem import Point, Problem
+
+Residuals = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 CLOSED, ROUGH = 1e-9, 1e-6
 ATTEMPTS = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
@@ -26,77 +31,69 @@ def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
     return found
 
 
-def close(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    held: np.ndarray,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-    positions: bool = False,
-) -> tuple[np.ndarray, float]:
+def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False) -> tuple[Point, float]:
     """Change the coordinates as little as possible so that the constraints hold, level by level.
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    x : array
+    at : Point
         Guesses of the states.
     held : array of int
         States that are given.
-    p, t, modes
-        Parameters, time and constants of the segment.
     positions : bool
         True for the lowest level alone.
 
     Returns
     -------
-    x : array
-        The states.
+    at : Point
+        With the states.
     mismatch : float
         Largest residual.
     """
-    x, mismatch = x.copy(), 0.0
-    for depth, (rows, columns) in enumerate(levels(compiled)[: 1 if positions else None]):
+    mismatch = 0.0
+    for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
-        x, left = _solve(compiled, x, rows, free, p, t, modes)
-        if depth and CLOSED < left <= ROUGH * (1 + np.max(np.abs(x))):
+        at, left = _solve(problem, at, rows, free)
+        if depth and CLOSED < left <= ROUGH * (1 + np.max(np.abs(at.x))):
             # Near a singular position rates are known only as well as the root of the positions.
-            x, left = _solve(compiled, x, rows, columns, p, t, modes)
+            at, left = _solve(problem, at, rows, columns)
         mismatch = max(mismatch, left)
         if left > CLOSED:
             break
-    return x, mismatch
+    return at, mismatch
 
 
-def _solve(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    rows: list[int],
-    free: np.ndarray,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-) -> tuple[np.ndarray, float]:
-    c = compiled.closing
+def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
+    """Return the point with other values of some states."""
+    x = at.x.copy()
+    x[free] = u
+    return replace(at, x=x)
+
+
+def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
+    """Residuals of some rows and their Jacobian, as a function of some states."""
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        at = x.copy()
-        at[free] = u
-        value, J = c(at, p, t, modes)
+        value, J = problem.constraints(_with(at, free, u))
         return value[rows], J[rows][:, free]
 
-    value, _ = evaluate(x[free])
+    return evaluate
+
+
+def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tuple[Point, float]:
+    evaluate = _residuals(problem, at, rows, free)
+    value, _ = evaluate(at.x[free])
     left = float(np.max(np.abs(value), initial=0.0))
     if not free.size:
-        return x, left
-    best, smallest = x[free], left if np.isfinite(left) else np.inf
-    scale = compiled.nominal[free]
+        return at, left
+    best, smallest = at.x[free], left if np.isfinite(left) else np.inf
+    scale = problem.nominal[free]
     for k, size in enumerate(ATTEMPTS):
         if smallest <= CLOSED:
             break
-        start = x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
+        start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
         options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
@@ -106,29 +103,20 @@ def _solve(
         if left < smallest:
             best, smallest = u, left
     best = _polish(evaluate, best, scale)
-    result = x.copy()
-    result[free] = best
-    return result, float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
+    return _with(at, free, best), float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
 
 
-def tighten(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+def tighten(problem: Problem, at: Point) -> Point:
     """Close loops that are nearly closed, by a few steps of least change; where they do not lead there, as `close` does."""
-    c, tight = compiled.closing, x.copy()
-    for rows, free in levels(compiled):
-        scale = compiled.nominal[free]
-
-        def evaluate(u: np.ndarray, free=free, rows=rows) -> tuple[np.ndarray, np.ndarray]:
-            at = tight.copy()
-            at[free] = u
-            value, J = c(at, p, t, modes)
-            return value[rows], J[rows][:, free]
-
-        tight[free] = _polish(evaluate, tight[free], scale)
-    closed = np.max(np.abs(c(tight, p, t, modes)[0]), initial=0.0) <= CLOSED
-    return tight if closed else close(compiled, x, np.empty(0, int), p, t, modes)[0]
+    tight = at
+    for rows, free in levels(problem.compiled):
+        polished = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
+        tight = _with(tight, free, polished)
+    closed = np.max(np.abs(problem.constraints(tight)[0]), initial=0.0) <= CLOSED
+    return tight if closed else close(problem, at, np.empty(0, int))[0]
 
 
-def _polish(evaluate, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
+def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Gauss-Newton steps of least norm down to rounding."""
     for _ in range(5):
         value, J = evaluate(u)
@@ -139,12 +127,11 @@ def _polish(evaluate, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
     return u
 
 
-def refuse_open_loops(
-    compiled: CompiledModel, x: np.ndarray, held: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> None:
+def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     """Raise InitializationError with the mismatch of every loop that does not close."""
+    compiled = problem.compiled
     c, flat = compiled.closing, compiled.reduced.flat
-    value, _ = c(x, p, t, modes)
+    value, _ = problem.constraints(at)
     lines = []
     for number, loop in enumerate(flat.loops):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.closures) if closure.loop == number]
@@ -165,7 +152,7 @@ def refuse_open_loops(
         lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
     if lines and np.max(np.abs(value)) > CLOSED:
         raise InitializationError(
-            f"these loops cannot close at t = {t:g} s, whatever their joints do:\n"
+            f"these loops cannot close at t = {at.time:g} s, whatever their joints do:\n"
             + "\n".join(lines)
             + "\nCheck lengths, free one of the fixed start values (guess(...) instead of fixed(...)), or give better "
             "guesses of the joints' positions."

@@ -9,11 +9,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from acausal.compiler import CompiledModel
 from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
-from acausal.solve.initialize import algebraic
-from acausal.solve.newton import TERMS
+from acausal.solve.newton import TERMS, algebraic
+from acausal.solve.problem import Point, Problem
 
 # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
 SETTLED = 1e-7
@@ -30,10 +29,8 @@ class Consistent:
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    p : array
-        Parameter values.
 
     Attributes
     ----------
@@ -43,8 +40,8 @@ class Consistent:
         Times at which no solution was found; what was given stays there.
     """
 
-    def __init__(self, compiled: CompiledModel, p: np.ndarray) -> None:
-        self.compiled, self.p = compiled, p
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.compiled, self.p = problem, problem.compiled, problem.p
         self.evaluations = 0
         self.unsolved: list[float] = []
         self._natural: dict[tuple[int, ...], np.ndarray] = {}
@@ -163,11 +160,9 @@ class Consistent:
         self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, modes: np.ndarray
     ) -> None:
         """Solve at one time by the damped iteration, from what was given."""
-        nx = self.compiled.nx
+        given = Point(float(t[row]), x[row], first[row], self.compiled.layout.constants(modes[row]))
         try:
-            y = algebraic(self.compiled, np.concatenate([x[row], first[row]]), self.p, float(t[row]), modes[row])
+            z[row] = algebraic(self.problem, given).z
         except InitializationError:
             z[row] = first[row]
             self.unsolved.append(float(t[row]))
-        else:
-            z[row] = y[nx:]

@@ -7,14 +7,17 @@ right, which fewer nodes tell; elsewhere the integrator's steps are the better p
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
 from acausal.solve.hermite import cubic
-from acausal.solve.initialize import algebraic
 from acausal.solve.looks import GOLDEN
+from acausal.solve.newton import algebraic
+from acausal.solve.problem import Point
 from acausal.solve.trace import Stretch
 
 # Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
@@ -192,31 +195,25 @@ def _halved(some: np.ndarray) -> np.ndarray:
     return np.unique([*range(0, len(some), 2), len(some) - 1])
 
 
-def everywhere(
-    compiled: CompiledModel,
-    solver: Consistent,
-    times: np.ndarray,
-    z: np.ndarray,
-    modes: np.ndarray,
-    tolerance: float | None,
-) -> Stretch:
+def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Stretch:
     """Go from output to output where there is nothing to integrate.
 
     Parameters
     ----------
-    compiled, solver
+    solver : Consistent
         As of `powers`.
+    at : Point
+        Where it begins.
     times : array, shape (n + 1,)
-        The first is where it begins, in s.
-    z, modes : arrays
-        Values there.
+        Times in s, that of the point first.
     tolerance : float or None
         Of the energies; None leaves them 0.
     """
-    found = [z]
+    compiled, constants, found = solver.compiled, at.constants, [at.z]
     for time in times[1:]:
-        found.append(algebraic(compiled, found[-1], solver.p, float(time), modes))
+        at = algebraic(solver.problem, replace(at, time=float(time)))
+        found.append(at.z)
     n, z, energy = len(times) - 1, np.array(found), np.zeros((len(times) - 1, 2))
     if tolerance is not None and not compiled.powers.is_zero():
-        energy = between_rows(compiled, solver, (np.zeros((n + 1, 0)), z, times, modes), tolerance)[0][1:]
-    return Stretch(np.array(times[1:]), np.zeros((n, 0)), z[1:], energy, modes, 0)
+        energy = between_rows(compiled, solver, (np.zeros((n + 1, 0)), z, times, constants.vector), tolerance)[0][1:]
+    return Stretch(np.array(times[1:]), np.zeros((n, 0)), z[1:], energy, constants, 0)

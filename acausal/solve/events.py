@@ -12,14 +12,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError, caution
 from acausal.solve.agenda import Agenda
 from acausal.solve.between import work_between
-from acausal.solve.instant import Cycling, Instants, Point, places_text
-from acausal.solve.integrate import Failure, Integrator, Stretch
+from acausal.solve.instant import Cycling, Instants, places_text
+from acausal.solve.integrate import Failure, Integrator
 from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
 from acausal.solve.looks import uneven
 from acausal.solve.passage import LONG, passage
+from acausal.solve.problem import Point
+from acausal.solve.trace import Stretch
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
 # Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
@@ -53,12 +56,12 @@ class Run:
         near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
         self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
         self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in set(declared)}
-        c, self.p = integrator.compiled, integrator.p
-        self.guards, span = c.guards, float(times[-1] - times[0])
+        problem = integrator.problem
+        self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
-        self.instants = Instants(c, self.p, settings.tolerance, span, settings.nominal)
+        self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
         self.locator = Locator(integrator, self.instants)
-        self.agenda = Agenda(c.guards, self.p, times)
+        self.agenda = Agenda(self.guards, problem.p, times)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=MOST)
         self.weak, self.density, self.block = 0, 1, 0
@@ -85,16 +88,14 @@ class Run:
         if at.time in self.found and bool((on != held).any()):
             self.events.append(at.time)
             self.block = 1
-        modes = self.agenda.modes(at.modes, on)
-        return self._at_row(at, self.agenda.fired(on, held), modes)
+        return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
-    def _at_row(self, at: Point, fired: list[int] | None = None, modes: np.ndarray | None = None) -> Point:
+    def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
         """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
         plan = self.agenda.planned(at, at.time - self.agenda.near)
-        new = self._happen(at, event=False, fired=fired, modes=modes)
-        self.integrator.trace.put(-1, x=new.x, z=new.z, modes=new.modes)
-        before = at if modes is None else replace(at, modes=modes)
-        acted = any((getattr(new, name) != getattr(before, name)).any() for name in ("x", "modes", "truth"))
+        new = self._happen(at, event=False, fired=fired, constants=constants)
+        self.integrator.trace.put(-1, new)
+        acted = _differs(new, at if constants is None else replace(at, constants=constants))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
             self.block = 1
             if self.events[-1:] != [at.time]:
@@ -109,28 +110,26 @@ class Run:
         plan, fired = agenda.planned(at, at.time - agenda.near), agenda.fired(now, held)
         switched = bool((now != held).any() and len(at.truth))
         if fired or switched or (plan and plan[0] <= at.time + agenda.near):
-            at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.modes(at.modes, now))
-        modes = agenda.modes(at.modes, after)
-        if (modes != at.modes).any():
+            at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
+        constants = agenda.constants(at.constants, after)
+        if (constants.vector != at.constants.vector).any():
             acts = ~self.instants.is_switch
             with suppress(Cycling, InitializationError, Failure):  # laws without values there hold for nobody
                 # What acts is kept from becoming true.
-                new = self.instants.settle(replace(at, truth=at.truth | acts), modes=modes, due=acts)[0]
-                self.integrator.trace.put(-1, x=new.x, z=new.z, modes=new.modes)
+                new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
+                self.integrator.trace.put(-1, new)
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
             while at.time < end:
-                grid = self._grid(at.time, end)
-                last = self.integrator.segment(grid, at.x, at.z, at.modes)
-                at = replace(at, time=float(grid[-1]), x=last.x, z=last.z, modes=last.modes)
+                at = self.integrator.segment(at, self._grid(at.time, end))
                 self.block *= 2
         while at.time < end:
             instant, row = self.agenda.planned(at, at.time + self.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)
             if row <= end and target - self.locator.shortest <= at.time:
-                self.integrator.trace.put(-1, times=np.array(row))
+                self.integrator.trace.delay(row)
                 at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
@@ -164,7 +163,7 @@ class Run:
             self.integrator.trace.add(stretch)
             self.block *= 2
             self.piece *= 2
-            return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
+            return stretch.end(at)
         return self._event(at, stretch, crossing)
 
     def _warn_of_haste(self, at: Point) -> None:
@@ -192,7 +191,7 @@ class Run:
         n = len(grid) - 1
         pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
         parts = 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n)))
-        return self.integrator.attempt(uneven(grid, parts), at.x, at.z, at.modes, max(1000, LONG // n), careful=False)
+        return self.integrator.attempt(at, uneven(grid, parts), max(1000, LONG // n), careful=False)
 
     def _shorter(self, at: Point, grid: np.ndarray) -> Point:
         """The call failed, perhaps because the law is no longer right beyond an event: look at less of the time."""
@@ -203,7 +202,7 @@ class Run:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            stretch = passage(self.integrator, times, at.x, at.z, at.modes, hard=not k)
+            stretch = passage(self.integrator, at, times, hard=not k)
             try:
                 crossing = self.locator.first(at, stretch, depth=1) if stretch else None
             except Failure:
@@ -213,8 +212,8 @@ class Run:
             if crossing:
                 return self._event(at, stretch, crossing)
             self.integrator.trace.add(stretch)
-            return replace(at, time=float(stretch.times[-1]), x=stretch.x[-1], z=stretch.z[-1], modes=stretch.modes)
-        here = self.locator.row(at, at.time, at.x, at.z, at.modes)
+            return stretch.end(at)
+        here = self.locator.row(at, at)
         due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
         if not due.any():
             raise self.integrator.failure(float(grid[0]), float(grid[1]))
@@ -238,11 +237,11 @@ class Run:
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
         last = (stretch.times[n - 1], stretch.x[n - 1], stretch.z[n - 1]) if n else (at.time, at.x, at.z)
         time, x, z = (np.array(pair) for pair in zip(last, (after.time, after.x, after.z), strict=True))
-        gained = work_between(self.integrator, after.modes, time, x, z)
-        reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, modes=after.modes)
+        gained = work_between(self.integrator, after.constants, time, x, z)
+        reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, constants=after.constants)
         new = self._happen(reached, event=True, crossed=out, label=label, energy=gained)
         if on_output and near == at.time:
-            self.integrator.trace.put(-2, x=new.x, z=new.z, modes=new.modes)
+            self.integrator.trace.put(-2, new)
         self.block = 1
         if self.density > DENSEST:
             # Where there are many looks to an interval, there are many events: look no further than a few.
@@ -255,7 +254,7 @@ class Run:
         event: bool,
         *,
         fired: list[int] | None = None,
-        modes: np.ndarray | None = None,
+        constants: Constants | None = None,
         due: np.ndarray | None = None,
         crossed: np.ndarray | None = None,
         label: float | None = None,
@@ -263,7 +262,7 @@ class Run:
     ) -> Point:
         """Let everything happen at an instant; record the values after it and what the stored energy lost."""
         try:
-            new, changed = self.instants.settle(at, fired, modes, due, crossed)
+            new, changed = self.instants.settle(at, fired, constants, due, crossed)
         except Cycling as cycling:
             raise Chattering(self._text(at.time, cycling.guards, "switch back and forth")) from None
         except InitializationError as error:
@@ -276,12 +275,13 @@ class Run:
             gained = gained + np.array([max(change, 0.0), max(-change, 0.0)])
         if event:
             time = np.array([at.time if label is None else label])
-            self.integrator.trace.add(Stretch(time, new.x[None], new.z[None], gained[None], new.modes, 0))
+            self.integrator.trace.add(Stretch(time, new.x[None], new.z[None], gained[None], new.constants, 0))
         self.integrator.trace.spend(np.zeros(2) if event else gained)
         return new
 
     def _stored(self, at: Point) -> float:
-        return float(self.integrator.compiled.stored(at.x, at.z, self.p, at.time, at.modes)[0][0])
+        problem = self.integrator.problem
+        return float(problem.compiled.stored(at.x, at.z, problem.p, at.time, at.constants.vector)[0][0])
 
     def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
         crowded = len(self.recent) == MOST and time - self.recent[0] <= WINDOW * self.instants.span
@@ -297,3 +297,9 @@ class Run:
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
             "without a jump (smooth=True). What was computed is kept."
         )
+
+
+def _differs(a: Point, b: Point) -> bool:
+    """Whether states, constants or what holds differ."""
+    pairs = ((a.x, b.x), (a.constants.vector, b.constants.vector), (a.truth, b.truth))
+    return any((one != other).any() for one, other in pairs)

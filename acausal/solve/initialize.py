@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
@@ -11,8 +12,9 @@ from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
 from acausal.solve.closed_start import closed_guess, rows_and_knowns
-from acausal.solve.newton import CONSISTENT, InitialSystem, follow, newton
-from acausal.solve.projection import choose_projection, independent
+from acausal.solve.newton import CONSISTENT, InitialSystem, algebraic, follow, newton
+from acausal.solve.problem import Point, Problem
+from acausal.solve.projection import Redundancy, choose_projection, independent
 from acausal.solve.steady import Equilibrium
 from acausal.solve.words import contradiction_text, missing_text
 from acausal.structure import complete
@@ -20,27 +22,39 @@ from acausal.structure import complete
 INITIAL = ("fixed", "guesses", "steady")
 
 
-def initialize(
-    compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+@dataclass(frozen=True)
+class Start:
+    """Where a run starts, and what was found there about its loops.
+
+    Attributes
+    ----------
+    point : Point
+        Consistent values.
+    redundancy : Redundancy
+        Constraints that are dropped.
+    independent : tuple of str
+        Names of the states that do not follow from others; none where there are no loops.
+    """
+
+    point: Point
+    redundancy: Redundancy = field(default_factory=Redundancy)
+    independent: tuple[str, ...] = ()
+
+
+def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:
     """Find states and algebraic unknowns that satisfy the equations and the initial conditions.
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    p, time, modes : array, float, array
-        Parameters, start time and modes of the switches at the start.
+    time : float
+        Start time in s.
+    head : array
+        Modes of the switches at the start, and discrete variables.
     initial : "fixed", "guesses" or "steady"
         What to do with states that no condition determines: refuse, take their guesses, or find those at which all
         derivatives vanish.
-
-    Returns
-    -------
-    x, z : arrays
-        States and algebraic unknowns.
-    modes : array
-        Constants of the first segment: the given modes, and what is chosen for constraints.
 
     Raises
     ------
@@ -49,125 +63,109 @@ def initialize(
     """
     if initial not in INITIAL:
         raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.")
-    y = compiled.start(p, time)[0].copy()
-    nx = compiled.nx
-    modes = np.concatenate([modes, np.ones(compiled.reduced.closing.choice.numel())])
+    compiled, loops = problem.compiled, bool(problem.compiled.closing.size)
+    at, redundancy = _guess(problem, time, head), Redundancy()
     if initial == "steady":
-        first = _sparse(compiled, y, p, time, modes)
-        y, modes, _ = _closed(compiled, y, p, time, modes)
-        y, modes = Equilibrium(compiled, y, p, time, modes).find(first)
+        first = _sparse(problem, at)
+        at, redundancy, _ = _closed(problem, at)
+        at = Equilibrium(problem, at).find(first)
     else:
-        if compiled.closing.size:
-            system, y, modes = _ranked(compiled, y, p, time, modes, initial)
+        if loops:
+            system, at, redundancy = _ranked(problem, at, initial)
         else:
-            system = _system(compiled, p, time, modes, initial)
-            y = _direct_values(compiled, system.direct, y, p, time, modes)
+            system = _system(problem, at, initial)
+            at = _direct_values(problem, system.direct, at)
         try:
-            y = _solve(compiled, system, y, p, time, modes)
+            at = _solve(problem, system, at)
         except InitializationError:
-            if not _states_suffice(compiled, system):
+            # Where only forces of a singular position lack a value, the closed loops alone tell how to leave it.
+            if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
     # The conditions of the initial system hold no longer; the states stay, the rest follows.
     if _flag_matters(compiled):
-        y = algebraic(compiled, y, p, time, modes)
-    if compiled.closing.size:
-        modes = choose_projection(compiled, y[:nx], y[nx:], p, time, modes)
-        compiled.cache["independent"] = independent(compiled, modes)
-    return y[:nx], y[nx:], modes
+        at = algebraic(problem, at)
+    if not loops:
+        return Start(at)
+    at = replace(at, constants=choose_projection(problem, at))
+    return Start(at, redundancy, independent(compiled, at.constants))
 
 
-def _ranked(
-    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray, initial: str
-) -> tuple[InitialSystem, np.ndarray, np.ndarray]:
+def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
+    """Start values of all unknowns."""
+    y = problem.compiled.start(problem.p, time)[0].copy()
+    return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.constants(head))
+
+
+def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
     """Close the loops, and choose the initial system from there by ranks."""
-    nx, nz = compiled.nx, compiled.nz
-    y, modes, direct = _closed(compiled, y, p, time, modes)
+    compiled, nx, nz = problem.compiled, problem.nx, problem.nz
+    at, redundancy, direct = _closed(problem, at)
     try:
-        y = algebraic(compiled, y, p, time, modes)
+        at = algebraic(problem, at)
     except InitializationError:
-        if not compiled.cache["redundancy"].singular:
+        if not redundancy.singular:
             raise
     held = np.array(sorted(direct.values()), dtype=int)
     others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
         others += range(-nx, 0)
-    equations, used, surplus, known = rows_and_knowns(
-        compiled, y[:nx], y[nx:], p, time, modes, held, others, initial == "fixed"
-    )
-    y[nx + compiled.closing.multipliers] = 0.0
+    equations, used, surplus, known = rows_and_knowns(problem, at, held, others, initial == "fixed")
+    z = at.z.copy()
+    z[compiled.closing.multipliers] = 0.0
     rows = np.array([*equations, *used], int)
     demanded = [row for row in surplus if row >= 0]
-    return InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items())), y, modes
+    system = InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items()))
+    return system, replace(at, z=z), redundancy
 
 
-def _states_suffice(compiled: CompiledModel, system: InitialSystem) -> bool:
-    """Whether only forces of a singular position lack a value: then the closed loops alone tell how to leave it."""
-    if not compiled.closing.size or not compiled.cache["redundancy"].singular or system.surplus.size:
-        return False
-    return set(system.rows[system.rows >= compiled.nz].tolist()) <= {row for row, _ in system.direct}
+def _states_suffice(problem: Problem, system: InitialSystem) -> bool:
+    """Whether every condition gives a state by itself."""
+    conditions = set(system.rows[system.rows >= problem.nz].tolist())
+    return not system.surplus.size and conditions <= {row for row, _ in system.direct}
 
 
-def _sparse(
-    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-) -> tuple[np.ndarray, np.ndarray] | None:
+def _sparse(problem: Problem, at: Point) -> Point | None:
     """Solve for derivatives of 0 with sparse factors, which suits long chains; None where that finds nothing."""
     try:
-        system, y, modes = _ranked(compiled, y, p, time, modes, "steady")
-        return _solve(compiled, system, y, p, time, modes), modes
+        system, at, _ = _ranked(problem, at, "steady")
+        return _solve(problem, system, at)
     except InitializationError:
         return None
 
 
-def _closed(
-    compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, dict[int, int]]:
+def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, int]]:
     """Give states the values that conditions state for them, and close the loops around them.
 
     Returns
     -------
-    y, modes : arrays
-        Unknowns, and constants of the segment.
+    at : Point
+        With closed loops.
+    redundancy : Redundancy
+        What the ranks of the loops tell.
     direct : dict of int to int
         Condition -> the state that it gives.
     """
-    nx, nz = compiled.nx, compiled.nz
-    given = compiled.conditions.numel()
-    rows = _rows(compiled, p, time, modes)
-    direct = _direct(compiled, list(range(nz, nz + given)), rows)
+    compiled, nz = problem.compiled, problem.nz
+    direct = _direct(problem, list(range(nz, nz + compiled.conditions.numel())), _rows(problem, at))
     # The first condition on a state gives it, another one must agree.
     first = {state: row for row, state in reversed(direct.items())}
     direct = {row: state for state, row in first.items()}
-    y = _direct_values(compiled, tuple(direct.items()), y, p, time, modes)
-    held = np.array(sorted(first), dtype=int)
-    if compiled.closing.size:
-        y[:nx], modes = closed_guess(compiled, y[:nx], held, p, time, modes)
-        y[nx:] = compiled.closing.guess(y[:nx], y[nx:], p, time, modes)
-    return y, modes, direct
+    at = _direct_values(problem, tuple(direct.items()), at)
+    if not compiled.closing.size:
+        return at, Redundancy(), direct
+    at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
+    return problem.completed(at), redundancy, direct
 
 
-def _direct_values(
-    compiled: CompiledModel,
-    direct: tuple[tuple[int, int], ...],
-    y: np.ndarray,
-    p: np.ndarray,
-    time: float,
-    modes: np.ndarray,
-) -> np.ndarray:
+def _direct_values(problem: Problem, direct: tuple[tuple[int, int], ...], at: Point) -> Point:
     """Give states the values that conditions state for them."""
     if not direct:
-        return y
-    local = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)
-    rows, states = np.array(direct).T + np.array([[compiled.nx], [0]])
-    y = y.copy()
-    y[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
-    return y
-
-
-def algebraic(compiled: CompiledModel, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
-    """Solve for the algebraic unknowns in y = (x, z), with the states as they are."""
-    nx = compiled.nx
-    system = InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(nx))
-    return newton(compiled, system, y, p, time, modes, 0.0)
+        return at
+    local = problem.local(at, 1.0)
+    rows, states = np.array(direct).T + np.array([[problem.nx], [0]])
+    x = at.x.copy()
+    x[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
+    return replace(at, x=x)
 
 
 def _flag_matters(compiled: CompiledModel) -> bool:
@@ -177,13 +175,14 @@ def _flag_matters(compiled: CompiledModel) -> bool:
     return compiled.cache["flag"]
 
 
-def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray, initial: str) -> InitialSystem:
+def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     """Choose conditions, from the pattern of the equations alone."""
+    compiled = problem.compiled
     key = ("initial system", initial)
     if key in compiled.cache:
         return compiled.cache[key]
     nx, nz = compiled.nx, compiled.nz
-    rows = _rows(compiled, p, time, modes)
+    rows = _rows(problem, at)
     equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
     given = len(conditions)
     done = complete(equations, conditions, nx + nz)
@@ -197,7 +196,7 @@ def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarr
         raise InitializationError(missing_text(compiled, guessed))
     used = [nz + k for k in done.used if k < given]
     surplus = [nz + k for k in done.surplus if k < given]
-    direct = _direct(compiled, used, rows)
+    direct = _direct(problem, used, rows)
     solved = [row for row in used if row not in direct]
     known = sorted([*guessed, *direct.values()])
     system = InitialSystem(
@@ -212,23 +211,23 @@ def _is_guessed(compiled: CompiledModel, state: int) -> bool:
     return index < len(flat.guessed) and bool(flat.guessed[index])
 
 
-def _rows(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray) -> list[list[int]]:
+def _rows(problem: Problem, at: Point) -> list[list[int]]:
     """Unknowns of each equation, those first on which it depends most at the guesses.
 
     A condition on a velocity then determines a velocity, although it also holds the orientation.
     """
-    start = compiled.start(p, time)[0].copy()
-    J: Any = compiled.at(start[: compiled.nx], start[compiled.nx :], p, time, modes, 1.0).jacobian.tocoo()
+    J: Any = problem.local(at, 1.0).jacobian.tocoo()
     rows: list[list[int]] = [[] for _ in range(J.shape[0])]
     for k in np.argsort(-np.abs(np.nan_to_num(J.data)), kind="stable"):
         rows[J.row[k]].append(int(J.col[k]))
     return rows
 
 
-def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> dict[int, int]:
+def _direct(problem: Problem, used: list[int], rows: list[list[int]]) -> dict[int, int]:
     """Conditions that give one state by themselves."""
     if not used:
         return {}
+    compiled = problem.compiled
     unknowns = ca.vertcat(compiled.reduced.x, compiled.reduced.z)
     curved = ca.which_depends(compiled.conditions, unknowns, 2, True)
     found: dict[int, int] = {}
@@ -239,19 +238,17 @@ def _direct(compiled: CompiledModel, used: list[int], rows: list[list[int]]) -> 
     return found
 
 
-def _solve(
-    compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-) -> np.ndarray:
+def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
     try:
-        y = newton(compiled, system, y, p, time, modes, 1.0)
+        at = newton(problem, system, at, 1.0)
     except InitializationError:
-        found = follow(compiled, system, y, p, time, modes)
+        found = follow(problem, system, at)
         if found is None:
             raise
-        y = found
+        at = found
     if system.surplus.size:
-        value = compiled.at(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0).value[compiled.nx :]
-        wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(y), initial=0))]
+        value = problem.values(at, 1.0)[problem.nx :]
+        wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(at.y), initial=0))]
         if wrong:
-            raise InitializationError(contradiction_text(compiled, value, wrong))
-    return y
+            raise InitializationError(contradiction_text(problem.compiled, value, wrong))
+    return at

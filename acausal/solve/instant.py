@@ -2,33 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.solve.closed_start import leave_singular
 from acausal.solve.closing import CLOSED, close, refuse_open_loops
-from acausal.solve.initialize import algebraic, initialize
+from acausal.solve.initialize import Start, initialize
 from acausal.solve.integrate import Failure
+from acausal.solve.newton import algebraic
+from acausal.solve.problem import Point, Problem
 from acausal.solve.projection import choose_projection
 
 ROUNDS = 20
 SHORT = 1e-8  # of the run: what changes sign within that time does so now
 JUMP = 1e-5  # less is the error with which an event is located
-
-
-@dataclass(frozen=True)
-class Point:
-    """Where a run is: time, states, algebraic unknowns, modes, and which watched conditions hold."""
-
-    time: float
-    x: np.ndarray
-    z: np.ndarray
-    modes: np.ndarray
-    truth: np.ndarray
 
 
 class Cycling(Exception):
@@ -44,32 +36,29 @@ class Instants:
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    p : array
-        Parameter values.
     tolerance, span : float
         Relative tolerance, and length of the run in s.
     nominal : array
         Typical sizes of states and algebraic unknowns.
     """
 
-    def __init__(
-        self, compiled: CompiledModel, p: np.ndarray, tolerance: float, span: float, nominal: np.ndarray
-    ) -> None:
-        self.compiled, self.p, self.tolerance, self.span, self.nominal = compiled, p, tolerance, span, nominal
-        self.guards = compiled.guards
+    def __init__(self, problem: Problem, tolerance: float, span: float, nominal: np.ndarray) -> None:
+        self.problem, self.tolerance, self.span, self.nominal = problem, tolerance, span, nominal
+        self.guards = problem.compiled.guards
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
 
     def width(self, at: Point) -> np.ndarray:
         """How far each watched excess may be off by the tolerance."""
-        scale = np.nan_to_num(self.guards.scale(at.x, at.z, self.p, at.time, at.modes, self.nominal)[0])
+        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
+        scale = np.nan_to_num(self.guards.scale(*here, self.nominal)[0])
         return self.tolerance * np.where(scale > 0, scale, 1.0)
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""
-        value, rate = self.guards.along(at.x[None], at.z[None], self.p, np.array([at.time]), at.modes)
+        value, rate = _along(self.problem, at)
         return value[0], rate[0]
 
     def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:
@@ -85,7 +74,7 @@ class Instants:
         self,
         at: Point,
         fired: list[int] | None = None,
-        modes: np.ndarray | None = None,
+        constants: Constants | None = None,
         due: np.ndarray | None = None,
         crossed: np.ndarray | None = None,
     ) -> tuple[Point, bool]:
@@ -97,8 +86,8 @@ class Instants:
             Just before.
         fired : list of int
             Guards whose condition becomes true by the clock.
-        modes : array
-            Modes that hold by the clock from now on.
+        constants : Constants
+            Those that hold by the clock from now on.
         due : array of bool
             Watched conditions that change now whatever their values.
         crossed : array of bool
@@ -110,7 +99,7 @@ class Instants:
             If that does not come to an end.
         """
         fires, changed = list(fired or []), False
-        after = at.modes if modes is None else modes
+        after = constants or at.constants
         moved: list[int] = []
         none = np.zeros(len(self.watched), dtype=bool)
         due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
@@ -118,24 +107,23 @@ class Instants:
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
-            if not flips.any() and not fires and after is at.modes:
+            if not flips.any() and not fires and after is at.constants:
                 return replace(at, truth=now), changed
             moved = [*self.watched[flips].tolist(), *fires]
-            after = after.copy()
-            after[self.watched[flips]] = now[flips]
-            x = self._jump(at, fires, after)
-            self._refuse_jumps(at, after)
-            y = algebraic(self.compiled, np.concatenate([x, at.z]), self.p, at.time, after)
-            at = Point(at.time, x, y[len(x) :], after, now)
-            fires, changed = [], True
+            after = after.switched(self.watched[flips], now[flips])
+            jumped = self._jump(at, fires, after)
+            self._refuse_jumps(at, jumped.constants)
+            at = replace(algebraic(self.problem, jumped), truth=now)
+            fires, changed, after = [], True, at.constants
         raise Cycling(moved)
 
-    def _refuse_jumps(self, at: Point, modes: np.ndarray) -> None:
+    def _refuse_jumps(self, at: Point, constants: Constants) -> None:
         """Refuse that something jumps of which a derivative is in the equations."""
         if not self.guards.differentiated:
             return
-        here = at.x, at.z, self.p, at.time, at.modes
-        before, after = (self.guards.continuous(*here, new)[0].copy() for new in (at.modes, modes))
+        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
+        both = at.constants.vector, constants.vector
+        before, after = (self.guards.continuous(*here, new)[0].copy() for new in both)
         jumps = np.nan_to_num(np.abs(after - before))
         worst = int(np.argmax(jumps))
         if jumps[worst] > JUMP:
@@ -147,34 +135,41 @@ class Instants:
                 "or let a state jump by when(..., reinit(...))",
             )
 
-    def _jump(self, at: Point, fires: list[int], modes: np.ndarray) -> np.ndarray:
-        """Return the states after jumps computed from the values before; discrete variables change in `modes`.
+    def _jump(self, at: Point, fires: list[int], constants: Constants) -> Point:
+        """Return the point with states and discrete variables after jumps that are computed from the values before.
 
         In closed loops the other states follow, by the least change that keeps the loops closed.
         """
-        c = self.compiled
-        x, jumped = c.closing.project(at.x, at.z, self.p, at.time, at.modes), []
+        x, discretes, jumped = self.problem.projected(at).x, constants.discretes.copy(), []
         for guard in fires:
             call, places = self.guards.jump(guard)
-            for (is_state, place), value in zip(places, call(at.x, at.z, self.p, at.time, at.modes)[0], strict=True):
-                (x if is_state else modes)[place] = value
+            values = call(at.x, at.z, self.problem.p, at.time, at.constants.vector)[0]
+            for (is_state, place), value in zip(places, values, strict=True):
+                (x if is_state else discretes)[place] = value
                 jumped += [place] * is_state
-        if not jumped or not c.closing.size:
-            return x
+        after = replace(at, x=x, constants=replace(constants, discretes=discretes))
+        if not jumped or not self.problem.compiled.closing.size:
+            return after
         held = np.array(jumped, dtype=int)
-        closed, mismatch = close(c, x, held, self.p, at.time, modes)
+        after, mismatch = close(self.problem, after, held)
         if mismatch > CLOSED:
-            refuse_open_loops(c, closed, held, self.p, at.time, modes)
-        return closed
+            refuse_open_loops(self.problem, after, held)
+        return after
 
 
-def start(compiled: CompiledModel, p: np.ndarray, time: float, later: float, initial: str) -> Point:
+def _along(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
+    """Watched excesses and their rates at one point, a row each."""
+    times = np.array([at.time])
+    return problem.compiled.guards.along(at.x[None], at.z[None], problem.p, times, at.constants.vector)
+
+
+def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """Find consistent values at the start, and the modes that fit them.
 
     Parameters
     ----------
-    compiled, p
-        The model and its parameter values.
+    problem : Problem
+        The model.
     time, later : float
         Start time, and a time before the first break.
     initial : "fixed", "guesses" or "steady"
@@ -185,33 +180,32 @@ def start(compiled: CompiledModel, p: np.ndarray, time: float, later: float, ini
     InitializationError
         If no values are found, or none whose modes fit them.
     """
-    guards = compiled.guards
-    head = compiled.modes_at(p, later)[0].copy()
+    guards, p = problem.compiled.guards, problem.p
+    head = problem.compiled.modes_at(p, later)[0].copy()
     for _ in range(ROUNDS):
-        x, z, modes = initialize(compiled, p, time, head, initial)
-        found = guards.start(x, z, p, time, modes)[0]
+        begun = initialize(problem, time, head, initial)
+        at = begun.point
+        found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
         new = head.copy()
         own = np.setdiff1d(np.arange(guards.n_modes), [k for k in guards.timed if k < guards.n_switches])
         new[own] = found[own]
         if np.allclose(new, head, rtol=1e-9, atol=1e-12):
-            return Point(time, x, z, modes, _first_truth(compiled, x, z, p, time, modes))
+            return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     raise InitializationError(
         f"no modes fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
-        + places_text(compiled, wrong)
+        + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )
 
 
-def _first_truth(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-) -> np.ndarray:
+def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     """Which watched conditions hold at the start; those that act at the start do not hold before."""
-    guards: Any = compiled.guards
+    guards: Any = problem.compiled.guards
     if not guards.watched:
         return np.zeros(0, dtype=bool)
-    value = guards.along(x[None], z[None], p, np.array([time]), modes)[0][0]
+    value = _along(problem, at)[0][0]
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])
@@ -224,14 +218,10 @@ def places_text(compiled: CompiledModel, guards: list[int]) -> str:
     return "\n".join(f"  {origin}" for origin in list(origins)[:5])
 
 
-def go_on(compiled: CompiledModel, p: np.ndarray, at: Point) -> Point:
+def go_on(problem: Problem, start: Start) -> Point:
     """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
-    redundancy: Any = compiled.cache.get("redundancy")
-    if not compiled.closing.size or not redundancy.singular:
-        return at
-    time, x = leave_singular(compiled, at.x, p, at.time, at.modes)
-    modes = choose_projection(compiled, x, None, p, time, at.modes)
-    z = compiled.closing.guess(x, at.z, p, time, modes)
-    z[compiled.closing.multipliers] = 0.0
-    y = algebraic(compiled, np.concatenate([x, z]), p, time, modes)
-    return replace(at, time=time, x=x, z=y[compiled.nx :], modes=modes)
+    if not start.redundancy.singular:
+        return start.point
+    at = leave_singular(problem, start.point)
+    at = replace(at, constants=choose_projection(problem, at, spare=False))
+    return algebraic(problem, problem.completed(at))

@@ -9,15 +9,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
+from acausal.compiler.constants import Constants
 from acausal.solve.consistent import Consistent
 from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.interrupted import keep_reached
 from acausal.solve.methods import Way, multistep, one_step, rounding
 from acausal.solve.passage import HOPELESS, LONG, creep
+from acausal.solve.problem import Point, Problem
 from acausal.solve.projection import WORN, choose_projection, worn
-from acausal.solve.trace import Rows, Stretch, Trace
+from acausal.solve.trace import Stretch, Trace
 
 CHUNKS = 25
 # Times in a call at which at least the choice of states is looked at.
@@ -62,10 +63,8 @@ class Integrator:
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    p : array
-        Parameter values.
     settings : Settings
         Tolerance, order limit and what else to compute.
     span : (float, float)
@@ -74,51 +73,44 @@ class Integrator:
         Of an earlier run whose counts go on.
     """
 
-    def __init__(
-        self, compiled: CompiledModel, p: np.ndarray, settings: Settings, span: tuple[float, float], before: Trace
-    ) -> None:
-        self.compiled, self.p, self.settings, self.span = compiled, p, settings, span
-        self.hoisted = compiled.hoist(p)[0].copy()
+    def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
+        self.problem, self.compiled, self.settings, self.span = problem, problem.compiled, settings, span
+        self.hoisted = self.compiled.hoist(problem.p)[0].copy()
         self.trace = before.emptied()
-        self.consistent = Consistent(compiled, p)
+        self.consistent = Consistent(problem)
         self.complaint, self.outputs = "", 1
         self.moves, self.worn = settings.constraints == "projection", False
         self.rings, self.rough = settings.method == "rosenbrock", False
         self._floor: np.ndarray | None = None
         self.tolerance = settings.tolerance
 
-    def segment(self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Rows:
-        """Integrate from times[0] through all other times, without a break between them; return the last row.
+    def segment(self, at: Point, times: np.ndarray) -> Point:
+        """Integrate from times[0] through all other times, without a break between them; return the last point.
 
         Raises
         ------
         Failure
             If the integrator gives up; the trace holds what was reached.
         """
-        if not self.compiled.nx:
-            self.trace.add(self._solve_everywhere(times, z, modes))
-            return self.trace.last()
         n = self.outputs = len(times) - 1
-        while not (done := self._call(times, x, z, modes, self.patience(times), careful=False)) and self.rescue(times):
+        while not (done := self._call(at, times, self.patience(times), careful=False)) and self.rescue(times):
             pass
         if done:
-            return self.trace.last()
+            return done
         self.rings = self.settings.method == "rosenbrock"
         size = max(1, -(-n // CHUNKS))
         for first in range(0, n, size):
             part = times[first : first + size + 1]
-            if not self._call(part, x, z, modes, HOPELESS // (len(part) - 1)):
-                creep(self, part, x, z, modes)
-            _, x, z, *_ = self.trace.last()
+            at = self._call(at, part, HOPELESS // (len(part) - 1)) or creep(self, at, part)
             self.report(part[-1])
-        return self.trace.last()
+        return at
 
-    def rounding(self, x: np.ndarray, z: np.ndarray, time: float, modes: np.ndarray) -> np.ndarray:
+    def rounding(self, at: Point) -> np.ndarray:
         """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
         if self._floor is None:
             near = self.settings.tolerance < 1e-8 and self.compiled.nz
             c = self.compiled
-            self._floor = rounding(c, x, z, self.p, time, modes) if near else np.zeros(c.nx + c.nz)
+            self._floor = rounding(self.problem, at) if near else np.zeros(c.nx + c.nz)
         return self._floor
 
     def patience(self, times: np.ndarray) -> int:
@@ -144,72 +136,49 @@ class Integrator:
         self.moves, self.rings = moves, rings
         return changed
 
-    def _choose(
-        self, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _choose(self, at: Point) -> Point:
         """Start anew from where the constraints hold, with a projection that suits the position."""
         c = self.compiled
         if not c.closing.size:
-            return x, z, modes
-        x = c.closing.project(x, z, self.p, time, modes)
-        z = z.copy()
+            return at
+        z = at.z.copy()
         z[c.closing.multipliers] = 0.0
+        at = replace(self.problem.projected(at), z=z)
         self.trace.choices += 1
-        return x, z, choose_projection(c, x, z, self.p, time, modes, self.moves)
+        return replace(at, constants=choose_projection(self.problem, at, moves=self.moves))
 
-    def _is_worn(self, times: np.ndarray, x: np.ndarray, modes: np.ndarray) -> bool:
+    def _is_worn(self, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
         c = self.compiled
         if not c.closing.size or self.moves:
             return False
         looks = int(np.clip(WORK / c.closing.size**3, 8, 100))
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
-        return bool(np.any(worn(c, x[some], self.p, times[some], modes) < WORN))
+        return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
 
-    def _solve_everywhere(self, times: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Stretch:
-        tolerance = self.tolerance if self.settings.energy else None
-        return everywhere(self.compiled, self.consistent, times, z, modes, tolerance)
-
-    def _call(
-        self,
-        times: np.ndarray,
-        x: np.ndarray,
-        z: np.ndarray,
-        modes: np.ndarray,
-        max_steps: int,
-        careful: bool = True,
-    ) -> bool:
-        stretch = self.attempt(times, x, z, modes, max_steps, careful)
+    def _call(self, at: Point, times: np.ndarray, max_steps: int, careful: bool = True) -> Point | None:
+        stretch = self.attempt(at, times, max_steps, careful)
         if stretch is None:
-            return False
+            return None
         self.trace.add(stretch)
-        return True
+        return stretch.end(at)
 
-    def trial(
-        self, times: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray, max_steps: int
-    ) -> Stretch | None:
+    def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | None:
         """Integrate as `attempt` does, carefully where that fails; nobody asks for works."""
-        tries = (self.attempt(times, x, z, modes, max_steps, careful, works=False) for careful in (False, True))
+        tries = (self.attempt(at, times, max_steps, careful, works=False) for careful in (False, True))
         return next((stretch for stretch in tries if stretch is not None), None)
 
     def attempt(
-        self,
-        times: np.ndarray,
-        x: np.ndarray,
-        z: np.ndarray,
-        modes: np.ndarray,
-        max_steps: int,
-        careful: bool,
-        works: bool = True,
+        self, at: Point, times: np.ndarray, max_steps: int, careful: bool, works: bool = True
     ) -> Stretch | None:
-        """Integrate from times[0] through all other times in one call; None where the integrator gives up.
+        """Integrate from a point, at times[0], through all other times in one call; None where the integrator gives up.
 
         Works are 0 where they are not asked for.
         """
         c = self.compiled
         if not c.nx:
-            return self._solve_everywhere(times, z, modes)
-        x, z, modes = self._choose(times[0], x, z, modes)
+            return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
+        at = self._choose(at)
         parts = -(-FINE // (len(times) - 1)) if c.closing.size and not self.moves else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
@@ -218,24 +187,23 @@ class Integrator:
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
-        way = (one_step if self.rings else multistep)(self, times, x, z, modes, max_steps, careful)
+        way = (one_step if self.rings else multistep)(self, at, times, max_steps, careful)
         call = c.integrator(way.plugin, grid, way.options, works, self.moves)
         x_size, z_size = way.sizes
-        given = {"x0": x / x_size, "z0": z / z_size}
-        given["p"] = np.concatenate([[times[0], span], self.hoisted, modes, x_size if way.plugin != "idas" else []])
+        given = {"x0": at.x / x_size, "z0": at.z / z_size}
+        vector, own = at.constants.vector, x_size if way.plugin != "idas" else []
+        given["p"] = np.concatenate([[times[0], span], self.hoisted, vector, own])
         for k, name in enumerate(call.function.name_in()):
             if name in given:
                 call.inputs[k][:] = given[name]
         call.clear()
         try:
-            return self._outcome(call, way, x, z, times, modes, parts)
+            return self._outcome(call, way, at, times, parts)
         except KeyboardInterrupt:
-            keep_reached(self, call, way, times, modes, parts)
+            keep_reached(self, call, way, times, at.constants, parts)
             raise
 
-    def _outcome(
-        self, call: Call, way: Way, x: np.ndarray, z: np.ndarray, times: np.ndarray, modes: np.ndarray, parts: int
-    ) -> Stretch | None:
+    def _outcome(self, call: Call, way: Way, at: Point, times: np.ndarray, parts: int) -> Stretch | None:
         """Evaluate a call, and return one row in so many that hold; None where it failed or went astray."""
         c, trace, n = self.compiled, self.trace, len(times) - 1
         started = clock.perf_counter()
@@ -246,28 +214,29 @@ class Integrator:
             self.worn = bool(c.closing.size) and "mxstep" not in self.complaint
             return None
         states, algebraics, energy = way.rows(call)
-        self.worn = self._is_worn(times[1:], states, modes)
+        self.worn = self._is_worn(times[1:], states, at.constants)
         if self.worn:
             return None
         few = RESOLVED if way.plugin == "idas" and self.settings.max_order <= 2 else 1
         if energy is not None and not c.powers.is_zero() and steps < n * few:
-            rows = np.vstack([x, states]), np.vstack([z, algebraics]), times, modes
+            rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
             given = np.vstack([np.zeros((1, 2)), energy])
             work, known = refined(c, self.consistent, rows, given, self.tolerance, steps < n)
             energy, self.rough = work[1:], self.rough or not known
         energy = np.zeros((n, 2)) if energy is None else energy
-        return self._settled(Stretch(times[1:], states, algebraics, energy, modes, steps).every(parts))
+        return self._settled(Stretch(times[1:], states, algebraics, energy, at.constants, steps).every(parts))
 
     def _settled(self, stretch: Stretch) -> Stretch | None:
         """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
-        last = slice(-1, None)
-        z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], stretch.modes[None])
+        last, vector = slice(-1, None), stretch.constants.vector
+        z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
         lost, self.consistent.unsolved = self.consistent.unsolved, []
-        q = self.compiled.closing.project(stretch.x[-1], z[-1], self.p, stretch.times[-1], stretch.modes)
-        if not np.all(np.abs(q - stretch.x[-1]) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
+        end = Point(float(stretch.times[-1]), stretch.x[-1], z[-1], stretch.constants)
+        q = self.problem.projected(end).x
+        if not np.all(np.abs(q - end.x) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
             self.complaint, self.worn = "At t = 1.0, the loops came apart", True
             return None
-        if lost and not self.consistent.holds(stretch.x[-1], z[-1], lost[0], stretch.modes, self.tolerance):
+        if lost and not self.consistent.holds(end.x, end.z, lost[0], vector, self.tolerance):
             self.complaint = "At t = 1.0, the algebraic equations have no solution there"
             self.worn = bool(self.compiled.closing.size)
             return None

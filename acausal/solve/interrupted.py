@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal.compiler.call import Call
+from acausal.compiler.constants import Constants
 from acausal.solve.trace import Stretch
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ def keep_reached(
     call: Call,
     way: Way,
     times: np.ndarray,
-    modes: np.ndarray,
+    constants: Constants,
     parts: int,
 ) -> None:
     """Keep the rows that an interrupted call had written.
@@ -36,8 +37,8 @@ def keep_reached(
         How it integrates.
     times : array
         Its start and output times.
-    modes : array
-        Constants of the segment.
+    constants : Constants
+        Those of the segment.
     parts : int
         One row in so many is kept.
     """
@@ -51,12 +52,12 @@ def keep_reached(
             return  # a trial, without works
         energy = np.zeros((len(x), 2))
     whole = np.isfinite(x).all(axis=1) & np.isfinite(z).all(axis=1) & np.isfinite(energy).all(axis=1)
-    reached = Stretch(times[1:], x, z, energy, modes, 0).rows(0, _leading(whole)).every(parts)
-    if not len(reached.times) or integrator._is_worn(reached.times, reached.x, modes):
+    reached = Stretch(times[1:], x, z, energy, constants, 0).rows(0, _leading(whole)).every(parts)
+    if not len(reached.times) or integrator._is_worn(reached.times, reached.x, constants):
         return
     given = dict(zip(call.function.name_in(), call.inputs, strict=True))
     start = Stretch(
-        times[:1], given["x0"][None] * way.sizes[0], given["z0"][None] * way.sizes[1], np.zeros((1, 2)), modes, 0
+        times[:1], given["x0"][None] * way.sizes[0], given["z0"][None] * way.sizes[1], np.zeros((1, 2)), constants, 0
     )
     before = reached.rows(0, _before_event(integrator, start, reached))
     if len(before.times):
@@ -76,8 +77,9 @@ def _before_event(integrator: Integrator, start: Stretch, reached: Stretch) -> i
     x, z, t = (
         np.concatenate(pair) for pair in ((start.x, reached.x), (start.z, reached.z), (start.times, reached.times))
     )
-    z = integrator.consistent(x, z, t, reached.modes, guards.needs)
-    signs = np.sign(guards.along(x, z, integrator.p, t, reached.modes)[0])
+    vector = reached.constants.vector
+    z = integrator.consistent(x, z, t, vector, guards.needs)
+    signs = np.sign(guards.along(x, z, integrator.problem.p, t, vector)[0])
     # Right after an event a condition is at its threshold.
     first = np.where(signs[0] == 0, signs[1], signs[0])
     return _leading((signs[1:] == first).all(axis=1))

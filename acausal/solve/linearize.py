@@ -17,6 +17,7 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.solve.instant import start
 from acausal.solve.order import state_matrix
+from acausal.solve.problem import Problem
 from acausal.solve.settings import settled
 from acausal.solve.tangent import tangent
 from acausal.symbols import scalars
@@ -102,15 +103,16 @@ def linearize(
         compiled = compile(model, parameters)
         p = compiled.parameter_values(None)
     how = settled(model, parameters, {"initial": initial})["initial"]
-    at = start(compiled, p, time, time, how)
-    x, z, modes = at.x, at.z, at.modes
+    problem = Problem(compiled, p)
+    at = start(problem, time, time, how).point
     inputs = _inputs(compiled)
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
     u = ca.vertcat(*[sx for _, sx in inputs])
     r = compiled.reduced
     column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
-    values = Call(ca.Function("linear", compiled.arguments, [ca.densify(J)]))(x, z, p, time, modes, 0.0)[0]
+    linear = Call(ca.Function("linear", compiled.arguments, [ca.densify(J)]))
+    values = linear(at.x, at.z, p, time, at.constants.vector, 0.0)[0]
     M = values.reshape(J.shape[::-1]).T
     nx, nz = compiled.nx, compiled.nz
     try:
@@ -124,7 +126,7 @@ def linearize(
     gx = M[nx : nx + nz, :nx]
     zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))
     h = M[nx + nz :]
-    N, chosen = tangent(compiled, x, p, time, modes)
+    N, chosen = tangent(problem, at)
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(
         A=(A @ N)[chosen],

@@ -6,11 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.compiler.constants import Constants
 from acausal.solve.between import FAITHFUL, between
 from acausal.solve.crossing import Sides, dips, levels, root
-from acausal.solve.instant import Instants, Point
-from acausal.solve.integrate import Integrator, Stretch
+from acausal.solve.instant import Instants
+from acausal.solve.integrate import Integrator
 from acausal.solve.looks import pace
+from acausal.solve.problem import Point
+from acausal.solve.trace import Stretch
 
 FINE, DEPTH, SUSPECTS, TRIALS = 8, 3, 4, 80
 TRIAL_STEPS = 20_000
@@ -29,7 +32,7 @@ class Row:
     z: np.ndarray
     value: np.ndarray
     rate: np.ndarray
-    modes: np.ndarray
+    constants: Constants
 
 
 @dataclass(frozen=True)
@@ -86,7 +89,7 @@ class Locator:
             np.concatenate([[at.time], stretch.times]),
             np.vstack([at.x[None], stretch.x]),
             np.vstack([at.z[None], stretch.z]),
-            stretch.modes,
+            stretch.constants,
         )
         sides = Sides(
             np.array([r.time for r in rows]), np.array([r.value for r in rows]), np.array([r.rate for r in rows])
@@ -122,19 +125,19 @@ class Locator:
             return None
         return self._narrow(at, rows[end], rows[end + 1], width / 100, peak[end])
 
-    def row(self, at: Point, time: float, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> Row:
-        """Values of the watched conditions at other states, on the side on which they are at `at`."""
-        return self._rows(at, np.array([time]), x[None], z[None], modes)[0]
+    def row(self, at: Point, here: Point) -> Row:
+        """Values of the watched conditions at another point, on the side on which they are at `at`."""
+        return self._rows(at, np.array([here.time]), here.x[None], here.z[None], here.constants)[0]
 
-    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> list[Row]:
+    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Row]:
         """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
         run, guards = self.run, self.instants.guards
-        z = run.consistent(x, z, t, modes, guards.needs)
+        z = run.consistent(x, z, t, constants.vector, guards.needs)
         run.consistent.unsolved.clear()
-        value, rate = guards.along(x, z, run.p, t, modes)
+        value, rate = guards.along(x, z, run.problem.p, t, constants.vector)
         side = np.where(at.truth, -1.0, 1.0)
         return [
-            Row(time, a, b, g, d, modes)
+            Row(time, a, b, g, d, constants)
             for time, a, b, g, d in zip(t.tolist(), x, z, value * side, rate * side, strict=True)
         ]
 
@@ -159,19 +162,19 @@ class Locator:
     def _interpolated(self, at: Point, a: Row, b: Row, times: np.ndarray) -> list[Row] | None:
         """Rows between two others; None where the cubic does not follow the motion."""
         ends = np.array([a.time, b.time])
-        found = between(self.run, a.modes, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
+        found = between(self.run, a.constants, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
         if np.any(found.defect > FAITHFUL):
             return None
-        return self._rows(at, found.times, found.x, found.z, a.modes)
+        return self._rows(at, found.times, found.x, found.z, a.constants)
 
     def _inside(self, at: Point, a: Row, b: Row, depth: int) -> Crossing | None:
         """Look closer between two rows."""
         times = np.linspace(a.time, b.time, FINE + 1)
-        stretch = self.run.trial(times, a.x, a.z, at.modes, TRIAL_STEPS)
+        begin = Point(a.time, a.x, a.z, at.constants, at.truth)
+        stretch = self.run.trial(begin, times, TRIAL_STEPS)
         if stretch is None:
             raise self.run.failure(a.time, b.time)
-        found = self.first(Point(a.time, a.x, a.z, at.modes, at.truth), stretch, depth + 1)
-        return found
+        return self.first(begin, stretch, depth + 1)
 
     def _narrow(self, at: Point, a: Row, b: Row, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
@@ -225,10 +228,8 @@ class Locator:
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self.run.trial(np.array([a.time, time]), a.x, a.z, at.modes, TRIAL_STEPS)
-        if stretch is None:
-            return None
-        return self.row(at, time, stretch.x[0], stretch.z[0], stretch.modes)
+        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), TRIAL_STEPS)
+        return stretch and self.row(at, stretch.end(at))
 
 
 def _near(rows: list[Row], level: np.ndarray) -> list[int]:

@@ -12,9 +12,9 @@ from itertools import islice
 
 import numpy as np
 
-from acausal.solve.instant import Point
 from acausal.solve.integrate import Integrator
 from acausal.solve.looks import pace
+from acausal.solve.problem import Point
 from acausal.solve.trace import Trace
 from acausal.solve.validity import separations
 
@@ -65,7 +65,7 @@ class _Search:
 
     def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> _Rows:
         """Evaluate the pair in rows of a run."""
-        values = self.watch.function(x, z, self.integrator.p, t, modes)[:, self.columns]
+        values = self.watch.function(x, z, self.integrator.problem.p, t, modes)[:, self.columns]
         offset = values[:, 2:]
         return _Rows(t, x, z, modes, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
 
@@ -99,12 +99,13 @@ class _Search:
     def _inside(self, rows: _Rows, k: int, length: float) -> _Rows | None:
         """Rows from a row on, `length` times the interval after it; None where they cannot be reached."""
         self.looks += 1
-        run, x, z, modes = self.integrator, rows.x[k], rows.z[k], rows.modes[k + 1]
+        run, x, z = self.integrator, rows.x[k], rows.z[k]
+        at = Point(float(rows.times[k]), x, z, run.compiled.layout.constants(rows.modes[k + 1]))
         times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
-        found = run.trial(times, x, z, modes, STEPS)
+        found = run.trial(at, times, STEPS)
         if found is None:
             return None
-        all_modes = np.tile(found.modes, (PARTS + 1, 1))
+        all_modes = np.tile(found.constants.vector, (PARTS + 1, 1))
         return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), all_modes)
 
 

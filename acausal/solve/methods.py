@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.dae import UNSEEN
+from acausal.solve.problem import Point, Problem
 
 if TYPE_CHECKING:
     from acausal.solve.integrate import Integrator
@@ -43,15 +43,7 @@ class Way:
         return x, z, out["qf"].reshape(n, 2).copy() if out["qf"].size else None
 
 
-def multistep(
-    run: Integrator,
-    times: np.ndarray,
-    x: np.ndarray,
-    z: np.ndarray,
-    modes: np.ndarray,
-    max_steps: int,
-    careful: bool,
-) -> Way:
+def multistep(run: Integrator, at: Point, times: np.ndarray, max_steps: int, careful: bool) -> Way:
     """IDAS: order limit, algebraic unknowns out of the error test, weights from nominal values.
 
     IDAS takes all first derivatives as 0 unless it computes them itself: the quick way lets it compute them, if any
@@ -59,13 +51,13 @@ def multistep(
     its pivots.
     """
     c, tolerance, span = run.compiled, run.tolerance, times[-1] - times[0]
-    rates = c.values(x, z, run.p, times[0], modes, 0.0)[0][: c.nx]
+    rates = run.problem.values(at)[: c.nx]
     nominal = run.settings.nominal
-    weights = tolerance * (np.abs(x) + nominal[: c.nx])
+    weights = tolerance * (np.abs(at.x) + nominal[: c.nx])
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
     options = {
         "reltol": tolerance,
-        "abstolv": np.maximum(tolerance * nominal, run.rounding(x, z, times[0], modes)).tolist(),
+        "abstolv": np.maximum(tolerance * nominal, run.rounding(at)).tolist(),
         "max_multistep_order": run.settings.max_order,
         "suppress_algebraic": True,
         "max_num_steps": max_steps,
@@ -83,19 +75,11 @@ def multistep(
     return Way("idas", options, (np.ones(c.nx), 1.0))
 
 
-def one_step(
-    run: Integrator,
-    times: np.ndarray,
-    x: np.ndarray,
-    z: np.ndarray,
-    modes: np.ndarray,
-    max_steps: int,
-    careful: bool,
-) -> Way:
+def one_step(run: Integrator, at: Point, times: np.ndarray, max_steps: int, careful: bool) -> Way:
     """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
     c, tolerance, fastest = run.compiled, run.tolerance, run.settings.fastest
     size = run.settings.nominal[: c.nx].copy()
-    for coordinate, rate in rates_of(c):
+    for coordinate, rate in run.problem.rates:
         size[rate] = max(size[rate], size[coordinate] * fastest)
     options = {
         "reltol": tolerance,
@@ -110,30 +94,17 @@ def one_step(
     return Way("rosenbrock", options, (size, UNSEEN))
 
 
-def rounding(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> np.ndarray:
+def rounding(problem: Problem, at: Point) -> np.ndarray:
     """Errors of states (0) and algebraic unknowns that rounding of the equations causes, as powers of ten.
 
     A Newton iteration cannot get nearer than |g_z^-1| (|g_x| |x| + |g_z| |z|) times the relative rounding error.
     """
-    nx = compiled.nx
-    J = np.abs(g := compiled.at(x, z, p, t, modes, 0.0).jacobian[nx : nx + compiled.nz].toarray())
-    sizes = J @ np.abs(np.concatenate([x, z]))
+    nx = problem.nx
+    J = np.abs(g := problem.local(at).jacobian[nx : nx + problem.nz].toarray())
+    sizes = J @ np.abs(at.y)
     try:
         reach = np.abs(np.linalg.inv(g[:, nx:])) @ sizes
     except np.linalg.LinAlgError:
-        reach = np.zeros(compiled.nz)
+        reach = np.zeros(problem.nz)
     floor = 10.0 ** np.ceil(np.log10(np.maximum(ROUNDING * reach, 1e-300)))
     return np.concatenate([np.zeros(nx), np.where(np.isfinite(floor), floor, 0.0)])
-
-
-def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
-    """Pairs (coordinate, rate) among the states."""
-    plan = compiled.reduced.plan
-    projected = {p.coordinate: p.state for p in plan.constrained.projections}
-    place = {v: k for k, v in enumerate(plan.states)}
-    pairs = [(p.state, p.rate) for p in plan.constrained.projections]
-    pairs += [(v, plan.system.derivative[v]) for v in plan.states]
-    found = ((v, projected.get(rate, rate)) for v, rate in pairs)
-    return [(place[v], place[rate]) for v, rate in found if rate in place]

@@ -9,8 +9,8 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.solve.problem import Point, Problem
 from acausal.solve.words import lost_text
 
 ITERATIONS = 60
@@ -43,49 +43,40 @@ class InitialSystem:
     direct: tuple[tuple[int, int], ...] = ()
 
 
-def follow(
-    compiled: CompiledModel, system: InitialSystem, y: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-) -> np.ndarray | None:
+def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
     """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
-    rows = system.rows + compiled.nx
-    first = compiled.values(y[: compiled.nx], y[compiled.nx :], p, time, modes, 1.0)[0][rows].copy()
+    first = problem.values(at, 1.0)[system.rows + problem.nx].copy()
     s, step = 0.0, 0.1
     while s < 1:
         target = min(1.0, s + step)
         try:
-            y = newton(compiled, system, y, p, time, modes, 1.0, (1 - target) * first)
+            at = newton(problem, system, at, 1.0, (1 - target) * first)
             s, step = target, 1.5 * step
         except InitializationError:
             step /= 3
             if step < SHORTEST:
                 return None
-    return y
+    return at
 
 
-def newton(
-    compiled: CompiledModel,
-    system: InitialSystem,
-    y: np.ndarray,
-    p: np.ndarray,
-    time: float,
-    modes: np.ndarray,
-    flag: float,
-    offset: np.ndarray | float = 0.0,
-) -> np.ndarray:
+def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offset: np.ndarray | float = 0.0) -> Point:
     """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
-    nx, rows = compiled.nx, system.rows + compiled.nx
+    nx, rows, y = problem.nx, system.rows + problem.nx, at.y
     free = np.setdiff1d(np.arange(len(y)), system.known)
     if not free.size:
-        return y
-    scale = compiled.nominal[free]
+        return at
+    scale = problem.nominal[free]
     plain = _is_range(rows) and _is_range(free)
 
-    def residual(at: np.ndarray) -> np.ndarray:
-        return compiled.values(at[:nx], at[nx:], p, time, modes, flag)[0][rows] - offset
+    def residual(y: np.ndarray) -> np.ndarray:
+        return problem.values(at.with_y(y), flag)[rows] - offset
+
+    def lost(value: np.ndarray) -> InitializationError:
+        return InitializationError(lost_text(problem.compiled, value, system.rows, system.surplus, at.time))
 
     value = residual(y)
     for _ in range(ITERATIONS):
-        J = compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian
+        J = problem.local(at.with_y(y), flag).jacobian
         block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
         solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD")
         step = -solve(value)
@@ -102,8 +93,8 @@ def newton(
             if damping < 1e-6:
                 here = residual(y)
                 if _is_rounding(here, J[rows], y):
-                    return y
-                raise InitializationError(lost_text(compiled, here, system.rows, system.surplus, time))
+                    return at.with_y(y)
+                raise lost(here)
         y = trial
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= CONVERGED:
@@ -112,11 +103,17 @@ def newton(
                 1 + np.max(np.abs(y)) * float(np.max(np.abs(J.data)))
             ):
                 break
-            return y
+            return at.with_y(y)
     here = residual(y)
-    if _is_rounding(here, compiled.at(y[:nx], y[nx:], p, time, modes, flag).jacobian[rows], y):
-        return y
-    raise InitializationError(lost_text(compiled, here, system.rows, system.surplus, time))
+    if _is_rounding(here, problem.local(at.with_y(y), flag).jacobian[rows], y):
+        return at.with_y(y)
+    raise lost(here)
+
+
+def algebraic(problem: Problem, at: Point) -> Point:
+    """Solve for the algebraic unknowns, with the states as they are."""
+    system = InitialSystem(np.arange(problem.nz), np.empty(0, int), np.arange(problem.nx))
+    return newton(problem, system, at, 0.0)
 
 
 def _is_rounding(value: np.ndarray, J: sparse.csc_matrix, y: np.ndarray) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
 
-from acausal.compiler import CompiledModel
+from acausal.solve.problem import Point, Problem
 from acausal.solve.tangent import tangent
 
 FAST = 30.0
@@ -25,26 +25,22 @@ POWERS = 4
 WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
 
 
-def eigenvalues_of(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> np.ndarray:
+def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
     """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one.
 
     Where the equations are singular, there are none.
     """
     try:
-        return _eigenvalues(compiled, x, z, p, t, modes)
+        return _eigenvalues(problem, at)
     except RuntimeError:
         return np.zeros(0, complex)
 
 
-def _eigenvalues(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> np.ndarray:
-    nx, nz = compiled.nx, compiled.nz
-    J = compiled.at(x, z, p, t, modes, 0.0).jacobian[: nx + nz]
-    if nx <= (LOOPED if compiled.closing.size else DENSE):
-        N, chosen = tangent(compiled, x, p, t, modes)
+def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
+    nx, nz = problem.nx, problem.nz
+    J = problem.local(at).jacobian[: nx + nz]
+    if nx <= (LOOPED if problem.compiled.closing.size else DENSE):
+        N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()
     inner = splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None

@@ -6,14 +6,16 @@ a small motion, the position is singular, and all constraints stay.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.constants import Constants
 from acausal.solve.closing import close, levels
 from acausal.solve.order import state_matrix
+from acausal.solve.problem import Point, Problem
 from acausal.solve.rank import null_space, pivots, rank, scaled
 
 MOTION = 1e-2
@@ -28,30 +30,30 @@ WORN, SPARED = 0.05, 0.3
 class Redundancy:
     """Constraints that say nothing new, by number, and whether the position is a singular one."""
 
-    dropped: tuple[int, ...]
-    singular: bool
+    dropped: tuple[int, ...] = ()
+    singular: bool = False
 
 
-def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> Redundancy:
+def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    c = compiled.closing
+    compiled, c = problem.compiled, problem.compiled.closing
     rows = [r[0] for r in c.rows]
 
-    def jacobian(at: np.ndarray) -> np.ndarray:
-        return scaled(c(at, p, t, modes)[1][rows])
+    def jacobian(at: Point) -> np.ndarray:
+        return scaled(problem.constraints(at)[1][rows])
 
-    here = jacobian(x)
+    here = jacobian(at)
     if rank(here, NEARLY) == len(rows):
-        return Redundancy((), False)
+        return Redundancy()
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
     for seed in range(3):
-        moved = _moved(compiled, x, here, free, seed, p, t, modes)
+        moved = _moved(problem, at, here, free, seed)
         there = jacobian(moved) if moved is not None else here
         if rank(there, NEARLY) > rank(best, NEARLY):
             best, singular = there, True
     if rank(best) == len(rows):
-        return Redundancy((), singular)
+        return Redundancy(singular=singular)
     # Those that cannot be dropped come first.
     weight = np.ones(len(rows))
     droppable = {c.closures[k] for k, dual in enumerate(compiled.reduced.flat.closures) if not dual.dual.is_constant()}
@@ -60,106 +62,79 @@ def find_redundancy(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: fl
     return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
 
 
-def is_singular(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> bool:
+def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     """Whether constraints that are independent elsewhere all but depend on each other in a position."""
-    redundancy = compiled.cache.get("redundancy")
-    if not compiled.closing.size or redundancy is None:
+    if not problem.compiled.closing.size:
         return False
-    held = [rows[0] for k, rows in enumerate(compiled.closing.rows) if k not in redundancy.dropped]
-    return rank(compiled.closing(x, p, t, modes)[1][held], BESIDE) < len(held)
+    held = [rows[0] for k, rows in enumerate(problem.compiled.closing.rows) if k not in redundancy.dropped]
+    return rank(problem.constraints(at)[1][held], BESIDE) < len(held)
 
 
-def _moved(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    J: np.ndarray,
-    free: np.ndarray,
-    seed: int,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-) -> np.ndarray | None:
+def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: int) -> Point | None:
     """Return another consistent position near by, along what the constraints leave free."""
     null = null_space(J[:, free])
     if not len(null):
         return None
     direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
-    start = x.copy()
-    start[free] += MOTION * direction / np.linalg.norm(direction)
-    moved, mismatch = close(compiled, start, np.empty(0, int), p, t, modes, positions=True)
+    x = at.x.copy()
+    x[free] += MOTION * direction / np.linalg.norm(direction)
+    moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
     return moved if mismatch < 1e-10 else None
 
 
-def choose_projection(
-    compiled: CompiledModel,
-    x: np.ndarray,
-    z: np.ndarray | None,
-    p: np.ndarray,
-    t: float,
-    modes: np.ndarray,
-    moves: bool = False,
-) -> np.ndarray:
+def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
     """Return the constants of a segment with D chosen anew at a consistent point.
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    x, z, p, t, modes
-        A consistent point, and the constants of the segment before; without z all coordinates count alike.
+    at : Point
+        A consistent point, with the constants of the segment before.
+    spare : bool
+        Whether stiff coordinates count less; the algebraic unknowns must then be consistent, too.
     moves : bool
         False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
         Jacobian as it changes on the way, stiff coordinates the less.
     """
-    c = compiled.closing
+    c = problem.compiled.closing
     on = np.ones(c.size, dtype=bool)
-    for k, constraint in enumerate(c.closures):
-        on[list(c.rows[constraint])] = modes[switches_of(compiled)][k] > 0
-    J = c.held(x[None], p, np.array([t]), modes)[0] * on[:, None]
-    stiffness = np.zeros(compiled.nx) if z is None else _stiffness(compiled, x, z, p, t, modes)
+    for constraint, counts in zip(c.closures, at.constants.closures, strict=True):
+        on[list(c.rows[constraint])] = counts > 0
+    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[:, None]
+    stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
     weights = _spared(J, stiffness)
     D = J * weights
     size = np.linalg.norm(D, axis=1, keepdims=True)
-    chosen = modes.copy()
-    first = len(modes) - c.entries.shape[1]
-    chosen[first - 1] = moves
     factors = on[:, None] * weights / np.where(size > 0, size, 1.0)
-    chosen[first:] = (factors if moves else _select(compiled, scaled(D), on))[tuple(c.entries)]
-    return chosen
+    chosen = factors if moves else _select(problem.compiled, scaled(D), on)
+    return replace(at.constants, moves=moves, D=chosen[tuple(c.entries)])
 
 
-def switches_of(compiled: CompiledModel) -> slice:
-    """Positions of the switches of closures among the constants of a segment."""
-    first = compiled.reduced.modes.numel() - compiled.reduced.closing.choice.numel()
-    return slice(first, first + len(compiled.closing.closures))
-
-
-def independent(compiled: CompiledModel, modes: np.ndarray) -> tuple[str, ...]:
+def independent(compiled: CompiledModel, constants: Constants) -> tuple[str, ...]:
     """Names of the states that do not follow from others."""
-    follows = np.any(_directions(compiled, modes) != 0, axis=0)
+    follows = np.any(_directions(compiled, constants) != 0, axis=0)
     return tuple(name for name, other in zip(compiled.states, follows, strict=True) if not other)
 
 
-def _directions(compiled: CompiledModel, modes: np.ndarray) -> np.ndarray:
+def _directions(compiled: CompiledModel, constants: Constants) -> np.ndarray:
     """D, shape (size, nx), from the constants of a segment."""
-    c = compiled.closing
-    D = np.zeros((c.size, compiled.nx))
-    D[tuple(c.entries)] = modes[len(modes) - c.entries.shape[1] :]
+    D = np.zeros((compiled.closing.size, compiled.nx))
+    D[tuple(compiled.closing.entries)] = constants.D
     return D
 
 
-def _stiffness(
-    compiled: CompiledModel, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> np.ndarray:
+def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     """How strongly each coordinate resists, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
 
     Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """
-    nx, plan, c = compiled.nx, compiled.reduced.plan, compiled.closing
+    compiled, nx = problem.compiled, problem.nx
+    plan, c = compiled.reduced.plan, compiled.closing
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
     rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
     columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
-    J = compiled.at(x, z, p, t, modes, 0.0).jacobian[rows][:, columns]
+    J = problem.local(at).jacobian[rows][:, columns]
     try:
         A = state_matrix(J, nx)
     except RuntimeError:
@@ -209,19 +184,20 @@ def _transversality(J: np.ndarray, D: np.ndarray) -> np.ndarray:
     return np.linalg.svd(np.swapaxes(held_by, -1, -2) @ chosen, compute_uv=False)[..., -1]
 
 
-def worn(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+def worn(problem: Problem, x: np.ndarray, t: np.ndarray, constants: Constants) -> np.ndarray:
     """How well the projection of a segment still suits each of n positions: 1 is best, 0 is singular.
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
     x : array, shape (n, nx)
         States.
-    p, modes : arrays
-        Parameters and constants of the segment.
     t : array, shape (n,)
-        Times.
+        Times in s.
+    constants : Constants
+        Those of the segment.
     """
-    c = compiled.closing
-    return _transversality(c.held(x, p, t, modes)[:, :, c.states], _directions(compiled, modes)[:, c.states])
+    c = problem.compiled.closing
+    held = c.held(x, problem.p, t, constants.vector)
+    return _transversality(held[:, :, c.states], _directions(problem.compiled, constants)[:, c.states])

@@ -54,7 +54,8 @@ class _Look:
         """Values at times between an output point and the next."""
         run, pair = self.run, slice(row, row + 2)
         modes = run.modes[row]
-        found = between(self.integrator, modes, run.t[pair], run.x[pair], run.z[pair], times)
+        constants = self.integrator.compiled.layout.constants(modes)
+        found = between(self.integrator, constants, run.t[pair], run.x[pair], run.z[pair], times)
         return self._values(found.x, found.z, times, modes)
 
     def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:

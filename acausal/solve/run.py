@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NoReturn
 
 import numpy as np
@@ -15,10 +15,12 @@ from acausal.solve.agenda import APART
 from acausal.solve.clock_times import clock_times
 from acausal.solve.evaluator import Evaluator
 from acausal.solve.events import Chattering, Run
-from acausal.solve.instant import Point, go_on, start
+from acausal.solve.initialize import Start
+from acausal.solve.instant import go_on, start
 from acausal.solve.integrate import Failure, Integrator, Progress, Settings
 from acausal.solve.meeting import first_meeting
 from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.problem import Point, Problem
 from acausal.solve.projection import is_singular
 from acausal.solve.promises import broken_promises
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
@@ -65,17 +67,18 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     found = clock_times(compiled, p, start_time, stop_time)
     breaks = _breaks(compiled.breaks(p)[0].tolist(), start_time, stop_time)
     ends = _breaks([*breaks, *found], start_time, stop_time)
-    at = start(compiled, p, start_time, _middle(start_time, ends, stop_time), task.initial)
-    check_start(compiled, at, p)
-    first, at = at, go_on(compiled, p, at)
-    rates = eigenvalues_of(compiled, at.x, at.z, p, start_time, at.modes)
+    problem = Problem(compiled, p)
+    begun = start(problem, start_time, _middle(start_time, ends, stop_time), task.initial)
+    check_start(problem, begun.point)
+    first, at = begun.point, go_on(problem, begun)
+    rates = eigenvalues_of(problem, at)
     max_order = task.max_order or order_limit(rates, stop_time - start_time)
     fastest = float(np.max(np.abs(rates), initial=0.0))
     span = stop_time - start_time
     fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
     nominal, counts = compiled.nominal, Trace()
     for _ in range(PASSES):
-        integrator = Integrator(compiled, p, Settings(nominal, *fixed), (start_time, stop_time), counts)
+        integrator = Integrator(problem, Settings(nominal, *fixed), (start_time, stop_time), counts)
         events = Run(integrator, times, ends, breaks)
         failure: BaseException | None = None
         try:
@@ -85,7 +88,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
         fitting = (
             None
             if isinstance(failure, KeyboardInterrupt)
-            else smaller_sizes(compiled, integrator.trace.rows(at).x, nominal, task.tolerance, span)
+            else smaller_sizes(problem, integrator.trace.rows(at).x, nominal, task.tolerance, span)
         )
         if fitting is None:
             break
@@ -102,11 +105,11 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     if met:
         raise SimulationError(met.text, result)
     if failure is not None:
-        _raise(failure, result, integrator, at)
+        _raise(failure, result, integrator, replace(begun, point=at))
     return result
 
 
-def _raise(failure: BaseException, result: Result, integrator: Integrator, first: Point) -> NoReturn:
+def _raise(failure: BaseException, result: Result, integrator: Integrator, first: Start) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     if isinstance(failure, Failure):
         raise SimulationError(_failure_text(integrator, first, failure), result)
@@ -186,19 +189,18 @@ def _result(
     return result
 
 
-def _failure_text(run: Integrator, first: Point, failure: Failure) -> str:
-    compiled, p, trace = run.compiled, run.p, run.trace
-    x, at, modes = first.x, first.time, first.modes
+def _failure_text(run: Integrator, first: Start, failure: Failure) -> str:
+    problem, compiled, trace, at = run.problem, run.compiled, run.trace, first.point
     lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
     if trace.pieces:
         last = trace.last()
-        at, x, z, modes = float(last.times), last.x, last.z, last.modes
-        rates = compiled.values(x, z, p, at, modes, 0.0)[0][: compiled.nx] / compiled.nominal[: compiled.nx]
+        at = Point(float(last.times), last.x, last.z, compiled.layout.constants(last.constants))
+        rates = problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
-        lines.append(f"Until t = {at:.6g} s all is well; what changes fastest there: {names}.")
-    left: Any = compiled.cache.get("redundancy")
-    if is_singular(compiled, x, p, at, modes) or (left and left.singular and not trace.pieces):
+        lines.append(f"Until t = {at.time:.6g} s all is well; what changes fastest there: {names}.")
+    left = first.redundancy
+    if is_singular(problem, at, left) or (left.singular and not trace.pieces):
         lines.append(
             "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "
             "on which branch they go on, and forces have no value. Start 0.01 rad beside it, give a velocity with which they "

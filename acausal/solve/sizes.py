@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.solve.methods import rates_of
+from acausal.solve.problem import Problem
 
 # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
 SMALLER = 0.1
@@ -17,7 +17,7 @@ PASSES = 5
 
 
 def smaller_sizes(
-    compiled: CompiledModel, x: np.ndarray, nominal: np.ndarray, tolerance: float, span: float
+    problem: Problem, x: np.ndarray, nominal: np.ndarray, tolerance: float, span: float
 ) -> np.ndarray | None:
     """Return sizes of states and algebraic unknowns that fit a run better, or None if these do.
 
@@ -26,7 +26,7 @@ def smaller_sizes(
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
     x : array, shape (n, nx)
         States along the run.
@@ -35,9 +35,10 @@ def smaller_sizes(
     tolerance, span : float
         Relative tolerance, and length of the run in s.
     """
+    sizes = problem.compiled.sizes
     reach = np.max(np.abs(x), axis=0, initial=0.0)
     groups: dict[str, list[int]] = {}
-    for k, (unit, declared) in enumerate(compiled.sizes):
+    for k, (unit, declared) in enumerate(sizes):
         if not declared:
             groups.setdefault(unit, []).append(k)
     fitting = nominal.copy()
@@ -47,8 +48,8 @@ def smaller_sizes(
         lost = LOST * tolerance * float(np.max(nominal[members]))
         if most > REST and (most > lost or begins > SMALLER * most):
             fitting[members] = np.minimum(nominal[members], most)
-    for coordinate, rate in rates_of(compiled):
-        if not compiled.sizes[rate][1]:
+    for coordinate, rate in problem.rates:
+        if not sizes[rate][1]:
             fitting[rate] = min(nominal[rate], max(fitting[rate], fitting[coordinate] / span))
     wrong = fitting < SMALLER * nominal
     return np.where(wrong, fitting, nominal) if wrong.any() else None

@@ -7,17 +7,16 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError, caution
 from acausal.solve.at_rest import at_rest, kinematic, meters, refuse_motion
 from acausal.solve.closing import tighten
-from acausal.solve.methods import rates_of
-from acausal.solve.newton import InitialSystem, newton
+from acausal.solve.newton import algebraic
+from acausal.solve.problem import Point, Problem
 from acausal.solve.projection import choose_projection
 from acausal.solve.rank import RANK, scaled
 from acausal.solve.tangent import tangent
@@ -44,8 +43,7 @@ ATTEMPTS = 3
 class Local:
     """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated."""
 
-    y: np.ndarray
-    modes: np.ndarray
+    point: Point
     rates: np.ndarray
     A: np.ndarray
     conditions: np.ndarray
@@ -57,31 +55,27 @@ class Equilibrium:
 
     Parameters
     ----------
-    compiled : CompiledModel
+    problem : Problem
         The model.
-    guess : array
-        States and algebraic unknowns, loops closed.
-    p, time, modes : array, float, array
-        Parameters, time and constants of the segment.
+    guess : Point
+        Where it is sought, loops closed.
     """
 
-    def __init__(
-        self, compiled: CompiledModel, guess: np.ndarray, p: np.ndarray, time: float, modes: np.ndarray
-    ) -> None:
-        self.compiled, self.guess, self.p, self.time, self.modes = compiled, guess, p, time, modes
-        self.nx = compiled.nx
-        self.scale = compiled.nominal[: self.nx]
+    def __init__(self, problem: Problem, guess: Point) -> None:
+        self.problem, self.guess = problem, guess
+        compiled, self.nx = problem.compiled, problem.nx
+        self.scale = problem.nominal[: self.nx]
         self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
-        pairs = [coordinate for coordinate, _ in rates_of(compiled)]
+        pairs = [coordinate for coordinate, _ in problem.rates]
         self.coordinates = np.array(sorted({*pairs, *kinematic(compiled)}), dtype=int)
 
-    def find(self, first: tuple[np.ndarray, np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Return states and algebraic unknowns at rest, and the constants of the segment.
+    def find(self, first: Point | None = None) -> Point:
+        """Return a point at rest.
 
         Parameters
         ----------
-        first : (array, array), optional
-            Where it may rest, with the constants of the segment.
+        first : Point, optional
+            Where it may rest.
 
         Raises
         ------
@@ -89,65 +83,61 @@ class Equilibrium:
             If there is no equilibrium, none is found, or the initial conditions do not hold in it.
         """
         found = self._tried(first) or self._newton(self.guess)
-        rate, push = (0.0, self.guess) if found is None else self._growing(found)
-        y, growth, attempts = self.guess, GROWTH, ATTEMPTS
+        rate, push = (0.0, np.zeros(self.nx)) if found is None else self._growing(found)
+        at, growth, attempts = self.guess, GROWTH, ATTEMPTS
         if found is not None and self._is_guess(found):
             attempts = 0
         while attempts and (found is None or rate):
-            y = self._relax(y, growth)
-            relaxed = self._newton(y)
+            at = self._relax(at, growth)
+            relaxed = self._newton(at)
             if relaxed is None:
                 break
             found, (rate, push) = relaxed, self._growing(relaxed)
-            y, growth, attempts = relaxed.y.copy(), 1 + (growth - 1) / 2, attempts - 1
-            y[: self.nx] += push
+            at, growth, attempts = _moved(relaxed.point, push), 1 + (growth - 1) / 2, attempts - 1
         if found is None:
-            refuse_motion(self.compiled, *self._nearly(y), self.p, self.time)
+            refuse_motion(self.problem, self._nearly(at))
         if rate:
-            caution(unstable_text(self.compiled, self.time, rate))
-        return found.y, found.modes
+            caution(unstable_text(self.problem.compiled, self.guess.time, rate))
+        return found.point
 
-    def _tried(self, first: tuple[np.ndarray, np.ndarray] | None) -> Local | None:
+    def _tried(self, first: Point | None) -> Local | None:
         try:
-            here = self._at(*first) if first else None
+            here = self._at(first) if first else None
         except InitializationError:
             return None
         return here if here and self._rests(here) else None
 
     def _is_guess(self, found: Local) -> bool:
-        return bool(np.all(np.abs(found.y - self.guess)[: self.nx] <= 1e-6 * self.scale))
+        return bool(np.all(np.abs(self._apart(found)) <= 1e-6 * self.scale))
 
-    def _nearly(self, relaxed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _nearly(self, relaxed: Point) -> Point:
         """Where the rates are least, whatever the initial conditions; those that stay tell what moves."""
-        found = [self._search(y, conditions=False) for y in (self.guess, relaxed)]
+        found = [self._search(at, conditions=False) for at in (self.guess, relaxed)]
         resting = [here for here in found if here is not None]
         resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))
-        return (resting[0].y, resting[0].modes) if resting else (self.guess, self.modes)
+        return resting[0].point if resting else self.guess
 
-    def _at(self, y: np.ndarray, modes: np.ndarray) -> Local:
+    def _at(self, at: Point) -> Local:
         """Solve for the algebraic unknowns, and linearise."""
-        c, nx, nz = self.compiled, self.nx, self.compiled.nz
-        y = newton(c, InitialSystem(np.arange(nz), np.empty(0, int), np.arange(nx)), y, self.p, self.time, modes, 0.0)
-        local = c.at(y[:nx], y[nx:], self.p, self.time, modes, 0.0)
+        nx, nz = self.nx, self.problem.nz
+        at = algebraic(self.problem, at)
+        local = self.problem.local(at)
         J = local.jacobian.tocsc()
         dz = _solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
         A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
-        return Local(y, modes, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
+        return Local(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
 
-    def _close(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _close(self, at: Point) -> Point:
         """Close the loops, and choose the states that follow from others anew."""
-        c = self.compiled
-        if not c.closing.size:
-            return y, self.modes
-        x = tighten(c, y[: self.nx], self.p, self.time, self.modes)
-        modes = choose_projection(c, x, None, self.p, self.time, self.modes)
-        z = c.closing.guess(x, y[self.nx :], self.p, self.time, modes)
-        z[c.closing.multipliers] = 0.0
-        return np.concatenate([x, z]), modes
+        if not self.problem.compiled.closing.size:
+            return at
+        at = tighten(self.problem, replace(at, constants=self.guess.constants))
+        at = replace(at, constants=choose_projection(self.problem, at, spare=False))
+        return self.problem.completed(at)
 
-    def _newton(self, y: np.ndarray) -> Local | None:
-        """Search from y, then bring what is free back to its guess; None where it does not come to rest."""
-        here = self._search(y)
+    def _newton(self, at: Point) -> Local | None:
+        """Search from a point, then bring what is free back to its guess; None where it does not come to rest."""
+        here = self._search(at)
         if here is None or not self._rests(here):
             return None
         part = 1.0
@@ -155,9 +145,7 @@ class Equilibrium:
             back = self._step(*self._all(here, True), self._apart(here))[1]
             if part < SHORT or np.max(np.abs(back) / self.scale, initial=0.0) <= 1e-9:
                 break
-            moved = here.y.copy()
-            moved[: self.nx] += part * back
-            there = self._search(moved)
+            there = self._search(_moved(here.point, part * back))
             nearer = there is not None and self._distance(there) < (1 - part / 4) * self._distance(here)
             if there is not None and self._distance(there) < self._distance(here) and self._rests(there):
                 here = there
@@ -165,24 +153,24 @@ class Equilibrium:
         return here
 
     def _rests(self, here: Local) -> bool:
-        return at_rest(self.compiled, here.y, self.p, self.time, here.modes)
+        return at_rest(self.problem, here.point)
 
     def _apart(self, here: Local) -> np.ndarray:
-        return (self.guess - here.y)[: self.nx]
+        return self.guess.x - here.point.x
 
     def _distance(self, here: Local) -> float:
         return float(np.linalg.norm(self._apart(here) / self.scale))
 
-    def _search(self, y: np.ndarray, conditions: bool = True) -> Local | None:
+    def _search(self, at: Point, conditions: bool = True) -> Local | None:
         """Newton steps of least norm, as far as they lead; None where equations cannot be solved."""
         try:
-            here = self._at(*self._close(y))
+            here = self._at(self._close(at))
         except InitializationError:
             return None
         for _ in range(NEWTON):
             value, J = self._all(here, conditions)
             step = self._step(value, J, np.zeros(self.nx))[0]
-            if np.max(np.abs(step) / (self.scale + np.abs(here.y[: self.nx])), initial=0.0) <= CONVERGED:
+            if np.max(np.abs(step) / (self.scale + np.abs(here.point.x)), initial=0.0) <= CONVERGED:
                 break
             there = self._go(here, step / max(1.0, self._far(step) / FAR), value, J, conditions)
             if there is None:
@@ -195,10 +183,8 @@ class Equilibrium:
         size = np.linalg.norm(J, axis=1)
         weight = 1 / np.where(size > 0, size, 1.0)
         for shorter in range(HALVINGS):
-            moved = here.y.copy()
-            moved[: self.nx] += step / 2**shorter
             try:
-                there = self._at(*self._close(moved))
+                there = self._at(self._close(_moved(here.point, step / 2**shorter)))
             except InitializationError:
                 continue
             left = np.linalg.norm(weight * self._all(there, conditions)[0])
@@ -208,11 +194,11 @@ class Equilibrium:
 
     def _all(self, here: Local, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
         """Everything that must vanish: rates, initial conditions, constraints; and its Jacobian by the states."""
-        c, value, J = self.compiled, here.rates[self.rows], here.A[self.rows]
+        value, J = here.rates[self.rows], here.A[self.rows]
         if conditions:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
-        if c.closing.size:
-            off, M = c.closing(here.y[: self.nx], self.p, self.time, here.modes)
+        if self.problem.compiled.closing.size:
+            off, M = self.problem.constraints(here.point)
             value, J = np.concatenate([value, off]), np.vstack([J, M])
         return value, J
 
@@ -234,13 +220,13 @@ class Equilibrium:
         step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
         return size * step, self.scale * _along(free * size / self.scale, way / self.scale)
 
-    def _relax(self, y: np.ndarray, growth: float) -> np.ndarray:
+    def _relax(self, at: Point, growth: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
         h, nx = FIRST, self.nx
         try:
-            here = self._at(*self._close(y))
+            here = self._at(self._close(at))
         except InitializationError:
-            return y
+            return at
         for _ in range(RELAXATION):
             moving = here.rates.copy()
             moving[np.setdiff1d(np.arange(nx), self.rows)] = 0.0
@@ -253,21 +239,20 @@ class Equilibrium:
                 if h < 1e-12:
                     break
                 continue
-            moved = here.y.copy()
-            moved[:nx] += step
+            moved = _moved(here.point, step)
             try:
-                here = self._at(*self._close(moved))
+                here = self._at(self._close(moved))
             except InitializationError:
                 h /= 4
                 continue
             h *= growth
-            if h > LAST or np.max(np.abs(step) / (self.scale + np.abs(moved[:nx])), initial=0.0) < CONVERGED:
+            if h > LAST or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < CONVERGED:
                 break
-        return here.y
+        return here.point
 
     def _growing(self, here: Local) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
-        N, chosen = tangent(self.compiled, here.y[: self.nx], self.p, self.time, here.modes)
+        N, chosen = tangent(self.problem, here.point)
         A = (here.A @ N)[chosen]
         if not A.size:
             return 0.0, np.zeros(self.nx)
@@ -278,6 +263,10 @@ class Equilibrium:
         k = int(np.argmax(real))
         direction = N @ np.real(vectors[:, k])
         return float(real[k]), PUSH * direction / (self._far(direction) or float(np.max(np.abs(direction))))
+
+
+def _moved(at: Point, step: np.ndarray) -> Point:
+    return replace(at, x=at.x + step)
 
 
 def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal.compiler import CompiledModel
-from acausal.solve.methods import rates_of
+from acausal.solve.problem import Point, Problem
 from acausal.solve.rank import null_space, pivots
 
 
-def tangent(
-    compiled: CompiledModel, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """Choose independent states, and say how all states follow from small changes of them.
 
     Returns
@@ -21,12 +18,11 @@ def tangent(
     chosen : array of int, shape (n,)
         The independent states, those along which the motion is largest, coordinates with their rates.
     """
-    nx = compiled.nx
-    if not compiled.closing.size:
-        return np.eye(nx), np.arange(nx)
-    J = compiled.closing(x, p, t, modes)[1]
+    if not problem.compiled.closing.size:
+        return np.eye(problem.nx), np.arange(problem.nx)
+    J = problem.constraints(at)[1]
     null = null_space(J)
-    rate_of = dict(rates_of(compiled))
+    rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
     weight = np.where(np.any(J != 0, axis=0), 1.0, 100.0)
     weight[[k for k in rate_of if weight[k] == 1.0]] = 10.0

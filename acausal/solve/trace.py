@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from acausal.solve.instant import Point
+from acausal.compiler.constants import Constants
+from acausal.solve.problem import Point
 
 
 class Rows(NamedTuple):
-    """Rows at times: states, algebraic unknowns, integrals of supplied and dissipated power, modes."""
+    """Rows at times: states, algebraic unknowns, integrals of supplied and dissipated power, vectors of constants."""
 
     times: np.ndarray
     x: np.ndarray
     z: np.ndarray
     energy: np.ndarray
-    modes: np.ndarray
+    constants: np.ndarray
 
 
 @dataclass
@@ -43,7 +43,8 @@ class Trace:
 
     def rows(self, first: Point) -> Rows:
         """Return all rows, the point of the start before them."""
-        start = Rows(np.array([first.time]), first.x[None], first.z[None], np.zeros((1, 2)), first.modes[None])
+        constants = first.constants.vector[None]
+        start = Rows(np.array([first.time]), first.x[None], first.z[None], np.zeros((1, 2)), constants)
         return Rows(*(np.concatenate(columns) for columns in zip(start, *self.pieces, strict=True)))
 
     def last(self) -> Rows:
@@ -69,11 +70,19 @@ class Trace:
     def add(self, stretch: Stretch) -> None:
         """Append rows; integrals of power go on from the last one."""
         energy = stretch.energy + (self.last().energy if self.pieces else self.before)
-        modes = np.broadcast_to(stretch.modes, (len(stretch.times), len(stretch.modes)))
-        self.pieces.append(Rows(stretch.times, stretch.x, stretch.z, energy, modes))
+        vector = stretch.constants.vector
+        constants = np.broadcast_to(vector, (len(stretch.times), len(vector)))
+        self.pieces.append(Rows(stretch.times, stretch.x, stretch.z, energy, constants))
 
-    def put(self, piece: int, **values: np.ndarray) -> None:
-        """Put other values into the last row of a piece, if there is one."""
+    def put(self, piece: int, at: Point) -> None:
+        """Put the values of a point into the last row of a piece, if there is one."""
+        self._replace(piece, x=at.x, z=at.z, constants=at.constants.vector)
+
+    def delay(self, time: float) -> None:
+        """Let the last row be at another time, a rounding error away."""
+        self._replace(-1, times=np.array(time))
+
+    def _replace(self, piece: int, **values: np.ndarray) -> None:
         if len(self.pieces) >= -piece:
             rows = self.pieces[piece]
             given = {name: np.concatenate([getattr(rows, name)[:-1], value[None]]) for name, value in values.items()}
@@ -82,28 +91,32 @@ class Trace:
     def spend(self, energy: np.ndarray) -> None:
         """Add supplied and dissipated energy to all that follows, and to the last row."""
         if self.pieces:
-            self.put(-1, energy=self.last().energy + energy)
+            self._replace(-1, energy=self.last().energy + energy)
         else:
             self.before = self.before + energy
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """Rows of one call: times, states, algebraic unknowns, integrals of power since its start; modes and steps."""
+    """Rows of one call: times, states, algebraic unknowns, integrals of power since its start; constants and steps."""
 
     times: np.ndarray
     x: np.ndarray
     z: np.ndarray
     energy: np.ndarray
-    modes: np.ndarray
+    constants: Constants
     steps: int
+
+    def end(self, at: Point) -> Point:
+        """Return the last row as a point; `at` tells which conditions hold."""
+        return Point(float(self.times[-1]), self.x[-1], self.z[-1], self.constants, at.truth)
 
     def rows(self, first: int, last: int) -> Stretch:
         """Return some of the rows, as if the call had begun at its start all the same."""
         part = slice(first, last)
-        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)
+        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)
 
     def every(self, parts: int) -> Stretch:
         """Return one row in so many, the last one of each."""
         part = slice(parts - 1, None, parts)
-        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.modes, self.steps)
+        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)

@@ -16,7 +16,7 @@ from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
 from acausal.solve.evaluator import Evaluator
-from acausal.solve.instant import Point
+from acausal.solve.problem import Point, Problem
 
 # Most output points that are looked at, and where each look costs a solution of the equations.
 ROWS, DEAR = 500, 40
@@ -61,15 +61,16 @@ def separations(compiled: CompiledModel) -> Watch:
     return compiled.cache["separations"]
 
 
-def check_start(compiled: CompiledModel, at: Point, p: np.ndarray) -> None:
+def check_start(problem: Problem, at: Point) -> None:
     """Raise InitializationError if variables break a requirement at the start."""
+    compiled = problem.compiled
     key = "start requirements"
     if key not in compiled.cache:
         stated = compiled.requirements.at_start
         compiled.cache[key] = watch(compiled, stated, [r.sx for r, _ in stated])
     found = compiled.cache[key]
     if found.stated:
-        row = found.function(at.x[None], at.z[None], p, np.array([at.time]), at.modes[None])[0]
+        row = found.function(at.x[None], at.z[None], problem.p, np.array([at.time]), at.constants.vector)[0]
         refuse(found.stated, row, InitializationError)
 
 

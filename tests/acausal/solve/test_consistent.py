@@ -162,10 +162,10 @@ def test_a_time_that_was_not_reached_lends_its_values_to_no_event(monkeypatch, f
     """Trials of the search that fail now and then change nothing, or end the run with an error: never the values."""
     attempt, calls = Integrator.attempt, [0]
 
-    def unreliable(self, times, *rest, **named):
+    def unreliable(self, at, times, *rest, **named):
         calls[0] += 1
         short = len(times) == 2 and times[1] - times[0] < 1e-3
-        return None if short and calls[0] % 4 < fails else attempt(self, times, *rest, **named)
+        return None if short and calls[0] % 4 < fails else attempt(self, at, times, *rest, **named)
 
     monkeypatch.setattr(Integrator, "attempt", unreliable)
     try:

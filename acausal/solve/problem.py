@@ -1,0 +1,96 @@
+"""What every stage of a run works on: a model with its parameters, and points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.compiled_model import Local
+from acausal.compiler.constants import Constants
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """Where a run is: time in s, states, algebraic unknowns, constants, and which watched conditions hold."""
+
+    time: float
+    x: np.ndarray
+    z: np.ndarray
+    constants: Constants
+    truth: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=bool))
+
+    @property
+    def y(self) -> np.ndarray:
+        """States and algebraic unknowns."""
+        return np.concatenate([self.x, self.z])
+
+    def with_y(self, y: np.ndarray) -> Point:
+        """Return the point with other states and algebraic unknowns."""
+        return replace(self, x=y[: len(self.x)], z=y[len(self.x) :])
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A compiled model with the values of its parameters.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    p : array
+        Values of its free parameters.
+    """
+
+    compiled: CompiledModel
+    p: np.ndarray
+
+    @property
+    def nx(self) -> int:
+        """Number of states."""
+        return self.compiled.nx
+
+    @property
+    def nz(self) -> int:
+        """Number of algebraic unknowns."""
+        return self.compiled.nz
+
+    @property
+    def nominal(self) -> np.ndarray:
+        """Declared sizes of states and algebraic unknowns."""
+        return self.compiled.nominal
+
+    @cached_property
+    def rates(self) -> list[tuple[int, int]]:
+        """Pairs (coordinate, rate) among the states."""
+        plan = self.compiled.reduced.plan
+        projected = {p.coordinate: p.state for p in plan.constrained.projections}
+        place = {v: k for k, v in enumerate(plan.states)}
+        pairs = [(p.state, p.rate) for p in plan.constrained.projections]
+        pairs += [(v, plan.system.derivative[v]) for v in plan.states]
+        found = ((v, projected.get(rate, rate)) for v, rate in pairs)
+        return [(place[v], place[rate]) for v, rate in found if rate in place]
+
+    def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
+        """Return ode, alg and conditions; `flag` is 1 while the initial system holds. Overwritten by the next call."""
+        return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]
+
+    def local(self, at: Point, flag: float = 0.0) -> Local:
+        """Return the same with their Jacobian by states and algebraic unknowns."""
+        return self.compiled.at(at.x, at.z, self.p, at.time, at.constants.vector, flag)
+
+    def constraints(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Return the residuals of the constraints and their Jacobian by the states."""
+        return self.compiled.closing(at.x, self.p, at.time, at.constants.vector)
+
+    def projected(self, at: Point) -> Point:
+        """Return the point with every coordinate where the constraints have it."""
+        return replace(at, x=self.compiled.closing.project(at.x, at.z, self.p, at.time, at.constants.vector))
+
+    def completed(self, at: Point) -> Point:
+        """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""
+        z = self.compiled.closing.guess(at.x, at.z, self.p, at.time, at.constants.vector)
+        z[self.compiled.closing.multipliers] = 0.0
+        return replace(at, z=z)
