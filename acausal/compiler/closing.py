@@ -40,7 +40,7 @@ class Closing:
         self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
-        self.closures = [place[c.row] for c in reduced.flat.closures if place]
+        self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)
@@ -49,7 +49,7 @@ class Closing:
         self._many: dict[int, Call] = {}
         column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
         r = reduced
-        arguments = [r.x, r.flat.parameters, time.sx, r.modes]
+        arguments = [r.x, r.p, time.sx, r.modes]
         J = ca.densify(ca.jacobian(column, r.x))
         self.function = ca.Function("closing", arguments, [ca.densify(column), J])
         self._call = Call(self.function)

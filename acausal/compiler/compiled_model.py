@@ -119,8 +119,8 @@ class CompiledModel:
     @cached_property
     def nominal(self) -> np.ndarray:
         """Typical size of each state and algebraic unknown."""
-        flat, plan = self.reduced.flat, self.reduced.plan
-        nominal = np.concatenate([flat.nominal, np.ones(plan.system.n_variables - len(flat.nominal))])
+        own, plan = self.reduced.flat.unknowns, self.reduced.plan
+        nominal = np.concatenate([own.nominal, np.ones(plan.system.n_variables - len(own.nominal))])
         for p in plan.constrained.projections:
             nominal[p.state] = nominal[p.coordinate]
         return nominal[[*plan.states, *plan.algebraic]]
@@ -128,17 +128,17 @@ class CompiledModel:
     @cached_property
     def sizes(self) -> tuple[tuple[str, bool], ...]:
         """Unit of each state, its name where that is not known, and whether its nominal value is declared."""
-        flat, plan = self.reduced.flat, self.reduced.plan
+        own, plan = self.reduced.flat.unknowns, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
-        units = (*(str(u or n) for u, n in zip(flat.units, flat.names, strict=True)), *[""] * plan.system.n_variables)
-        declared = (*flat.sized.tolist(), *[True] * plan.system.n_variables)
+        units = (*(str(u or n) for u, n in zip(own.units, own.names, strict=True)), *[""] * plan.system.n_variables)
+        declared = (*own.sized.tolist(), *[True] * plan.system.n_variables)
         return tuple((units[k], declared[k]) for k in places)
 
     @cached_property
     def conditions(self) -> ca.SX:
         """Residuals of fixed start values and initial equations, in x, z, parameters and time."""
-        entries = [condition.residual for condition in self.reduced.flat.initial]
+        entries = [condition.residual for condition in self.reduced.flat.equations.initial]
         return self.reduced.resolve(ca.vertcat(ca.SX(0, 1), *entries), unprojected=True)
 
     @cached_property
@@ -150,7 +150,7 @@ class CompiledModel:
     def arguments(self) -> list[ca.SX]:
         """Arguments of every function: x, z, parameters, time, modes and the flag of the initial system."""
         r = self.reduced
-        return [r.x, r.z, r.flat.parameters, time.sx, r.modes, initial.sx]
+        return [r.x, r.z, r.p, time.sx, r.modes, initial.sx]
 
     @cached_property
     def values(self) -> Call:
@@ -194,12 +194,12 @@ class CompiledModel:
     @cached_property
     def start(self) -> Call:
         """Function of parameters and time: start values of states and algebraic unknowns."""
-        flat, plan = self.reduced.flat, self.reduced.plan
-        start = [*scalars(flat.start), *[ca.SX(0)] * (plan.system.n_variables - flat.start.numel())]
+        own, plan = self.reduced.flat.unknowns.start, self.reduced.plan
+        start = [*scalars(own), *[ca.SX(0)] * (plan.system.n_variables - own.numel())]
         for p in plan.constrained.projections:
             start[p.state] = start[p.coordinate]
         chosen = ca.densify(ca.vertcat(ca.SX(0, 1), *[start[k] for k in (*plan.states, *plan.algebraic)]))
-        return Call(ca.Function("start", [flat.parameters, time.sx], [chosen]))
+        return Call(ca.Function("start", [self.reduced.p, time.sx], [chosen]))
 
     @cached_property
     def guards(self) -> Guards:
@@ -241,8 +241,8 @@ class CompiledModel:
         """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
         r = self.reduced
         column = ca.cse(ca.substitute(ca.vertcat(r.ode, r.alg, self.powers), initial.sx, 0))
-        column, symbols, values = ca.extract_parametric(column, r.flat.parameters)
-        own = {s.element_hash() for s in scalars(r.flat.parameters)}
+        column, symbols, values = ca.extract_parametric(column, r.p)
+        own = {s.element_hash() for s in scalars(r.p)}
         bare = [s for s in ca.symvar(column) if s.element_hash() in own]
         return ca.densify(column), ca.vertcat(*symbols, *bare), ca.vertcat(*values, *bare)
 
@@ -273,7 +273,7 @@ class CompiledModel:
     @cached_property
     def hoist(self) -> Call:
         """Function of parameters: what the integrated equations need of them."""
-        return Call(ca.Function("hoist", [self.reduced.flat.parameters], [ca.densify(self._hoisted[2])]))
+        return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         key = ("dae", quadratures, moves)

@@ -32,11 +32,11 @@ def report(compiled: CompiledModel) -> dict[str, Any]:
         "largest_block": max(sizes, default=0),
         "jacobian_nonzeros": int(compiled.local.function.nnz_out(1)),
         "operations": int(compiled.local.function.n_instructions()),
-        "structural_zeros": list(flat.structural_zeros),
+        "structural_zeros": list(flat.parameters.structural_zeros),
         "loops": _loops(compiled),
-        "redundant_constraints": [str(o) for o in flat.redundant if o.kind.startswith("connection of")],
+        "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
         "independent_states": list(compiled.cache.get("independent", ())),
-        "break_switches": len(flat.switches),
+        "break_switches": len(flat.discontinuities.switches),
         "seconds": dict(compiled.seconds),
     }
 
@@ -70,11 +70,11 @@ def summary(compiled: CompiledModel) -> str:
 
 def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
     """What is known of each loop; what ranks tell only once a start was found."""
-    flat = compiled.reduced.flat
+    loops = compiled.reduced.flat.loops
     redundancy = compiled.cache.get("redundancy")
     found = []
-    for number, loop in enumerate(flat.loops):
-        dropped = [c for k, c in enumerate(flat.closures) if c.loop == number and _is_dropped(compiled, k)]
+    for number, loop in enumerate(loops.cuts):
+        dropped = [c for k, c in enumerate(loops.closures) if c.loop == number and _is_dropped(compiled, k)]
         by_rank = len(dropped)
         found.append(
             {
@@ -99,10 +99,10 @@ def _is_dropped(compiled: CompiledModel, closure: int) -> bool:
 
 def _flows(compiled: CompiledModel, closures: list[FlatClosure]) -> list[str]:
     """Names of the flows that work on closures."""
-    flat = compiled.reduced.flat
+    unknowns = compiled.reduced.flat.unknowns
     flows = {s.element_hash() for c in closures for s in ca.symvar(c.dual)}
-    moving = {flat.unknowns[k].element_hash() for k in flat.declared}
-    names = zip(flat.names, scalars(flat.unknowns), strict=True)
+    moving = {unknowns.symbols[k].element_hash() for k in unknowns.declared}
+    names = zip(unknowns.names, scalars(unknowns.symbols), strict=True)
     return [name for name, s in names if s.element_hash() in flows - moving]
 
 

@@ -51,10 +51,15 @@ class ReducedModel:
     closing: Closing
     continuous: tuple[tuple[ca.SX, Origin], ...]
 
+    @property
+    def p(self) -> ca.SX:
+        """Free parameters."""
+        return self.flat.parameters.symbols
+
     @cached_property
     def modes(self) -> ca.SX:
         """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
-        return ca.vertcat(self.flat.modes, self.closing.choice)
+        return ca.vertcat(self.flat.discontinuities.modes, self.closing.choice)
 
     @cached_property
     def dependence(self) -> Dependence:
@@ -77,7 +82,7 @@ class ReducedModel:
         unprojected : bool
             Whether to take coordinates as what is integrated in their place, which they are where the multipliers are 0.
         """
-        was, becomes = self.flat.eliminated
+        was, becomes = self.flat.unknowns.eliminated
         first = ca.substitute([expression], [was], [becomes])
         if unprojected:
             first = ca.substitute(first, [self.closing.coordinates], [self.closing.states])

@@ -59,7 +59,7 @@ class Evaluator:
         wanted = c.dependence.inside(resolved)
         # What closes a loop is in nearly all equations: all at once, and the order of reading makes no difference.
         self._solve((set(range(c.nz)) if wanted and c.closing.size else wanted) - self._solved)
-        arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
+        arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.modes]
         n = len(self.t)
         try:
             call = Call(ca.Function("observe", arguments, [resolved]).map(n))

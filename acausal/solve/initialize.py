@@ -208,8 +208,8 @@ def _system(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarr
 
 
 def _is_guessed(compiled: CompiledModel, state: int) -> bool:
-    flat, index = compiled.reduced.flat, compiled.reduced.plan.states[state]
-    return index < len(flat.guessed) and bool(flat.guessed[index])
+    guessed, index = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan.states[state]
+    return index < len(guessed) and bool(guessed[index])
 
 
 def _rows(compiled: CompiledModel, p: np.ndarray, time: float, modes: np.ndarray) -> list[list[int]]:
