@@ -13,7 +13,9 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.instantiate import join, not_settable, numeric, walk
+from acausal.flatten.given import numeric
+from acausal.flatten.instantiate import not_settable
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 
 

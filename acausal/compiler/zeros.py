@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.errors import AcausalError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
-from acausal.flatten.instantiate import join, walk
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.reduce import plan_of

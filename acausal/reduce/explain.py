@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from acausal.flatten import FlatModel
-from acausal.flatten.instantiate import join, walk
+from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.structure import Part, StructuralSingularity
 
