@@ -16,7 +16,7 @@ from acausal.compiler.intervals import bounded
 from acausal.flatten.discontinuities import Guard
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
@@ -36,7 +36,7 @@ def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[li
     entries = [part.excess.sx for condition in conditions for part in condition.comparisons]
     if not entries:
         return [], [], ca.SX(0, 1)
-    excess = ca.substitute(reduced.resolve(ca.vertcat(*entries)), initial.sx, 0)
+    excess = reduced.running.resolve(ca.vertcat(*entries))
     free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, time.sx))}
     bent = ca.which_depends(excess, time.sx, 2, True)
     timed = [

@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 
 
@@ -47,7 +47,7 @@ class Closing:
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
         self._many: dict[int, Call] = {}
-        column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
+        column = reduced.running.constraints
         r = reduced
         arguments = [r.x, r.p, time.sx, r.modes]
         J = ca.densify(ca.jacobian(column, r.x))
@@ -57,10 +57,8 @@ class Closing:
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._guessed = np.array([place for place, _ in found], dtype=int)
-        following = ca.vertcat(ca.SX(0, 1), *[r.closing.following[k] for _, k in found])
-        self._following = Call(
-            ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))])
-        )
+        following = ca.vertcat(ca.SX(0, 1), *[r.running.following[k] for _, k in found])
+        self._following = Call(ca.Function("following", arguments, [ca.densify(following)]))
         same = [
             (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic
         ]

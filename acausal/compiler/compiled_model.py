@@ -240,7 +240,7 @@ class CompiledModel:
     def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
         """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
         r = self.reduced
-        column = ca.cse(ca.substitute(ca.vertcat(r.ode, r.alg, self.powers), initial.sx, 0))
+        column = ca.cse(ca.vertcat(r.running.ode, r.running.alg, self.powers))
         column, symbols, values = ca.extract_parametric(column, r.p)
         own = {s.element_hash() for s in scalars(r.p)}
         bare = [s for s in ca.symvar(column) if s.element_hash() in own]
@@ -250,24 +250,22 @@ class CompiledModel:
     def powers(self) -> ca.SX:
         """Supplied and dissipated power, in x, z, parameters and time."""
         energies = self.reduced.flat.energies
-        return self.reduced.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
+        return self.reduced.running.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
     def power(self) -> Rowwise:
         """Function of x, z, parameters, time and modes: supplied and dissipated power."""
-        powers = ca.substitute(self.powers, initial.sx, 0)
-        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(powers)]))
+        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
 
     @cached_property
     def rates(self) -> Rowwise:
         """Function of x, z, parameters, time and modes: derivatives of the states."""
-        ode = ca.substitute(self.reduced.ode, initial.sx, 0)
-        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(ode)]))
+        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
     def stored(self) -> Call:
         """Function of x, z, parameters, time and modes: stored energy."""
-        energy = ca.substitute(self.reduced.resolve(self.reduced.flat.energies["stored_energy"]), initial.sx, 0)
+        energy = self.reduced.running.resolve(self.reduced.flat.energies["stored_energy"])
         return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(energy)]))
 
     @cached_property

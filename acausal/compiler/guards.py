@@ -13,7 +13,7 @@ from acausal.compiler.clock import by_clock, functions, planned_times, truth
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
@@ -70,7 +70,7 @@ class Guards:
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = ca.vertcat(ca.SX(0, 1), *entries)
-        return ca.densify(ca.substitute(self.reduced.resolve(column, unprojected), initial.sx, 0))
+        return ca.densify(self.reduced.running.resolve(column, unprojected))
 
     @cached_property
     def breaks(self) -> Call:
@@ -176,10 +176,9 @@ class Guards:
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
         r, excess = self.reduced, self._excess[self.watched]
-        ode, alg = (ca.substitute(e, initial.sx, 0) for e in (r.ode, r.alg))
-        moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(ode, 1)
+        moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
         unknowns, equations = (k.tolist() for k in self._dependence.closure(self._dependence.inside(excess)))
-        z, own = r.z[unknowns], alg[equations]
+        z, own = r.z[unknowns], r.running.alg[equations]
         direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
         return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
 

@@ -16,6 +16,31 @@ from acausal.structure import Plan
 
 
 @dataclass(frozen=True)
+class Running:
+    """A reduced model while it runs: the flag of the initial system is 0.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+    ode, alg : casadi.SX
+        Its equations.
+    constraints, following : casadi.SX
+        Residuals of its constraints, and values that follow from states; see `Closing`.
+    """
+
+    reduced: ReducedModel
+    ode: ca.SX
+    alg: ca.SX
+    constraints: ca.SX
+    following: ca.SX
+
+    def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
+        """Express anything of the model in x, z, parameters and time; see `ReducedModel.resolve`."""
+        return ca.substitute(self.reduced.resolve(expression, unprojected), initial.sx, 0)
+
+
+@dataclass(frozen=True)
 class ReducedModel:
     """der(x) = ode(x, z, p, t), 0 = alg(x, z, p, t).
 
@@ -62,9 +87,15 @@ class ReducedModel:
         return ca.vertcat(self.flat.discontinuities.modes, self.closing.choice)
 
     @cached_property
+    def running(self) -> Running:
+        """The model where the flag of the initial system is 0."""
+        equations = [self.ode, self.alg, self.closing.residuals, self.closing.following]
+        return Running(self, *ca.substitute(equations, [initial.sx], [ca.SX(0)]))
+
+    @cached_property
     def dependence(self) -> Dependence:
         """Which algebraic unknowns a value needs."""
-        return Dependence(ca.substitute(self.alg, initial.sx, 0), self.z)
+        return Dependence(self.running.alg, self.z)
 
     @cached_property
     def _resolved(self) -> ca.SX:
