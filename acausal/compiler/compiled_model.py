@@ -18,6 +18,7 @@ from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
+from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
 from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.source import Source, pickled
@@ -90,26 +91,29 @@ class CompiledModel:
     @alone
     def report(self) -> dict[str, Any]:
         """Sizes at each stage, states, what was removed, and seconds."""
-        from acausal.compiler.report import report
-
-        return report(self)
+        redundancy = self.cache.get("redundancy")
+        dropped = redundancy.dropped if redundancy else ()
+        found = AtStart(
+            tuple(k for k, constraint in enumerate(self.closing.closures) if constraint in dropped),
+            bool(redundancy and redundancy.singular),
+            tuple(self.cache.get("independent", ())),
+        )
+        return report(self.reduced, self.local.function, found, self.seconds)
 
     @alone
     def summary(self) -> str:
         """Return the report as text."""
-        from acausal.compiler.report import summary
-
-        return summary(self)
+        return summary(self.report)
 
     @property
     def states(self) -> tuple[str, ...]:
         """Names of the states."""
-        return tuple(self.reduced.names[k] for k in self.reduced.plan.states)
+        return self.reduced.states
 
     @property
     def algebraic(self) -> tuple[str, ...]:
         """Names of the algebraic unknowns of the integrated system."""
-        return tuple(self.reduced.names[k] for k in self.reduced.plan.algebraic)
+        return self.reduced.algebraic
 
     @property
     def outputs(self) -> tuple[str, ...]:

@@ -81,6 +81,16 @@ class ReducedModel:
         """Free parameters."""
         return self.flat.parameters.symbols
 
+    @property
+    def states(self) -> tuple[str, ...]:
+        """Names of the states."""
+        return tuple(self.names[k] for k in self.plan.states)
+
+    @property
+    def algebraic(self) -> tuple[str, ...]:
+        """Names of the algebraic unknowns."""
+        return tuple(self.names[k] for k in self.plan.algebraic)
+
     @cached_property
     def modes(self) -> ca.SX:
         """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
