@@ -16,7 +16,7 @@ from acausal.compiler.intervals import bounded
 from acausal.flatten.discontinuities import Guard
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
@@ -36,8 +36,8 @@ def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[li
     entries = [part.excess.sx for condition in conditions for part in condition.comparisons]
     if not entries:
         return [], [], ca.SX(0, 1)
-    excess = ca.substitute(reduced.resolve(ca.vertcat(*entries)), initial.sx, 0)
-    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.flat.parameters, time.sx))}
+    excess = reduced.running.resolve(ca.vertcat(*entries))
+    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, time.sx))}
     bent = ca.which_depends(excess, time.sx, 2, True)
     timed = [
         all(s.element_hash() in free for s in ca.symvar(e)) and (not curved or all(map(bounded, functions(reduced, e))))
@@ -48,7 +48,7 @@ def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[li
 
 def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Function]:
     """Functions of parameters and time: an excess, and its derivative."""
-    given = [reduced.flat.parameters, time.sx]
+    given = [reduced.p, time.sx]
     slope = ca.densify(ca.jacobian(excess, time.sx))
     return ca.Function("excess", given, [ca.densify(excess)]), ca.Function("slope", given, [slope])
 
@@ -63,7 +63,7 @@ def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.S
     excess : casadi.SX
         Of comparisons, a column.
     """
-    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.flat.parameters, reduced.modes, time.sx))}
+    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, reduced.modes, time.sx))}
     bent = ca.which_depends(excess, time.sx, 2, True) if excess.numel() else []
     moving = ca.which_depends(excess, time.sx, 1, True) if excess.numel() else []
     plain = [
@@ -89,7 +89,7 @@ def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
 def split_clock(reduced: ReducedModel) -> ReducedModel:
     """Return the model with a switch for every comparison with time in a condition that is not decided by time alone."""
     flat = reduced.flat
-    joined = [guard for guard in flat.guards if isinstance(guard.condition, Joined)]
+    joined = [guard for guard in flat.discontinuities.guards if isinstance(guard.condition, Joined)]
     timed, _, excess = by_clock(reduced, [guard.condition for guard in joined])
     known, switches, own = iter(zip(timed, scalars(excess), strict=True)), list[tuple[ca.SX, Guard]](), {}
     for guard in joined:
@@ -100,19 +100,15 @@ def split_clock(reduced: ReducedModel) -> ReducedModel:
         own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, modes).condition())
     if not own:
         return reduced
-    n = len(flat.switches)
-    guards = [own.get(id(guard), guard) for guard in flat.guards]
-    return replace(
-        reduced,
-        flat=replace(
-            flat,
-            switches=(
-                *((mode, guard.excess) for (mode, _), guard in zip(flat.switches, guards, strict=False)),
-                *((mode, guard.excess) for mode, guard in switches),
-            ),
-            guards=(*guards[:n], *(guard for _, guard in switches), *guards[n:]),
-        ),
+    kept = flat.discontinuities
+    n = len(kept.switches)
+    guards = [own.get(id(guard), guard) for guard in kept.guards]
+    changed = replace(
+        kept,
+        switches=(*kept.switches, *(mode for mode, _ in switches)),
+        guards=(*guards[:n], *(guard for _, guard in switches), *guards[n:]),
     )
+    return replace(reduced, flat=replace(flat, discontinuities=changed))
 
 
 def _mode(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]]) -> ca.SX:

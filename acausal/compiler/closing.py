@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 
 
@@ -40,16 +40,16 @@ class Closing:
         self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
-        self.closures = [place[c.row] for c in reduced.flat.closures if place]
+        self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
         self._many: dict[int, Call] = {}
-        column = ca.substitute(reduced.closing.residuals, initial.sx, 0)
+        column = reduced.running.constraints
         r = reduced
-        arguments = [r.x, r.flat.parameters, time.sx, r.modes]
+        arguments = [r.x, r.p, time.sx, r.modes]
         J = ca.densify(ca.jacobian(column, r.x))
         self.function = ca.Function("closing", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
@@ -57,10 +57,8 @@ class Closing:
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._guessed = np.array([place for place, _ in found], dtype=int)
-        following = ca.vertcat(ca.SX(0, 1), *[r.closing.following[k] for _, k in found])
-        self._following = Call(
-            ca.Function("following", arguments, [ca.densify(ca.substitute(following, initial.sx, 0))])
-        )
+        following = ca.vertcat(ca.SX(0, 1), *[r.running.following[k] for _, k in found])
+        self._following = Call(ca.Function("following", arguments, [ca.densify(following)]))
         same = [
             (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic
         ]

@@ -60,7 +60,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
-    compiled = CompiledModel(reduced, seconds, Source(model, dict(parameters or {})))
+    compiled = CompiledModel(reduced, seconds, Source(compile, model, dict(parameters or {})))
     compiled.parameter_values(None)
     _ = (
         compiled.local,

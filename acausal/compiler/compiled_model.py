@@ -19,6 +19,7 @@ from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
+from acausal.compiler.report import AtStart, report, summary
 from acausal.compiler.requirements import Requirements
 from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.source import Source, pickled
@@ -91,26 +92,29 @@ class CompiledModel:
     @alone
     def report(self) -> dict[str, Any]:
         """Sizes at each stage, states, what was removed, and seconds."""
-        from acausal.compiler.report import report
-
-        return report(self)
+        redundancy = self.cache.get("redundancy")
+        dropped = redundancy.dropped if redundancy else ()
+        found = AtStart(
+            tuple(k for k, constraint in enumerate(self.closing.closures) if constraint in dropped),
+            bool(redundancy and redundancy.singular),
+            tuple(self.cache.get("independent", ())),
+        )
+        return report(self.reduced, self.local.function, found, self.seconds)
 
     @alone
     def summary(self) -> str:
         """Return the report as text."""
-        from acausal.compiler.report import summary
-
-        return summary(self)
+        return summary(self.report)
 
     @property
     def states(self) -> tuple[str, ...]:
         """Names of the states."""
-        return tuple(self.reduced.names[k] for k in self.reduced.plan.states)
+        return self.reduced.states
 
     @property
     def algebraic(self) -> tuple[str, ...]:
         """Names of the algebraic unknowns of the integrated system."""
-        return tuple(self.reduced.names[k] for k in self.reduced.plan.algebraic)
+        return self.reduced.algebraic
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -120,8 +124,8 @@ class CompiledModel:
     @cached_property
     def nominal(self) -> np.ndarray:
         """Typical size of each state and algebraic unknown."""
-        flat, plan = self.reduced.flat, self.reduced.plan
-        nominal = np.concatenate([flat.nominal, np.ones(plan.system.n_variables - len(flat.nominal))])
+        own, plan = self.reduced.flat.unknowns, self.reduced.plan
+        nominal = np.concatenate([own.nominal, np.ones(plan.system.n_variables - len(own.nominal))])
         for p in plan.constrained.projections:
             nominal[p.state] = nominal[p.coordinate]
         return nominal[[*plan.states, *plan.algebraic]]
@@ -129,17 +133,17 @@ class CompiledModel:
     @cached_property
     def sizes(self) -> tuple[tuple[str, bool], ...]:
         """Unit of each state, its name where that is not known, and whether its nominal value is declared."""
-        flat, plan = self.reduced.flat, self.reduced.plan
+        own, plan = self.reduced.flat.unknowns, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
-        units = (*(str(u or n) for u, n in zip(flat.units, flat.names, strict=True)), *[""] * plan.system.n_variables)
-        declared = (*flat.sized.tolist(), *[True] * plan.system.n_variables)
+        units = (*(str(u or n) for u, n in zip(own.units, own.names, strict=True)), *[""] * plan.system.n_variables)
+        declared = (*own.sized.tolist(), *[True] * plan.system.n_variables)
         return tuple((units[k], declared[k]) for k in places)
 
     @cached_property
     def conditions(self) -> ca.SX:
         """Residuals of fixed start values and initial equations, in x, z, parameters and time."""
-        entries = [condition.residual for condition in self.reduced.flat.initial]
+        entries = [condition.residual for condition in self.reduced.flat.equations.initial]
         return self.reduced.resolve(ca.vertcat(ca.SX(0, 1), *entries), unprojected=True)
 
     @cached_property
@@ -151,7 +155,7 @@ class CompiledModel:
     def arguments(self) -> list[ca.SX]:
         """Arguments of every function: x, z, parameters, time, modes and the flag of the initial system."""
         r = self.reduced
-        return [r.x, r.z, r.flat.parameters, time.sx, r.modes, initial.sx]
+        return [r.x, r.z, r.p, time.sx, r.modes, initial.sx]
 
     @cached_property
     def values(self) -> Call:
@@ -195,12 +199,12 @@ class CompiledModel:
     @cached_property
     def start(self) -> Call:
         """Function of parameters and time: start values of states and algebraic unknowns."""
-        flat, plan = self.reduced.flat, self.reduced.plan
-        start = [*scalars(flat.start), *[ca.SX(0)] * (plan.system.n_variables - flat.start.numel())]
+        own, plan = self.reduced.flat.unknowns.start, self.reduced.plan
+        start = [*scalars(own), *[ca.SX(0)] * (plan.system.n_variables - own.numel())]
         for p in plan.constrained.projections:
             start[p.state] = start[p.coordinate]
         chosen = ca.densify(ca.vertcat(ca.SX(0, 1), *[start[k] for k in (*plan.states, *plan.algebraic)]))
-        return Call(ca.Function("start", [flat.parameters, time.sx], [chosen]))
+        return Call(ca.Function("start", [self.reduced.p, time.sx], [chosen]))
 
     @cached_property
     def layout(self) -> Layout:
@@ -248,9 +252,9 @@ class CompiledModel:
     def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
         """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
         r = self.reduced
-        column = ca.cse(ca.substitute(ca.vertcat(r.ode, r.alg, self.powers), initial.sx, 0))
-        column, symbols, values = ca.extract_parametric(column, r.flat.parameters)
-        own = {s.element_hash() for s in scalars(r.flat.parameters)}
+        column = ca.cse(ca.vertcat(r.running.ode, r.running.alg, self.powers))
+        column, symbols, values = ca.extract_parametric(column, r.p)
+        own = {s.element_hash() for s in scalars(r.p)}
         bare = [s for s in ca.symvar(column) if s.element_hash() in own]
         return ca.densify(column), ca.vertcat(*symbols, *bare), ca.vertcat(*values, *bare)
 
@@ -258,30 +262,28 @@ class CompiledModel:
     def powers(self) -> ca.SX:
         """Supplied and dissipated power, in x, z, parameters and time."""
         energies = self.reduced.flat.energies
-        return self.reduced.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
+        return self.reduced.running.resolve(ca.vertcat(energies["supplied_power"], energies["dissipated_power"]))
 
     @cached_property
     def power(self) -> Rowwise:
         """Function of x, z, parameters, time and modes: supplied and dissipated power."""
-        powers = ca.substitute(self.powers, initial.sx, 0)
-        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(powers)]))
+        return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
 
     @cached_property
     def rates(self) -> Rowwise:
         """Function of x, z, parameters, time and modes: derivatives of the states."""
-        ode = ca.substitute(self.reduced.ode, initial.sx, 0)
-        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(ode)]))
+        return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
     def stored(self) -> Call:
         """Function of x, z, parameters, time and modes: stored energy."""
-        energy = ca.substitute(self.reduced.resolve(self.reduced.flat.energies["stored_energy"]), initial.sx, 0)
+        energy = self.reduced.running.resolve(self.reduced.flat.energies["stored_energy"])
         return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(energy)]))
 
     @cached_property
     def hoist(self) -> Call:
         """Function of parameters: what the integrated equations need of them."""
-        return Call(ca.Function("hoist", [self.reduced.flat.parameters], [ca.densify(self._hoisted[2])]))
+        return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
         key = ("dae", quadratures, moves)

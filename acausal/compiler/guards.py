@@ -13,7 +13,7 @@ from acausal.compiler.clock import by_clock, functions, planned_times, truth
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
-from acausal.language.functions import initial, time
+from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
@@ -39,23 +39,23 @@ class Guards:
     """
 
     def __init__(self, reduced: ReducedModel, start: ca.Function) -> None:
-        flat = reduced.flat
-        self.reduced, self.guards, self._start = reduced, flat.guards, start
+        changing = reduced.flat.discontinuities
+        self.reduced, self.guards, self._start = reduced, changing.guards, start
         self._dependence = reduced.dependence
-        self.n_switches, self.n_modes = len(flat.switches), flat.modes.numel()
-        self.arguments = [reduced.x, reduced.z, flat.parameters, time.sx, reduced.modes]
-        self._excess = self._resolve([g.excess for g in flat.guards])
+        self.n_switches, self.n_modes = len(changing.switches), changing.modes.numel()
+        self.arguments = [reduced.x, reduced.z, reduced.p, time.sx, reduced.modes]
+        self._excess = self._resolve([g.excess for g in self.guards])
         known = {s.element_hash() for s in scalars(ca.vertcat(*self.arguments))}
-        for guard, excess in zip(flat.guards, scalars(self._excess), strict=True):
+        for guard, excess in zip(self.guards, scalars(self._excess), strict=True):
             if any(s.element_hash() not in known for s in ca.symvar(excess)):
                 raise DeclarationError(
                     f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
                     "it, such as a: Scalar = variable(...) with a == der(v), and compare that."
                 )
-        decided, bent, compared = by_clock(reduced, [g.condition for g in flat.guards])
+        decided, bent, compared = by_clock(reduced, [g.condition for g in self.guards])
         self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
         self._open = list[tuple[int, int, bool]]()  # comparisons of watched guards: row, guard, inclusive
-        for k, guard in enumerate(flat.guards):
+        for k, guard in enumerate(self.guards):
             kinds = [part.kind == "<=" for part in guard.condition.comparisons]
             own = range(row, row := row + len(kinds))
             if all(decided[r] for r in own):
@@ -66,16 +66,16 @@ class Guards:
         self._all, self._decided = compared, [r for r, *_ in rows]
         self._compared = compared[[r for r, *_ in rows if not bent[r]]]
         self._bent = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if bent[r]]
-        self.watched = [k for k in range(len(flat.guards)) if k not in set(self.timed)]
+        self.watched = [k for k in range(len(self.guards)) if k not in set(self.timed)]
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = ca.vertcat(ca.SX(0, 1), *entries)
-        return ca.densify(ca.substitute(self.reduced.resolve(column, unprojected), initial.sx, 0))
+        return ca.densify(self.reduced.running.resolve(column, unprojected))
 
     @cached_property
     def breaks(self) -> Call:
         """Function of parameters: break times, one of each linear comparison of the timed guards."""
-        p, excess = self.reduced.flat.parameters, self._compared
+        p, excess = self.reduced.p, self._compared
         if not excess.numel():
             return Call(ca.Function("breaks", [p], [ca.SX(0, 1)]))
         at_zero = ca.substitute(excess, time.sx, 0)
@@ -100,13 +100,13 @@ class Guards:
         reach = ca.fabs(ca.jtimes(excess, time.sx, ca.SX(1))) * near
         parts = iter(scalars(ca.if_else(ca.fabs(excess) <= reach, 0, excess)))
         held = [truth(self.guards[k].condition, parts) for k in self.timed]
-        given = [self.reduced.flat.parameters, time.sx, near]
+        given = [self.reduced.p, time.sx, near]
         return Call(ca.Function("holds_at", given, [ca.densify(ca.vertcat(ca.SX(0, 1), *held))]))
 
     @cached_property
     def planned(self) -> Call:
         """Function of parameters and modes: instants of comparisons of time with discrete variables, until these change."""
-        return Call(ca.Function("planned", [self.reduced.flat.parameters, self.reduced.modes], [self._planned[1]]))
+        return Call(ca.Function("planned", [self.reduced.p, self.reduced.modes], [self._planned[1]]))
 
     @property
     def plans(self) -> list[tuple[int, bool]]:
@@ -120,16 +120,16 @@ class Guards:
     @cached_property
     def guess(self) -> Call:
         """Function of parameters and time: modes and discrete variables, exact where only time decides."""
-        flat, r = self.reduced.flat, self.reduced
+        r = self.reduced
         head = self._head()
-        starts = self._start(flat.parameters, time.sx) if head.numel() else ca.SX(0, 1)
+        starts = self._start(r.p, time.sx) if head.numel() else ca.SX(0, 1)
         modes = ca.SX.zeros(r.modes.numel())
         for k in self.timed:
             if k < self.n_switches:
                 modes[k] = head[k]
         head = ca.substitute([head], [r.modes], [modes])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
-        return Call(ca.Function("modes", [flat.parameters, time.sx], [ca.densify(head)]))
+        return Call(ca.Function("modes", [r.p, time.sx], [ca.densify(head)]))
 
     @cached_property
     def start(self) -> Call:
@@ -140,7 +140,8 @@ class Guards:
         switches = scalars(self._excess)[: self.n_switches]
         inclusive = [guard.inclusive for guard in self.guards]
         modes = [e <= 0 if inside else e < 0 for e, inside in zip(switches, inclusive, strict=False)]
-        return ca.vertcat(ca.SX(0, 1), *modes, self._resolve([s for _, s in self.reduced.flat.discretes]))
+        discretes = [start for _, start in self.reduced.flat.discontinuities.discretes]
+        return ca.vertcat(ca.SX(0, 1), *modes, self._resolve(discretes))
 
     @cached_property
     def continuous(self) -> Call:
@@ -175,10 +176,9 @@ class Guards:
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
         r, excess = self.reduced, self._excess[self.watched]
-        ode, alg = (ca.substitute(e, initial.sx, 0) for e in (r.ode, r.alg))
-        moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(ode, 1)
+        moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
         unknowns, equations = (k.tolist() for k in self._dependence.closure(self._dependence.inside(excess)))
-        z, own = r.z[unknowns], alg[equations]
+        z, own = r.z[unknowns], r.running.alg[equations]
         direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
         return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
 

@@ -13,7 +13,9 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.instantiate import join, not_settable, numeric, walk
+from acausal.flatten.given import numeric
+from acausal.flatten.instantiate import not_settable
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 
 
@@ -27,8 +29,8 @@ class Settable:
     """
 
     def __init__(self, flat: FlatModel) -> None:
-        self.flat = flat
-        self.requirements = Requirements(flat.tree, flat.parameters)
+        self.own, self.tree = flat.parameters, flat.tree
+        self.requirements = Requirements(flat.tree, flat.parameters.symbols)
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes.
@@ -39,8 +41,7 @@ class Settable:
             For an unknown name, a structural parameter, a structural zero, a parameter that follows others, or a
             value out of its limits.
         """
-        flat = self.flat
-        values = flat.parameter_values.copy()
+        values = self.own.values.copy()
         for path, value in (changes or {}).items():
             self._set(values, path, value)
         self._check_limits(values)
@@ -48,23 +49,23 @@ class Settable:
         return values
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
-        flat = self.flat
-        index = {name: k for k, name in enumerate(flat.parameter_names)}
+        own = self.own
+        index = {name: k for k, name in enumerate(own.names)}
         try:
             array = numeric(value, np.shape(value), f"`{path}`")
         except ValueError:
             raise DeclarationError(f"`{path}` is {value!r}; it must be an array of numbers.") from None
         prefix = path + "["
-        entries = [n for n in (*index, *flat.structural_zeros) if n == path or n.startswith(prefix)]
+        entries = [n for n in (*index, *own.structural_zeros) if n == path or n.startswith(prefix)]
         if not entries:
-            if path in flat.bound:
+            if path in own.bound:
                 raise DeclarationError(
-                    f"`{path}` follows {flat.bound[path]}; change that, or compile with its own value."
+                    f"`{path}` follows {own.bound[path]}; change that, or compile with its own value."
                 )
             if path in self._structural_names:
                 raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. Compile again with it.")
-            known = [*flat.parameter_names, *flat.structural_zeros, *flat.bound, *self._structural_names]
-            raise DeclarationError(not_settable(path, self.flat.tree, known))
+            known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
+            raise DeclarationError(not_settable(path, self.tree, known))
         for name in entries:
             at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
             if (
@@ -76,7 +77,7 @@ class Settable:
                     f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
                 )
             entry = float(array[at])
-            if name in flat.weighing and entry != values[index[name]]:
+            if name in own.weighing and entry != values[index[name]]:
                 raise DeclarationError(
                     f"`{name}` sets nominal values, which are fixed when compiled. "
                     f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
@@ -91,20 +92,18 @@ class Settable:
 
     @cached_property
     def _structural_names(self) -> set[str]:
-        return {
-            join(c._path, n) for c in walk(self.flat.tree) for n, d in c.fields.items() if isinstance(d, f.Structural)
-        }
+        return {join(c._path, n) for c in walk(self.tree) for n, d in c.fields.items() if isinstance(d, f.Structural)}
 
     def _check_limits(self, values: np.ndarray) -> None:
-        flat = self.flat
-        if not flat.limits:
+        own = self.own
+        if not own.limits:
             return
         call, owners, least, positive = self._limits
         found = call(values)[0]
         wrong = np.flatnonzero(~(found >= least) | (positive & ~(found > 0)))
         if wrong.size:
-            path, _, declared = flat.limits[owners[wrong[0]]]
-            if path in flat.bound:
+            path, _, declared = own.limits[owners[wrong[0]]]
+            if path in own.bound:
                 self.requirements.check(values)  # they know the cause, such as a wrong diameter of a negative mass
             bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
             raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
@@ -112,9 +111,9 @@ class Settable:
     @cached_property
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
         """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
-        flat = self.flat
-        column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in flat.limits])
-        owners = np.repeat(np.arange(len(flat.limits)), [sx.numel() for _, sx, _ in flat.limits])
-        least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in flat.limits])[owners]
-        positive = np.array([d.positive for _, _, d in flat.limits])[owners]
-        return Call(ca.Function("limits", [flat.parameters], [column])), owners, least, positive
+        own = self.own
+        column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in own.limits])
+        owners = np.repeat(np.arange(len(own.limits)), [sx.numel() for _, sx, _ in own.limits])
+        least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
+        positive = np.array([d.positive for _, _, d in own.limits])[owners]
+        return Call(ca.Function("limits", [own.symbols], [column])), owners, least, positive

@@ -8,7 +8,6 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.rowwise import Rowwise
-from acausal.language.functions import initial
 from acausal.reduce import Level, ReducedModel, solution_levels
 
 
@@ -38,7 +37,7 @@ def make_passes(
 
     A part that is not linear in its unknowns is a pass of its own, and so are all that follow up to the next of them.
     """
-    alg = ca.substitute(reduced.alg[equations.tolist()], initial.sx, 0)
+    alg = reduced.running.alg[equations.tolist()]
     J = ca.jacobian(alg, reduced.z[unknowns.tolist()])
     steps = [
         (level, _step(arguments, alg, J, level, unknowns)) for level in solution_levels(J, reduced.z[unknowns.tolist()])

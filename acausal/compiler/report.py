@@ -2,48 +2,79 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
 
-from acausal.compiler.compiled_model import CompiledModel
-from acausal.flatten.flat_model import FlatClosure
+from acausal.flatten.flat_model import FlatClosure, FlatUnknowns
+from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
 
 SHOWN = 12
 
 
-def report(compiled: CompiledModel) -> dict[str, Any]:
-    """Return sizes at each stage, states, blocks, what was removed, and seconds of each stage."""
-    reduced = compiled.reduced
+@dataclass(frozen=True)
+class AtStart:
+    """What is known once a start was found.
+
+    Parameters
+    ----------
+    dropped : tuple of int
+        Residuals that close loops and say nothing new, by rank.
+    singular : bool
+        Whether the start is a singular position.
+    independent : tuple of str
+        States from which the others follow by the loops.
+    """
+
+    dropped: tuple[int, ...]
+    singular: bool
+    independent: tuple[str, ...]
+
+
+def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: Mapping[str, float]) -> dict[str, Any]:
+    """Return sizes at each stage, states, blocks, what was removed, and seconds of each stage.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The equations.
+    local : casadi.Function
+        They and, as its second output, their Jacobian.
+    found : AtStart
+        What a start tells.
+    seconds : mapping of str to float
+        Time of each stage, in s.
+    """
     flat, plan = reduced.flat, reduced.plan
     sizes = [len(block.variables) for block in plan.blocks]
     return {
-        "model": type(compiled.tree).__name__,
+        "model": type(flat.tree).__name__,
         **flat.counts,
-        "equations_reduced": compiled.nx + compiled.nz,
+        "equations_reduced": len(plan.states) + len(plan.algebraic),
         "differentiated": len(plan.differentiated),
-        "states": list(compiled.states),
+        "states": list(reduced.states),
         "preferences": [int(plan.system.preference[k]) for k in plan.states],
-        "algebraic": list(compiled.algebraic),
+        "algebraic": list(reduced.algebraic),
         "assigned": len(plan.assigned),
         "observed": len(plan.observed),
         "blocks": len(sizes),
         "largest_block": max(sizes, default=0),
-        "jacobian_nonzeros": int(compiled.local.function.nnz_out(1)),
-        "operations": int(compiled.local.function.n_instructions()),
-        "structural_zeros": list(flat.structural_zeros),
-        "loops": _loops(compiled),
-        "redundant_constraints": [str(o) for o in flat.redundant if o.kind.startswith("connection of")],
-        "independent_states": list(compiled.cache.get("independent", ())),
-        "break_switches": len(flat.switches),
-        "seconds": dict(compiled.seconds),
+        "jacobian_nonzeros": int(local.nnz_out(1)),
+        "operations": int(local.n_instructions()),
+        "structural_zeros": list(flat.parameters.structural_zeros),
+        "loops": _loops(reduced, found),
+        "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
+        "independent_states": list(found.independent),
+        "break_switches": len(flat.discontinuities.switches),
+        "seconds": dict(seconds),
     }
 
 
-def summary(compiled: CompiledModel) -> str:
-    """Return the report as text for people."""
-    r = report(compiled)
+def summary(r: Mapping[str, Any]) -> str:
+    """Return a report as text for people."""
     lines = [
         f"{r['model']}",
         f"  flattened     {r['equations_flat']:6d} equations, {r['unknowns_flat']} unknowns",
@@ -68,13 +99,12 @@ def summary(compiled: CompiledModel) -> str:
     return "\n".join(lines)
 
 
-def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
-    """What is known of each loop; what ranks tell only once a start was found."""
-    flat = compiled.reduced.flat
-    redundancy = compiled.cache.get("redundancy")
+def _loops(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
+    """What is known of each loop."""
+    loops = reduced.flat.loops
     found = []
-    for number, loop in enumerate(flat.loops):
-        dropped = [c for k, c in enumerate(flat.closures) if c.loop == number and _is_dropped(compiled, k)]
+    for number, loop in enumerate(loops.cuts):
+        dropped = [c for k, c in enumerate(loops.closures) if c.loop == number and k in at_start.dropped]
         by_rank = len(dropped)
         found.append(
             {
@@ -85,24 +115,18 @@ def _loops(compiled: CompiledModel) -> list[dict[str, Any]]:
                 "constraints": loop.constraints,
                 "redundant": loop.dropped + by_rank,
                 "redundant_by_rank": by_rank,
-                "undetermined": [*loop.undetermined, *_flows(compiled, dropped)],
-                "singular_start": bool(redundancy and redundancy.singular),
+                "undetermined": [*loop.undetermined, *_flows(reduced.flat.unknowns, dropped)],
+                "singular_start": at_start.singular,
             }
         )
     return found
 
 
-def _is_dropped(compiled: CompiledModel, closure: int) -> bool:
-    redundancy = compiled.cache.get("redundancy")
-    return bool(redundancy) and compiled.closing.closures[closure] in redundancy.dropped
-
-
-def _flows(compiled: CompiledModel, closures: list[FlatClosure]) -> list[str]:
+def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
     """Names of the flows that work on closures."""
-    flat = compiled.reduced.flat
     flows = {s.element_hash() for c in closures for s in ca.symvar(c.dual)}
-    moving = {flat.unknowns[k].element_hash() for k in flat.declared}
-    names = zip(flat.names, scalars(flat.unknowns), strict=True)
+    moving = {unknowns.symbols[k].element_hash() for k in unknowns.declared}
+    names = zip(unknowns.names, scalars(unknowns.symbols), strict=True)
     return [name for name, s in names if s.element_hash() in flows - moving]
 
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import AcausalError, DeclarationError
-from acausal.flatten.instantiate import walk
 from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.language.validity import Requirement
 from acausal.symbols import scalars

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,8 +14,19 @@ from acausal.language.component import Component
 
 
 class Source(NamedTuple):
-    """The arguments of `compile`."""
+    """The arguments of `compile`, and that itself.
 
+    Parameters
+    ----------
+    make : callable
+        Compiles the model with the parameters.
+    model : Component
+        The model as constructed.
+    parameters : mapping of str to value
+        Values by path that replace those of the model.
+    """
+
+    make: Callable[[Component, Mapping[str, Any]], Any]
     model: Component
     parameters: Mapping[str, Any]
 
@@ -47,13 +58,7 @@ def pickled(source: Source | None) -> tuple[Any, ...]:
             f"a compiled {name} cannot be pickled, because a value given to the model cannot: {error}. Put functions and "
             f"classes that {name} is given at the top of a module, or compile in each process: ac.compile(...)."
         ) from error
-    return _compiled, tuple(source)
-
-
-def _compiled(model: Component, parameters: Mapping[str, Any]) -> Any:
-    from acausal.compiler.compile import compile
-
-    return compile(model, parameters)
+    return source.make, (source.model, source.parameters)
 
 
 def _templates(value: Any) -> Iterator[Component]:

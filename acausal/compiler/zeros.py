@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.errors import AcausalError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
-from acausal.flatten.instantiate import join, walk
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.reduce import plan_of
@@ -62,11 +62,11 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
 
 def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
     """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the mend."""
-    parts = list(parts)
-    touched = {flat.names[v] for part in parts for v in part.variables if v < len(flat.names)}
-    touched |= {flat.origins[e].path for part in parts for e in part.equations if e < len(flat.origins)}
-    set_ = {name.partition("[")[0] for name in flat.structural_zeros}
-    some = {name.rpartition("[")[0] for name in flat.parameter_names}
+    parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
+    touched = {names[v] for part in parts for v in part.variables if v < len(names)}
+    touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}
+    set_ = {name.partition("[")[0] for name in flat.parameters.structural_zeros}
+    some = {name.rpartition("[")[0] for name in flat.parameters.names}
     found = {}
     for component in walk(flat.tree):
         path = component._path

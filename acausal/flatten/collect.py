@@ -13,9 +13,9 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.instantiate import join, walk
 from acausal.flatten.origin import Origin, bounded, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.events import When

@@ -9,8 +9,9 @@ from functools import cached_property
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import join, unit_of
+from acausal.flatten.given import unit_of
 from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.flatten.discontinuities import Guard, Promise
 from acausal.flatten.origin import Origin
+from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.units import Dimension
 
@@ -76,94 +76,167 @@ class Loop:
 
 
 @dataclass(frozen=True)
-class FlatModel:
-    """A model as one list of scalar unknowns and one list of scalar equations.
+class FlatUnknowns:
+    """Scalar unknowns; derivatives that occur are unknowns of their own.
 
     Parameters
     ----------
-    unknowns, residuals : casadi.SX
-        Columns. Derivatives that occur are unknowns of their own.
+    symbols : casadi.SX
+        The unknowns, a column.
     names : tuple of str
-        Name of each unknown in the user's words.
+        Name of each in the user's words.
     derivative : tuple of int
         Unknown -> the unknown that is its time derivative, or -1.
     declared : mapping of int to casadi.SX
         Unknowns with a declared derivative.
-    defines : tuple of int
-        Residual -> the declared unknown that it defines, or -1.
-    origins : tuple of Origin
-        Where each residual comes from.
-    preference, nominal, sized, units, start, guessed : arrays
-        Attributes of the unknowns; `sized` tells where a nominal value is declared, `start` is a column of expressions
-        of parameters.
-    parameters : casadi.SX, parameter_names, parameter_values
-        Free parameters.
-    switches : tuple of (casadi.SX, casadi.SX)
-        Mode symbols, and the expression that is negative while the mode is 1.
-    guards : tuple of Guard
-        Conditions that are watched: one for each switch, then one for each statement of jumps.
-    discretes : tuple of (casadi.SX, casadi.SX)
-        Symbols of the discrete variables, and their values at the start.
-    continuous : tuple of (casadi.SX, Origin)
-        Expressions that der() differentiates and that switches change: they must not jump.
-    promises : tuple of Promise
-        Laws that are said to be smooth.
-    initial : tuple of Initial
-        Fixed start values and initial equations.
+    preference : tuple of int
+        How much each is wanted as a state.
+    nominal : array
+        Typical size of each.
+    sized : array of bool
+        Whether that is declared.
+    units : tuple of Dimension or None
+        Unit of each, None where it is not known.
+    start : casadi.SX
+        Start value of each, in parameters.
+    guessed : array of bool
+        Whether an instance gives that.
     eliminated : (casadi.SX, casadi.SX)
-        Removed symbols and what they are, in remaining unknowns.
-    energies : mapping of str to casadi.SX
-        Stored energy, dissipated and supplied power of the whole model, in original symbols.
-    weighing : tuple of str
-        Parameters that nominal values depend on.
-    limits, bound, structural_zeros
-        Bounds of parameters, parameters that follow others, and entries that were exactly 0.
-    redundant : tuple of Origin
-        Equations that said nothing new.
-    closures, loops
-        Residuals that close loops, and the loops.
-    tree : Component
-        The bound model, whose attributes hold the original symbols.
-    counts : mapping of str to int
-        Sizes on the way here.
+        Symbols of the model that were removed, and what they are, in remaining unknowns.
     """
 
-    unknowns: ca.SX
-    residuals: ca.SX
+    symbols: ca.SX
     names: tuple[str, ...]
     derivative: tuple[int, ...]
     declared: Mapping[int, ca.SX]
-    defines: tuple[int, ...]
-    origins: tuple[Origin, ...]
     preference: tuple[int, ...]
     nominal: np.ndarray
     sized: np.ndarray
     units: tuple[Dimension | None, ...]
     start: ca.SX
     guessed: np.ndarray
-    parameters: ca.SX
-    parameter_names: tuple[str, ...]
-    parameter_values: np.ndarray
-    switches: tuple[tuple[ca.SX, ca.SX], ...]
+    eliminated: tuple[ca.SX, ca.SX]
+
+
+@dataclass(frozen=True)
+class FlatEquations:
+    """Scalar equations.
+
+    Parameters
+    ----------
+    residuals : casadi.SX
+        What is 0, a column.
+    origins : tuple of Origin
+        Where each residual comes from.
+    defines : tuple of int
+        Residual -> the unknown with a declared derivative that it defines, or -1.
+    initial : tuple of Initial
+        Fixed start values and initial equations.
+    redundant : tuple of Origin
+        Equations that said nothing new.
+    """
+
+    residuals: ca.SX
+    origins: tuple[Origin, ...]
+    defines: tuple[int, ...]
+    initial: tuple[Initial, ...]
+    redundant: tuple[Origin, ...]
+
+
+@dataclass(frozen=True)
+class FlatParameters:
+    """Free parameters, and what is known of the others.
+
+    Parameters
+    ----------
+    symbols : casadi.SX
+        Scalar free parameters, a column.
+    names : tuple of str
+        Name of each.
+    values : array
+        Value of each.
+    weighing : tuple of str
+        Those that nominal values depend on.
+    limits : tuple of (str, casadi.SX, Parameter)
+        Paths of bounded parameters, what they are in free ones, and their declarations with the bounds.
+    bound : mapping of str to str
+        Parameters that follow others, and what they follow.
+    structural_zeros : tuple of str
+        Entries that were exactly 0 and have no symbol.
+    """
+
+    symbols: ca.SX
+    names: tuple[str, ...]
+    values: np.ndarray
+    weighing: tuple[str, ...]
+    limits: tuple[tuple[str, ca.SX, f.Parameter], ...]
+    bound: Mapping[str, str]
+    structural_zeros: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class FlatDiscontinuities:
+    """What changes at instants, and what must not.
+
+    Parameters
+    ----------
+    switches : tuple of casadi.SX
+        Symbols of the modes of the switches.
+    guards : tuple of Guard
+        Conditions that are watched: one for each switch, whose mode is 1 while it holds, then one for each statement of
+        jumps.
+    discretes : tuple of (casadi.SX, casadi.SX)
+        Symbols of the discrete variables, and their values at the start.
+    continuous : tuple of (casadi.SX, Origin)
+        Expressions that der() differentiates and that switches change: they must not jump.
+    promises : tuple of Promise
+        Laws that are said to be smooth.
+    """
+
+    switches: tuple[ca.SX, ...]
     guards: tuple[Guard, ...]
     discretes: tuple[tuple[ca.SX, ca.SX], ...]
     continuous: tuple[tuple[ca.SX, Origin], ...]
     promises: tuple[Promise, ...]
-    initial: tuple[Initial, ...]
-    eliminated: tuple[ca.SX, ca.SX]
-    energies: Mapping[str, ca.SX]
-    weighing: tuple[str, ...]
-    limits: tuple[Any, ...]
-    bound: Mapping[str, str]
-    structural_zeros: tuple[str, ...]
-    redundant: tuple[Origin, ...]
-    unconnected: tuple[str, ...]
-    closures: tuple[FlatClosure, ...]
-    loops: tuple[Loop, ...]
-    tree: Component
-    counts: Mapping[str, int]
 
     @property
     def modes(self) -> ca.SX:
         """Symbols that are constant between instants: modes of the switches, then discrete variables."""
-        return ca.vertcat(*[mode for mode, _ in self.switches], *[symbol for symbol, _ in self.discretes])
+        return ca.vertcat(ca.SX(0, 1), *self.switches, *[symbol for symbol, _ in self.discretes])
+
+
+@dataclass(frozen=True)
+class FlatLoops:
+    """Loops that are cut, and the residuals that close them."""
+
+    cuts: tuple[Loop, ...]
+    closures: tuple[FlatClosure, ...]
+
+
+@dataclass(frozen=True)
+class FlatModel:
+    """A model as one list of scalar unknowns and one list of scalar equations.
+
+    Parameters
+    ----------
+    unknowns, equations, parameters, discontinuities, loops
+        What the model consists of.
+    energies : mapping of str to casadi.SX
+        Stored energy, dissipated and supplied power of the whole model, in original symbols.
+    unconnected : tuple of str
+        Ports of parts that nothing is connected to.
+    tree : Component
+        The bound model, whose attributes hold the original symbols.
+    counts : mapping of str to int
+        Sizes on the way here.
+    """
+
+    unknowns: FlatUnknowns
+    equations: FlatEquations
+    parameters: FlatParameters
+    discontinuities: FlatDiscontinuities
+    loops: FlatLoops
+    energies: Mapping[str, ca.SX]
+    unconnected: tuple[str, ...]
+    tree: Component
+    counts: Mapping[str, int]

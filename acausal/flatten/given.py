@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component
@@ -173,11 +174,6 @@ class Given:
             entries.append(symbol)
         sx = ca.vertcat(*entries)
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
-
-
-def join(path: str, name: str) -> str:
-    """Return the path of a member."""
-    return f"{path}.{name}" if path else name
 
 
 def unit_of(declared: f.Field, owner: Component) -> Any:

@@ -8,23 +8,12 @@ from itertools import islice
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import Given, Parameters, join, numeric, owner_text, unit_of
+from acausal.flatten.given import Given, owner_text
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
+from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
-
-__all__ = [
-    "Instantiation",
-    "Parameters",
-    "join",
-    "members",
-    "not_settable",
-    "numeric",
-    "unit_of",
-    "unknown_name",
-    "walk",
-]
 
 DEEPEST = 100  # parts inside of parts; deeper, a component contains itself
 
@@ -145,21 +134,6 @@ class Instantiation:
                 )
                 raise DeclarationError(f"{owner_text(component)} needs the one {cls} of the model, but {what}.")
             vars(component)[name] = found[0]
-
-
-def walk(component: Component) -> Iterator[Component]:
-    """Yield a bound component, its parts and theirs."""
-    yield component
-    for member in members(component):
-        yield from walk(member)
-
-
-def members(component: Component) -> Iterator[Component]:
-    """Yield the parts and ports of a bound component."""
-    for name, declared in component.fields.items():
-        if isinstance(declared, f.Part):
-            value = getattr(component, name)
-            yield from (item for item in (value if isinstance(value, list) else [value]) if item is not None)
 
 
 def unknown_name(name: str, known: list[str]) -> str:

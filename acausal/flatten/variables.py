@@ -9,8 +9,9 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import join, unit_of, walk
+from acausal.flatten.given import unit_of
 from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector

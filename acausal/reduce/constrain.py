@@ -68,8 +68,8 @@ def constrain(
     coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
     states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
     bare, following = _bare(plan, elements, residuals, explicit)
-    duals = {c.row: c.dual for c in flat.closures}
-    switches = {c.row: ca.SX.sym(f"s{k}") for k, c in enumerate(flat.closures)}
+    duals = {c.row: c.dual for c in flat.loops.closures}
+    switches = {c.row: ca.SX.sym(f"s{k}") for k, c in enumerate(flat.loops.closures)}
     for constraint in plan.constrained.constraints:
         on = switches.get(constraint.base)
         if on is None:

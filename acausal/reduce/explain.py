@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from acausal.flatten import FlatModel
-from acausal.flatten.instantiate import join, walk
+from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
 from acausal.structure import Part, StructuralSingularity
 
@@ -58,7 +58,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
 
 def _hints(flat: FlatModel, part: Part) -> list[str]:
     """Ports without a connection and inputs without a value, of the components that the unknowns belong to."""
-    names = [flat.names[v].removeprefix("der(") for v in part.variables]
+    names = [flat.unknowns.names[v].removeprefix("der(") for v in part.variables]
     ports = [p for p in flat.unconnected if any(n.startswith(f"{p}.") for n in names)]
     inputs = [
         join(c._path, own)
@@ -74,14 +74,16 @@ def _hints(flat: FlatModel, part: Part) -> list[str]:
 
 
 def _names(flat: FlatModel, part: Part) -> str:
-    written = [v for v in part.variables if v < len(flat.names)]
-    names = [f"`{flat.names[v]}`" for v in written[:MOST]]
+    known = flat.unknowns.names
+    written = [v for v in part.variables if v < len(known)]
+    names = [f"`{known[v]}`" for v in written[:MOST]]
     more = len(written) - MOST
     return ", ".join(names) + (f" and {more} more" if more > 0 else "")
 
 
 def _equations(flat: FlatModel, part: Part) -> list[str]:
-    written = Counter(str(flat.origins[e]) for e in part.equations if e < len(flat.origins))
+    origins = flat.equations.origins
+    written = Counter(str(origins[e]) for e in part.equations if e < len(origins))
     rows = [f"  {line}{f' ({n} entries)' if n > 1 else ''}" for line, n in list(written.items())[:MOST]]
     more = len(written) - MOST
     return rows + ([f"  and {more} more"] if more > 0 else [])

@@ -50,8 +50,8 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
 
 def system_of(flat: FlatModel) -> tuple[System, Linear]:
     """Return the System of a flat model, and its Jacobian."""
-    modes = flat.modes
-    linear = jacobian(flat.residuals, flat.unknowns, ca.vertcat(time.sx, initial.sx, modes))
+    unknowns, modes = flat.unknowns, flat.discontinuities.modes
+    linear = jacobian(flat.equations.residuals, unknowns.symbols, ca.vertcat(time.sx, initial.sx, modes))
     explicit: list[set[int]] = [set() for _ in linear.rows]
     monic: list[set[int]] = [set() for _ in linear.rows]
     for (i, j), coefficient in linear.explicit.items():
@@ -59,21 +59,23 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
         if coefficient.is_one() or coefficient.is_minus_one():
             monic[i].add(j)
     declared: dict[int, tuple[int, ...]] = {}
-    if flat.declared:
-        column = ca.vertcat(*flat.declared.values())
-        function = ca.Function("declared", [flat.unknowns, time.sx, flat.parameters, modes], [column])
+    if unknowns.declared:
+        column = ca.vertcat(*unknowns.declared.values())
+        function = ca.Function("declared", [unknowns.symbols, time.sx, flat.parameters.symbols, modes], [column])
         pattern = function.jac_sparsity(0, 0)
-        found: list[list[int]] = [[] for _ in flat.declared]
+        found: list[list[int]] = [[] for _ in unknowns.declared]
         for i, j in zip(*pattern.get_triplet(), strict=True):
             found[i].append(j)
-        declared = {k: tuple(js) for k, js in zip(flat.declared, found, strict=True)}
+        declared = {k: tuple(js) for k, js in zip(unknowns.declared, found, strict=True)}
     system = System(
         rows=linear.rows,
         explicit=tuple(frozenset(e) for e in explicit),
-        derivative=flat.derivative,
-        declared={k: v for k, v in declared.items() if flat.derivative[k] < 0},
-        defines=tuple(d if d >= 0 and d in declared and flat.derivative[d] < 0 else -1 for d in flat.defines),
-        preference=flat.preference,
+        derivative=unknowns.derivative,
+        declared={k: v for k, v in declared.items() if unknowns.derivative[k] < 0},
+        defines=tuple(
+            d if d >= 0 and d in declared and unknowns.derivative[d] < 0 else -1 for d in flat.equations.defines
+        ),
+        preference=unknowns.preference,
         monic=tuple(frozenset(m) for m in monic),
         closures=_closures(flat),
     )
@@ -82,10 +84,10 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
 
 def _closures(flat: FlatModel) -> dict[int, tuple[int, ...]]:
     """Residual that closes a loop -> unknowns of the flow that works on it."""
-    if not flat.closures:
+    if not flat.loops.closures:
         return {}
-    index = {s.element_hash(): k for k, s in enumerate(scalars(flat.unknowns))}
+    index = {s.element_hash(): k for k, s in enumerate(scalars(flat.unknowns.symbols))}
     return {
         c.row: tuple(index[s.element_hash()] for s in ca.symvar(c.dual) if s.element_hash() in index)
-        for c in flat.closures
+        for c in flat.loops.closures
     }

@@ -19,11 +19,11 @@ def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
     inputs = inputs_of(flat.tree)
     if not inputs:
         return
-    residuals = scalars(flat.residuals)
+    residuals = scalars(flat.equations.residuals)
     for equation in sorted(e for e in plan.differentiated if e < len(residuals)):
         found = [inputs[s.element_hash()] for s in ca.symvar(residuals[equation]) if s.element_hash() in inputs]
         if found:
             raise DeclarationError(
-                f"{flat.origins[equation]}: this equation prescribes a motion by the input `{found[0]}`, whose derivatives are "
-                f"needed too; its course in time is not known, so it has none. {MEND.format(name=found[0])}"
+                f"{flat.equations.origins[equation]}: this equation prescribes a motion by the input `{found[0]}`, whose "
+                f"derivatives are needed too; its course in time is not known, so it has none. {MEND.format(name=found[0])}"
             )

@@ -34,8 +34,8 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
     try:
         plan = analyse(system)
     except StructuralSingularity as singularity:
-        chains = sum(d >= 0 for d in flat.derivative)
-        surplus = len(flat.origins) - (len(flat.names) - chains)
+        chains = sum(d >= 0 for d in flat.unknowns.derivative)
+        surplus = len(flat.equations.origins) - (len(flat.unknowns.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
     refuse_unknown_rates(flat, plan)
@@ -55,8 +55,9 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
         Jacobian of its residuals, from `plan_of`.
     """
     created = [ca.SX.sym(f"der{k}") for k in plan.created]
-    created += [ca.SX.sym(f"x{k}") for k in range(plan.system.n_variables - flat.unknowns.numel() - len(created))]
-    unknowns = ca.vertcat(flat.unknowns, *created)
+    written = flat.unknowns.symbols.numel() + len(created)
+    created += [ca.SX.sym(f"x{k}") for k in range(plan.system.n_variables - written)]
+    unknowns = ca.vertcat(flat.unknowns.symbols, *created)
     residuals, explicit = _differentiate(flat, plan, unknowns, linear)
     elements = scalars(unknowns)
     closing = constrain(flat, plan, elements, residuals, explicit)
@@ -74,28 +75,29 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
         values, ode, alg = _inline(assigned, values, ode, alg)
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
-    continuous = flat.continuous + _switching(flat, plan, residuals)
+    continuous = flat.discontinuities.continuous + _switching(flat, plan, residuals)
     return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, closing, continuous)
 
 
 def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tuple[ca.SX, Origin], ...]:
     """Residuals that are differentiated and that switches change."""
-    if not flat.modes.numel():
+    modes, origins = flat.discontinuities.modes, flat.equations.origins
+    if not modes.numel():
         return ()
-    source = [*range(len(flat.origins)), *plan.differentiated]
+    source = [*range(len(origins)), *plan.differentiated]
     found = []
     for row in dict.fromkeys(plan.differentiated):
-        if ca.depends_on(residuals[row], flat.modes):
+        if ca.depends_on(residuals[row], modes):
             first = row
-            while first >= len(flat.origins):
+            while first >= len(origins):
                 first = source[first]
-            found.append((residuals[row], flat.origins[first]))
+            found.append((residuals[row], origins[first]))
     return tuple(found)
 
 
 def _names(flat: FlatModel, plan: Plan) -> tuple[str, ...]:
     """Names of all unknowns; what is integrated in place of a coordinate has its name."""
-    names = list(flat.names)
+    names = list(flat.unknowns.names)
     for k in plan.created:
         names.append(f"der({names[k]})")
     names += [""] * (plan.system.n_variables - len(names))
@@ -118,15 +120,15 @@ def _differentiate(
     """Append the differentiated equations, all of one level in one call."""
     elements = scalars(unknowns)
     seeds = [elements[d] if d >= 0 else ca.SX(0) for d in plan.system.derivative]
-    for k, expression in flat.declared.items():
+    for k, expression in flat.unknowns.declared.items():
         if plan.system.derivative[k] < 0:
             seeds[k] = expression
     for p in plan.constrained.projections:
         seeds[p.coordinate] = elements[p.rate]
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
-    residuals, explicit = scalars(flat.residuals), dict(linear.explicit)
+    residuals, explicit = scalars(flat.equations.residuals), dict(linear.explicit)
     first, total = len(residuals), len(residuals) + len(plan.differentiated)
-    modes = flat.modes
+    modes = flat.discontinuities.modes
     while len(residuals) < total:
         start = len(residuals)
         sources = list(plan.differentiated[start - first :])

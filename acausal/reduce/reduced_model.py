@@ -16,6 +16,31 @@ from acausal.structure import Plan
 
 
 @dataclass(frozen=True)
+class Running:
+    """A reduced model while it runs: the flag of the initial system is 0.
+
+    Parameters
+    ----------
+    reduced : ReducedModel
+        The model.
+    ode, alg : casadi.SX
+        Its equations.
+    constraints, following : casadi.SX
+        Residuals of its constraints, and values that follow from states; see `Closing`.
+    """
+
+    reduced: ReducedModel
+    ode: ca.SX
+    alg: ca.SX
+    constraints: ca.SX
+    following: ca.SX
+
+    def resolve(self, expression: ca.SX, unprojected: bool = False) -> ca.SX:
+        """Express anything of the model in x, z, parameters and time; see `ReducedModel.resolve`."""
+        return ca.substitute(self.reduced.resolve(expression, unprojected), initial.sx, 0)
+
+
+@dataclass(frozen=True)
 class ReducedModel:
     """der(x) = ode(x, z, p, t), 0 = alg(x, z, p, t).
 
@@ -51,15 +76,36 @@ class ReducedModel:
     closing: Closing
     continuous: tuple[tuple[ca.SX, Origin], ...]
 
+    @property
+    def p(self) -> ca.SX:
+        """Free parameters."""
+        return self.flat.parameters.symbols
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """Names of the states."""
+        return tuple(self.names[k] for k in self.plan.states)
+
+    @property
+    def algebraic(self) -> tuple[str, ...]:
+        """Names of the algebraic unknowns."""
+        return tuple(self.names[k] for k in self.plan.algebraic)
+
     @cached_property
     def modes(self) -> ca.SX:
         """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
-        return ca.vertcat(self.flat.modes, self.closing.choice)
+        return ca.vertcat(self.flat.discontinuities.modes, self.closing.choice)
+
+    @cached_property
+    def running(self) -> Running:
+        """The model where the flag of the initial system is 0."""
+        equations = [self.ode, self.alg, self.closing.residuals, self.closing.following]
+        return Running(self, *ca.substitute(equations, [initial.sx], [ca.SX(0)]))
 
     @cached_property
     def dependence(self) -> Dependence:
         """Which algebraic unknowns a value needs."""
-        return Dependence(ca.substitute(self.alg, initial.sx, 0), self.z)
+        return Dependence(self.running.alg, self.z)
 
     @cached_property
     def _resolved(self) -> ca.SX:
@@ -77,7 +123,7 @@ class ReducedModel:
         unprojected : bool
             Whether to take coordinates as what is integrated in their place, which they are where the multipliers are 0.
         """
-        was, becomes = self.flat.eliminated
+        was, becomes = self.flat.unknowns.eliminated
         first = ca.substitute([expression], [was], [becomes])
         if unprojected:
             first = ca.substitute(first, [self.closing.coordinates], [self.closing.states])

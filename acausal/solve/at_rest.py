@@ -34,7 +34,7 @@ def kinematic(compiled: CompiledModel) -> list[int]:
         return []
     if "kinematic" not in compiled.cache:
         r = compiled.reduced
-        given = ca.vertcat(r.flat.parameters, r.modes, ca.SX.sym("none"))
+        given = ca.vertcat(r.p, r.modes, ca.SX.sym("none"))
         forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
         unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
         through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))
@@ -76,7 +76,7 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
     lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
-        condition = compiled.reduced.flat.initial[k - nx - nz]
+        condition = compiled.reduced.flat.equations.initial[k - nx - nz]
         lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
     wrong = [k for k in range(nx, nx + nz) if abs(value[k]) > allowed[k]]
     lines += [f"  {equation_text(compiled, k - nx)}: off by {value[k]:.4g}" for k in wrong[:5]]
@@ -105,8 +105,8 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     apart = {plan.states[k] for k in meters(compiled)}
     pairs = [(v, d) for v, d in enumerate(plan.system.derivative) if d >= 0 and v not in apart]
     pairs += [(q.coordinate, q.rate) for q in plan.constrained.projections]
-    names = [f"der({r.names[v]})" for v, _ in pairs] + [f"der({r.names[v]})" for v in r.flat.declared]
-    column = ca.vertcat(ca.SX(0, 1), *[elements[d] for _, d in pairs], *r.flat.declared.values())
+    names = [f"der({r.names[v]})" for v, _ in pairs] + [f"der({r.names[v]})" for v in r.flat.unknowns.declared]
+    column = ca.vertcat(ca.SX(0, 1), *[elements[d] for _, d in pairs], *r.flat.unknowns.declared.values())
     column = ca.densify(r.resolve(column))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z))
     call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))

@@ -130,9 +130,9 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
     null = null_space(rows, independent)
     if not len(null):
         return []
-    flat, plan = compiled.reduced.flat, compiled.reduced.plan
+    told, plan = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan
     of = {q.state: q.coordinate for q in plan.constrained.projections}
-    guessed = [bool(flat.guessed[of.get(v, v)]) if of.get(v, v) < len(flat.guessed) else False for v in plan.states]
+    guessed = [bool(told[of.get(v, v)]) if of.get(v, v) < len(told) else False for v in plan.states]
     weight = np.where(np.array(guessed)[free], 10.0, 1.0)
     order = pivots(null * weight)[: len(null)]
     return sorted(int(free[k]) for k in order)

@@ -133,8 +133,8 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     c, flat = compiled.closing, compiled.reduced.flat
     value, _ = problem.constraints(at)
     lines = []
-    for number, loop in enumerate(flat.loops):
-        own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.closures) if closure.loop == number]
+    for number, loop in enumerate(flat.loops.cuts):
+        own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
         apart = [float(np.max(np.abs(value[rows]), initial=0.0)) if rows else 0.0 for rows in levels_of]
         how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
@@ -146,7 +146,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
         if k not in c.closures and np.max(np.abs(value[list(rows)])) > CLOSED:
-            lines.append(f"  {flat.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
+            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if given:
         lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")

@@ -11,7 +11,6 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
-from acausal.language.functions import initial as initial_flag
 from acausal.language.functions import time as time_symbol
 from acausal.solve.consistent import Consistent
 
@@ -55,11 +54,11 @@ class Evaluator:
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
         c = self.compiled
-        resolved = ca.substitute(c.reduced.resolve(ca.densify(expression)), initial_flag.sx, 0)
+        resolved = c.reduced.running.resolve(ca.densify(expression))
         wanted = c.dependence.inside(resolved)
         # What closes a loop is in nearly all equations: all at once, and the order of reading makes no difference.
         self._solve((set(range(c.nz)) if wanted and c.closing.size else wanted) - self._solved)
-        arguments = [c.reduced.x, c.reduced.z, c.reduced.flat.parameters, time_symbol.sx, c.reduced.modes]
+        arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.modes]
         n = len(self.t)
         try:
             call = Call(ca.Function("observe", arguments, [resolved]).map(n))

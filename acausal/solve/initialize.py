@@ -207,8 +207,8 @@ def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
 
 
 def _is_guessed(compiled: CompiledModel, state: int) -> bool:
-    flat, index = compiled.reduced.flat, compiled.reduced.plan.states[state]
-    return index < len(flat.guessed) and bool(flat.guessed[index])
+    guessed, index = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan.states[state]
+    return index < len(guessed) and bool(guessed[index])
 
 
 def _rows(problem: Problem, at: Point) -> list[list[int]]:

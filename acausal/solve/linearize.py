@@ -143,8 +143,8 @@ def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
     """Free parameters that stand for the inputs at the top of the model."""
     flat = compiled.reduced.flat
     tops = {n for n, d in compiled.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
-    symbols = scalars(flat.parameters) if flat.parameters.numel() else []
-    return [(n, s) for n, s in zip(flat.parameter_names, symbols, strict=True) if n.split("[")[0] in tops]
+    symbols = scalars(flat.parameters.symbols) if flat.parameters.symbols.numel() else []
+    return [(n, s) for n, s in zip(flat.parameters.names, symbols, strict=True) if n.split("[")[0] in tops]
 
 
 def _entries(name: str, sx: ca.SX) -> list[str]:

@@ -56,7 +56,8 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         return Redundancy(singular=singular)
     # Those that cannot be dropped come first.
     weight = np.ones(len(rows))
-    droppable = {c.closures[k] for k, dual in enumerate(compiled.reduced.flat.closures) if not dual.dual.is_constant()}
+    closures = compiled.reduced.flat.loops.closures
+    droppable = {c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()}
     weight[[k for k in range(len(rows)) if k not in droppable]] = 1e3
     order = pivots((weight[:, None] * best).T)
     return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)

@@ -68,7 +68,7 @@ class _Look:
 def _known(compiled: CompiledModel) -> Watch:
     """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
     r = compiled.reduced
-    entries = [(promise, [promise.excess, promise.step, promise.value]) for promise in r.flat.promises]
+    entries = [(promise, [promise.excess, promise.step, promise.value]) for promise in r.flat.discontinuities.promises]
     known = {s.element_hash() for a in compiled.arguments for s in scalars(a)}
     found = [
         (promise, some)
@@ -88,7 +88,7 @@ def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
     run : Evaluator
         Output points of the run.
     """
-    if not integrator.compiled.reduced.flat.promises or len(run.t) < 2:
+    if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.t) < 2:
         return []
     look = _Look(integrator, run)
     rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if look.seen.wanted else ROWS)).astype(int))

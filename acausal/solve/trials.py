@@ -10,7 +10,8 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import DeclarationError, SimulationError
-from acausal.flatten.instantiate import Instantiation, join, walk
+from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.result import Result

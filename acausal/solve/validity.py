@@ -36,8 +36,8 @@ class Watch:
 def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
     """Make the function of expressions in symbols of the model, one row of the result for each point."""
     r = compiled.reduced
-    column = ca.substitute(r.resolve(ca.vertcat(ca.SX(0, 1), *entries)), initial.sx, 0)
-    arguments = [r.x, r.z, r.flat.parameters, time.sx, r.modes]
+    column = r.running.resolve(ca.vertcat(ca.SX(0, 1), *entries))
+    arguments = [r.x, r.z, r.p, time.sx, r.modes]
     try:
         function = ca.Function("watch", arguments, [ca.densify(column)])
     except RuntimeError:

@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.flatten.instantiate import walk
+from acausal.flatten.tree import walk
 from acausal.language.component import Component, Connector
 
 
@@ -75,7 +75,7 @@ def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[i
     flat, nz = compiled.reduced.flat, compiled.nz
     lines = ["the initial conditions contradict the equations of the model or each other:"]
     for k in wrong[:10]:
-        condition = flat.initial[k - nz]
+        condition = flat.equations.initial[k - nz]
         lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
     lines.append("Remove one of them, or make it a guess: guess(...) instead of fixed(...).")
     return "\n".join(lines)
@@ -95,11 +95,11 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         elif row < nz:
             lines.append(f"  {equation_text(compiled, int(row))}: off by {value[k]:.4g}")
         else:
-            condition = flat.initial[row - nz]
+            condition = flat.equations.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
     if surplus.size:
         lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
-        lines += [f"  {flat.initial[row - nz].text} ({flat.initial[row - nz].origin})" for row in surplus[:5]]
+        lines += [f"  {c.text} ({c.origin})" for c in (flat.equations.initial[row - nz] for row in surplus[:5])]
     lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
     return "\n".join(lines)
 
@@ -116,10 +116,10 @@ def equation_text(compiled: CompiledModel, row: int) -> str:
     """Say where an algebraic equation of the integrated system comes from."""
     flat, plan = compiled.reduced.flat, compiled.reduced.plan
     equation = plan.residuals[row]
-    written, differentiated = len(flat.origins), len(plan.differentiated)
+    written, differentiated = len(flat.equations.origins), len(plan.differentiated)
     while written <= equation < written + differentiated:
         equation = plan.differentiated[equation - written]
     if equation < written:
-        return str(flat.origins[equation])
+        return str(flat.equations.origins[equation])
     projection = plan.constrained.projections[(equation - written - differentiated) // 2]
     return f"projection of `{compiled.reduced.names[projection.coordinate]}` on the constraints"

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.flatten.instantiate import Instantiation, join, members
+from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.tree import join, members
 from acausal.language import fields as f
 from acausal.language.component import Component
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError, ExportError
-from acausal.flatten.instantiate import walk
+from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.result import check_writable
 from acausal.study.point import Measurement, Point

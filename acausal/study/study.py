@@ -254,6 +254,6 @@ def _value(compiled: CompiledModel, path: str) -> Any:
         value = value[int(name[1:-1])] if name.startswith("[") else getattr(value, name, None)
     if not isinstance(value, Expr):
         return value
-    function = ca.Function("own", [compiled.reduced.flat.parameters], [ca.densify(value.sx)])
+    function = ca.Function("own", [compiled.reduced.p], [ca.densify(value.sx)])
     numbers = Call(function)(compiled.parameter_values(None))[0].reshape(value.shape, order="F")
     return numbers.tolist()

@@ -244,10 +244,12 @@ def test_inertia_along_an_axis_is_structurally_diagonal(make, r):
 def test_planar_shapes_stay_planar():
     for body in (BodyBox(r=(1, 0, 0), width=0.1), BodyCylinder(r=(1, 1, 0), diameter=0.1), Swinging.body):
         flat = flatten(Swinging(body=body))
-        outside = [n for n in flat.names if n.endswith((".r_0[2]", ".v[2]", ".a[2]", ".f[2]", ".R.w[0]", ".R.w[1]"))]
+        outside = [
+            n for n in flat.unknowns.names if n.endswith((".r_0[2]", ".v[2]", ".a[2]", ".f[2]", ".R.w[0]", ".R.w[1]"))
+        ]
         assert outside == []
         # Axis, inertia and weight: angle, speed, acceleration and the motion and cut forces in the plane.
-        assert len(flat.names) - sum(d >= 0 for d in flat.derivative) == len(flat.origins)
+        assert len(flat.unknowns.names) - sum(d >= 0 for d in flat.unknowns.derivative) == len(flat.equations.origins)
 
 
 def test_start_values_of_a_body_with_two_frames():

@@ -188,7 +188,7 @@ def test_recursion_that_ends_is_no_mistake():
 
 
 def _walk(component):
-    from acausal.flatten.instantiate import walk
+    from acausal.flatten.tree import walk
 
     return walk(component)
 

@@ -25,14 +25,14 @@ MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in 
 def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
     """Largest residual of any equation as it was stated, in parts of the sizes of its terms."""
     flat = compiled.reduced.flat
-    column = ca.vertcat(flat.residuals, flat.unknowns)
+    column = ca.vertcat(flat.equations.residuals, flat.unknowns.symbols)
     found = result._evaluate(column)
-    residuals, values = np.split(found, [flat.residuals.numel()], axis=1)
-    J = ca.jacobian(flat.residuals, flat.unknowns)
-    arguments = [flat.unknowns, flat.parameters, time.sx, flat.modes, initial.sx]
+    residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
+    J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
+    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, flat.discontinuities.modes, initial.sx]
     slopes = ca.Function("slopes", arguments, [ca.fabs(J)], {"allow_free": True})
     free = ca.Function("slopes", [*arguments, *slopes.free_sx()], [ca.fabs(J)]) if slopes.free_sx() else slopes
-    modes = result._evaluate.modes[:, : flat.modes.numel()]
+    modes = result._evaluate.modes[:, : flat.discontinuities.modes.numel()]
     p, worst = compiled.parameter_values(None), 0.0
     for k in range(0, len(result.time), 7):
         terms = np.array(free(values[k], p, result.time[k], modes[k], 0)) @ np.abs(values[k]) + 1

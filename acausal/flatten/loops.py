@@ -6,7 +6,7 @@ from typing import Any
 
 import casadi as ca
 
-from acausal.flatten.flat_model import FlatClosure, Loop
+from acausal.flatten.flat_model import FlatClosure, FlatLoops, Loop
 from acausal.flatten.said import Said
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tape import Linear
@@ -14,15 +14,15 @@ from acausal.language import fields as f
 from acausal.symbols import scalars
 
 
-def closing(
+def loops_of(
     raw: Said,
     redundant: set[int],
     values: list[Linear],
     rows: list[int],
     residuals: ca.SX,
     substitutes: dict[int, int],
-) -> dict[str, Any]:
-    """Return the closures and loops of a FlatModel.
+) -> FlatLoops:
+    """Return the loops of a model and the residuals that close them.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def closing(
         for c in raw.equations.closures
         if c.row in place
     )
-    return {"closures": closures, "loops": tuple(_loop(raw, redundant, values, cut) for cut in cuts)}
+    return FlatLoops(tuple(_loop(raw, redundant, values, cut) for cut in cuts), closures)
 
 
 def _loop(raw: Said, redundant: set[int], values: list[Linear], cut: Cut) -> Loop:

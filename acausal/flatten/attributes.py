@@ -1,0 +1,109 @@
+"""Attributes of the unknowns: what a removed alias was declared with passes on to the unknown that it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+import casadi as ca
+import numpy as np
+
+from acausal.flatten.said import Said, column
+from acausal.flatten.tape import Linear
+from acausal.flatten.variables import VariableArray
+from acausal.language.fields import ALWAYS
+from acausal.symbols import scalars
+from acausal.units import Dimension, parse
+
+SECOND = parse("s")
+
+
+@dataclass
+class Attributes:
+    """Attributes of one scalar unknown, with the words of `FlatUnknowns`.
+
+    `weight` is that of the start value: what an instance says counts before what a class says, and that before nothing.
+    """
+
+    name: str
+    unit: Dimension | None
+    preference: int = 0
+    nominal: float = 1.0
+    sized: bool = False
+    start: ca.SX = field(default_factory=lambda: ca.SX(0))
+    guessed: bool = False
+    weight: int = 0
+
+    def derivative(self) -> Attributes:
+        """Attributes of the time derivative, of which nothing else is declared."""
+        return Attributes(f"der({self.name})", self.unit and self.unit / SECOND)
+
+    def receive(self, alias: Attributes, offset: float, factor: float) -> None:
+        """Take what an alias was declared with, which is offset + factor times this unknown."""
+        if alias.weight > self.weight:
+            self.start, self.weight, self.guessed = (alias.start - offset) / factor, alias.weight, alias.guessed
+        if alias.preference > self.preference == 0:
+            self.preference = alias.preference
+        if alias.sized and not self.sized:
+            self.nominal, self.sized = alias.nominal / abs(factor), True
+
+
+def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
+    """Return the attributes of all unknowns, those of the derivatives level by level behind those of the variables.
+
+    Parameters
+    ----------
+    raw : Said
+        What was said.
+    levels : int
+        Times that variables are differentiated at most.
+    jumping : iterable of int
+        Variables that jump at instants, which have to be states.
+    solved : mapping of int to Linear
+        What each removed unknown is, in the order of removal.
+    """
+    found = [a for array in raw.arrays for a in _declared(array)]
+    for attribute, nominal in zip(found, _nominals(raw), strict=True):
+        attribute.nominal = nominal
+    for k in jumping:
+        found[k].preference = ALWAYS
+    level = found
+    for _ in range(levels):
+        level = [a.derivative() for a in level]
+        found = found + level
+    for k in reversed(list(solved)):
+        offset, terms = solved[k]
+        if terms:
+            other, factor = terms[0]
+            found[other].receive(found[k], offset, factor)
+    return found
+
+
+def weighing(raw: Said) -> tuple[str, ...]:
+    """Names of the parameters that nominal values depend on."""
+    inside = {s.element_hash() for s in ca.symvar(_weights(raw))}
+    own = raw.build.parameters
+    return tuple(name for name, s in zip(own.names, own.symbols, strict=True) if s.element_hash() in inside)
+
+
+def _declared(array: VariableArray) -> Iterator[Attributes]:
+    """Yield what is declared of each entry of a variable, except for its nominal value."""
+    guessed = array.guessed or array.fixed
+    starts = scalars(ca.vec(ca.densify(array.start.sx)))
+    for name, unit, start in zip(array.names, array.units, starts, strict=True):
+        weight = 2 if guessed else int(not start.is_zero())
+        yield Attributes(
+            name, unit, array.declared.select, sized=array.sized, start=start, guessed=guessed, weight=weight
+        )
+
+
+def _weights(raw: Said) -> ca.SX:
+    """Nominal values of all variables, in parameters."""
+    return ca.densify(column([ca.vec(a.nominal.sx) for a in raw.arrays]))
+
+
+def _nominals(raw: Said) -> list[float]:
+    """Nominal values of all variables as they are when compiled."""
+    own = raw.build.parameters
+    function = ca.Function("nominal", [column(own.symbols)], [_weights(raw)])
+    return np.array(function(np.array(own.values))).ravel().tolist()
