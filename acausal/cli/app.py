@@ -26,8 +26,8 @@ from acausal.cli.output import Files, Progress, modes_table, progress_bar, summa
 from acausal.cli.scenes import find_scene, scenes
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
-from acausal.solve.settings import settled
-from acausal.solve.trials import adaptive
+from acausal.simulation.settings import settled
+from acausal.simulation.trials import adaptive
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel

@@ -14,7 +14,7 @@ import numpy as np
 from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
 from acausal.result.plots import Series
-from acausal.solve.accuracy import chosen_text
+from acausal.simulation.accuracy import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20

@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
-from acausal.solve.stop_time import check_stop_time, own_stop_time
+from acausal.simulation.stop_time import check_stop_time, own_stop_time
 from acausal.study.pool import cluster, processes
 
 

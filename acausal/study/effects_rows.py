@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.solve.estimate import scale
+from acausal.simulation.estimate import scale
 from acausal.study.deviation import deviations
 from acausal.study.point import Measurement
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.solve.simulate import CONSTRAINTS, METHODS
+from acausal.simulation.simulate import CONSTRAINTS, METHODS
 from acausal.study.formulation import Formulation
 from acausal.study.point import Point
 

@@ -17,7 +17,7 @@ from acausal.compiler import CompiledModel, compile
 from acausal.errors import AcausalError, AcausalWarning
 from acausal.locks import alone
 from acausal.result import Result
-from acausal.solve import simulate
+from acausal.simulation import simulate
 from acausal.study.limit import TooLong, stopping_after
 from acausal.study.shipping import unpack
 

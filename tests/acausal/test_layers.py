@@ -17,8 +17,9 @@ MAY = {
     "compiler": BASE | {"language", "flatten", "reduce"},
     "result": BASE | {"language", "flatten"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "compiler", "result"},
-    "study": BASE | {"language", "flatten", "compiler", "solve", "result"},
-    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "solve", "study", "result"},
+    "simulation": BASE | {"language", "flatten", "compiler", "result", "solve"},
+    "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
+    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
 }
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 
