@@ -14,15 +14,15 @@ from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
 from acausal.result import match
 from acausal.result.lookup import find
-from acausal.study.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
-from acausal.study.cheapest import cheapest, search
-from acausal.study.effects_listing import Effect, fullest, same
-from acausal.study.effects_result import ALL, Effects
-from acausal.study.effects_rows import Interaction, Row, interaction, row
-from acausal.study.effects_trials import Choices, Trials
-from acausal.study.point import Job, Measurement, Point
-from acausal.study.session import Progress
-from acausal.study.shipping import pack
+from acausal.study.measuring.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
+from acausal.study.measuring.point import Job, Measurement, Point
+from acausal.study.measuring.session import Progress
+from acausal.study.measuring.shipping import pack
+from acausal.study.switching.cheapest import cheapest, search
+from acausal.study.switching.listing import Effect, fullest, same
+from acausal.study.switching.result import Effects
+from acausal.study.switching.rows import ALL, Interaction, Row, interaction, row
+from acausal.study.switching.trials import Choices, Trials
 
 # An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
 # changes more than this part of a range: what is left without it is another scene.

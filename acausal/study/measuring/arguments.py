@@ -10,7 +10,7 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.simulation.stop_time import check_stop_time, own_stop_time
-from acausal.study.pool import cluster, processes
+from acausal.study.measuring.pool import cluster, processes
 
 
 def executor_of(executor: Executor | str | None, workers: int | None) -> AbstractContextManager[Executor]:

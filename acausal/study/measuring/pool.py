@@ -10,8 +10,9 @@ from contextlib import contextmanager
 from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
-from acausal.study.point import Job, Measurement, measure
-from acausal.study.workers import Workers, initialise, without_main
+from acausal.study.measuring.measure import measure
+from acausal.study.measuring.point import Job, Measurement
+from acausal.study.measuring.workers import Workers, initialise, without_main
 
 # Many points at once on few cores would share threads of linear algebra, and no time would mean anything.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
