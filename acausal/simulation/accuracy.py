@@ -116,7 +116,7 @@ class Search:
                 "tolerance": state.choice.tolerance,
                 "max_order": stats["max_order"],
                 "method": state.choice.method,
-                "sizes": self.trials.sizes(state.choice),
+                "sizes": self.trials.sizes(state.choice.number),
             },
             "trials": self.trials.done,
         }

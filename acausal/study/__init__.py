@@ -1,4 +1,7 @@
-"""What accuracy costs in time: run a model in many ways, against a reference."""
+"""What accuracy costs in time: run a model in many ways, against a reference.
+
+`measuring` runs points; `studies` varies formulations and tolerances, `switching` effects, and neither knows the other.
+"""
 
 from acausal.study.measuring.deviation import deviations
 from acausal.study.measuring.measure import measure

@@ -40,7 +40,10 @@ def measure(job: Job) -> Measurement:
     try:
         with stopping_after(job.limit) as show:
             compiled = _compiled(job)
-            return _measure(job, compiled, show)
+            with warnings.catch_warnings():
+                # What formulations neglect is what a study shows, and a measurement tells what is not finite.
+                warnings.simplefilter("ignore", AcausalWarning)
+                return _measure(job, compiled, show)
     except TooLong:
         _COMPILED.clear()  # it was left in the middle of something
         return Measurement(job.point, error=f"it was stopped after {job.limit:g} s")
@@ -68,9 +71,7 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
         method=stats["method"],
         constraints=stats["constraints"],
     )
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AcausalWarning)  # the measurement tells it
-        wrong = result.not_finite(*job.outputs)
+    wrong = result.not_finite(*job.outputs)
     if wrong:
         name, time = next(iter(wrong.items()))
         return replace(found, error=f"`{name}` is not finite from t = {time:.6g} s on")
@@ -82,19 +83,17 @@ def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
     """Run, and tell the solve time less what other processes had of the processor meanwhile."""
     point = job.point
     began, busy = clock.perf_counter(), clock.process_time()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AcausalWarning)  # what formulations neglect is what a study shows
-        result = simulate(
-            compiled,
-            stop_time=job.stop_time,
-            intervals=job.intervals,
-            tolerance=point.tolerance,
-            max_order=point.max_order,
-            method=point.method,
-            constraints=point.constraints,
-            initial=job.initial,
-            progress=show,
-        )
+    result = simulate(
+        compiled,
+        stop_time=job.stop_time,
+        intervals=job.intervals,
+        tolerance=point.tolerance,
+        max_order=point.max_order,
+        method=point.method,
+        constraints=point.constraints,
+        initial=job.initial,
+        progress=show,
+    )
     share = (clock.process_time() - busy) / (clock.perf_counter() - began)
     return result, result.stats["solve_seconds"] * min(1.0, share)
 

@@ -13,17 +13,16 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
-from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.result.files import whole
-from acausal.result.lookup import find, match
 from acausal.result.plots import save
 from acausal.result.tables import write_csv
-from acausal.study.measuring.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
+from acausal.study.measuring.arguments import check_run, check_shares, outputs_of, stop_time_of
 from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.point import Job, Point
+from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of
@@ -208,11 +207,10 @@ def study(
     """
     given = dict(parameters or {})
     stop = stop_time_of(model, stop_time, given)
-    check_counts(intervals=intervals, repeats=repeats)
+    check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
-    check_limit(limit)
     compiled = compile(model, given)
-    names = _scalars(compiled.tree, match(compiled.tree, outputs) or compiled.outputs)
+    names = outputs_of(compiled, outputs)
     forms = tuple(formulations or formulations_of(model, given))
     loops = compiled.closing.size and len(forms) == 1 and not forms[0].refine
     kinds = constraints or (("states", "projection") if loops else ("auto",))
@@ -231,14 +229,6 @@ def study(
             known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
     kept.remove()
     return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
-
-
-def _scalars(tree: Component, names: Sequence[str]) -> tuple[str, ...]:
-    """Name the entries of arrays one by one."""
-    found = tuple(name for path in names for _, name, _ in find(tree, path).entries)
-    if not found:
-        raise DeclarationError("the model has no outputs to compare; name some variables: outputs=(...).")
-    return found
 
 
 def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Point:
