@@ -83,7 +83,7 @@ from acausal.language import (
     when,
 )
 from acausal.result import Result
-from acausal.solve import Linearization, linearize, simulate
+from acausal.simulation import Linearization, linearize, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [

@@ -24,10 +24,11 @@ from acausal.cli.common import (
 )
 from acausal.cli.output import Files, Progress, modes_table, progress_bar, summary, write_json
 from acausal.cli.scenes import find_scene, scenes
+from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
-from acausal.solve.settings import settled
-from acausal.solve.trials import adaptive
+from acausal.simulation.settings import settled
+from acausal.simulation.trials import adaptive
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
@@ -148,10 +149,10 @@ def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Jso
     """Compile a scene and tell what the compiler did: equations and unknowns, states, what was removed, seconds."""
     with running(json) as standard_output:
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
-        _look_at_start(compiled)
-        typer.echo(compiled.summary())
+        found = _at_start(compiled)
+        typer.echo(compiled.summary(found))
         if json:
-            write_json({"scene": scene, **compiled.report}, json, standard_output)
+            write_json({"scene": scene, **compiled.report_at(found)}, json, standard_output)
 
 
 @app.command()
@@ -171,17 +172,18 @@ def linearize(
             write_json({"scene": scene, **document}, json, standard_output)
 
 
-def _look_at_start(compiled: CompiledModel) -> None:
-    """Let the ranks of loops be known, which need consistent positions."""
+def _at_start(compiled: CompiledModel) -> AtStart | None:
+    """What the ranks of loops tell, which need consistent positions."""
     from acausal.solve.instant import start
+    from acausal.solve.problem import Problem
 
-    if compiled.closing.size:
-        try:
-            start(compiled, compiled.parameter_values(None), 0.0, 0.0, "guesses")
-        except InitializationError as error:
-            typer.echo(
-                f"no consistent start was found, so ranks and independent states are not known: {error}", err=True
-            )
+    if not compiled.closing.size:
+        return None
+    try:
+        return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)
+    except InitializationError as error:
+        typer.echo(f"no consistent start was found, so ranks and independent states are not known: {error}", err=True)
+        return None
 
 
 def _chosen(result: Result, patterns: list[str] | None) -> list[str]:

@@ -18,7 +18,7 @@ from acausal.cli.scenes import brief, ended, place_in, read_settings
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
-from acausal.solve.stop_time import own_stop_time
+from acausal.simulation.stop_time import own_stop_time
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
@@ -144,7 +144,7 @@ def make_scene(
     with blaming(cls):
         model = cls()
         if effects is not None:
-            from acausal.study.effects_file import with_effects
+            from acausal.study.switching.choices_file import with_effects
 
             values = with_effects(model, scene, effects, values)
         return model, values

@@ -14,7 +14,8 @@ import numpy as np
 from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
 from acausal.result.plots import Series
-from acausal.solve.accuracy import chosen_text
+from acausal.result.tables import Table
+from acausal.simulation.accuracy import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20
@@ -163,15 +164,15 @@ def modes_table(eigenvalues: np.ndarray) -> str:
         In 1/s.
     """
     size = np.abs(eigenvalues).max(initial=0.0)
-    lines = [f"{'eigenvalue [1/s]':>32}  {'frequency [Hz]':>15}  {'damping ratio':>13}"]
+    rows = []
     for value in eigenvalues:
         if abs(value.imag) <= 1e-9 * size:
-            lines.append(f"{value.real:>32.6g}")
+            rows.append([f"{value.real:.6g}", "", ""])
         elif value.imag > 0:
             real = value.real if abs(value.real) > ROUNDING * abs(value) else 0.0
-            pair = f"{real:.6g} ± {value.imag:.6g}i"
-            lines.append(f"{pair:>32}  {value.imag / (2 * np.pi):>15.6g}  {0 - real / abs(value):>13.4g}")
-    return "\n".join(lines)
+            frequency, ratio = value.imag / (2 * np.pi), 0 - real / abs(value)
+            rows.append([f"{real:.6g} ± {value.imag:.6g}i", f"{frequency:.6g}", f"{ratio:.4g}"])
+    return Table(["eigenvalue [1/s]", "frequency [Hz]", "damping ratio"], rows).text()
 
 
 @contextmanager

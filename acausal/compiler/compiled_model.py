@@ -92,19 +92,16 @@ class CompiledModel:
     @alone
     def report(self) -> dict[str, Any]:
         """Sizes at each stage, states, what was removed, and seconds."""
-        redundancy = self.cache.get("redundancy")
-        dropped = redundancy.dropped if redundancy else ()
-        found = AtStart(
-            tuple(k for k, constraint in enumerate(self.closing.closures) if constraint in dropped),
-            bool(redundancy and redundancy.singular),
-            tuple(self.cache.get("independent", ())),
-        )
-        return report(self.reduced, self.local.function, found, self.seconds)
+        return self.report_at()
+
+    def report_at(self, found: AtStart | None = None) -> dict[str, Any]:
+        """Return the report with what was found at a start."""
+        return report(self.reduced, self.local.function, found or AtStart(), self.seconds)
 
     @alone
-    def summary(self) -> str:
-        """Return the report as text."""
-        return summary(self.report)
+    def summary(self, found: AtStart | None = None) -> str:
+        """Return the report as text, with what was found at a start."""
+        return summary(self.report_at(found))
 
     @property
     def states(self) -> tuple[str, ...]:

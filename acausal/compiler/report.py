@@ -29,9 +29,9 @@ class AtStart:
         States from which the others follow by the loops.
     """
 
-    dropped: tuple[int, ...]
-    singular: bool
-    independent: tuple[str, ...]
+    dropped: tuple[int, ...] = ()
+    singular: bool = False
+    independent: tuple[str, ...] = ()
 
 
 def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: Mapping[str, float]) -> dict[str, Any]:

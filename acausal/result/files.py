@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import shutil
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
-
-import numpy as np
 
 from acausal.errors import ExportError
 
@@ -66,23 +63,6 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
         finally:
             with suppress(OSError):
                 temporary.unlink()
-
-
-def write_csv(path: str | Path, columns: dict[str, np.ndarray]) -> None:
-    """Write a table, a column for each name; every number reads back as it was.
-
-    Parameters
-    ----------
-    path : str or Path
-        Name of the file.
-    columns : mapping of str to array, shape (times,)
-        The columns in order.
-    """
-    rows: Sequence[Any] = np.column_stack(list(columns.values())).tolist()
-    with whole(path) as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(rows)
 
 
 def _target(path: str | Path) -> Path:

@@ -13,10 +13,10 @@ import numpy as np
 from acausal.errors import DeclarationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
-from acausal.result.files import write_csv
 from acausal.result.kept import Kept, keep
 from acausal.result.lookup import Key, Quantity, Tree, find, names
 from acausal.result.plots import Series, draw, save
+from acausal.result.tables import write_csv
 
 if TYPE_CHECKING:
     import pandas as pd

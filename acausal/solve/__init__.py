@@ -1,6 +1,1 @@
-"""Solution: consistent initial values, integration, linearisation."""
-
-from acausal.solve.linearize import Linearization, linearize
-from acausal.solve.simulate import simulate
-
-__all__ = ["Linearization", "linearize", "simulate"]
+"""Solution of a compiled model: consistent initial values, integration, events."""

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
 from acausal.solve.closed_start import closed_guess, rows_and_knowns
@@ -39,6 +40,11 @@ class Start:
     point: Point
     redundancy: Redundancy = field(default_factory=Redundancy)
     independent: tuple[str, ...] = ()
+
+    def found(self, compiled: CompiledModel) -> AtStart:
+        """Return what a report tells of it."""
+        dropped = (k for k, row in enumerate(compiled.closing.closures) if row in self.redundancy.dropped)
+        return AtStart(tuple(dropped), self.redundancy.singular, self.independent)
 
 
 def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:

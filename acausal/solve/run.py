@@ -94,7 +94,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
             break
         nominal, counts = fitting, integrator.trace
     waited = compiled.seconds.get("integrators", 0.0) - built
-    stats = _stats(compiled, integrator, breaks)
+    stats = _stats(begun, integrator, breaks)
     stats |= {"events": len(events.events), "event_times": events.events}
     stats["solve_seconds"] = clock.perf_counter() - started - waited
     first = (events.first or at) if at is first else first
@@ -132,9 +132,12 @@ def _middle(start: float, breaks: list[float], stop: float) -> float:
     return (start + (breaks[0] if breaks else stop)) / 2
 
 
-def _stats(compiled: CompiledModel, run: Integrator, breaks: list[float]) -> dict[str, Any]:
-    report, trace = compiled.report, run.trace
+def _stats(begun: Start, run: Integrator, breaks: list[float]) -> dict[str, Any]:
+    compiled, trace = run.compiled, run.trace
+    report = compiled.report_at(begun.found(compiled))
     return {
+        "loops": report["loops"],
+        "independent_states": report["independent_states"],
         "equations_flat": report["equations_flat"],
         "equations_reduced": report["equations_reduced"],
         "states": compiled.nx,

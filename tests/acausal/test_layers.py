@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
+import networkx as nx
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -17,9 +18,11 @@ MAY = {
     "compiler": BASE | {"language", "flatten", "reduce"},
     "result": BASE | {"language", "flatten"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "compiler", "result"},
-    "study": BASE | {"language", "flatten", "compiler", "solve", "result"},
-    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "solve", "study", "result"},
+    "simulation": BASE | {"language", "flatten", "compiler", "result", "solve"},
+    "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
+    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
 }
+ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "switching": {"measuring", "switching"}}
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 
 
@@ -42,6 +45,20 @@ def test_stage_imports_only_earlier_ones(package: str) -> None:
                 assert rest.split(".")[0] in MAY[package] | {package}, f"{path} imports {name}"
             assert top != "components", f"{path} imports {name}"
             assert top != "models" or package == "cli", f"{path} imports {name}"
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_of_studies(room: str) -> None:
+    for path in (ROOT / "acausal/study" / room).rglob("*.py"):
+        used = {name.split(".")[2] for name in imports(path) if name.startswith("acausal.study.")}
+        assert used <= ROOMS[room], f"{path} imports {used - ROOMS[room]}"
+
+
+@pytest.mark.parametrize("package", ["simulation", "study"])
+def test_no_file_imports_one_that_imports_it(package: str) -> None:
+    files = {".".join(p.relative_to(ROOT).with_suffix("").parts): p for p in (ROOT / "acausal" / package).rglob("*.py")}
+    graph = nx.DiGraph((name, other) for name, path in files.items() for other in imports(path) if other in files)
+    assert nx.is_directed_acyclic_graph(graph), nx.find_cycle(graph)
 
 
 def test_structure_sees_integers_only() -> None:

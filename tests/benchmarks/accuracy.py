@@ -182,10 +182,10 @@ def _sentence(text: str) -> str:
 
 
 def _table(found: Study, rows: Iterable[Any]) -> str:
-    from acausal.study import table
+    from acausal.study.studies.table import cells
 
     chosen = [replace(row, front=False) for row in rows]
-    return table.markdown(*table.cells(chosen, found.reference, found.switches))
+    return cells(chosen, found.reference, found.switches).markdown()
 
 
 def _kept(name: str) -> Path:

@@ -20,7 +20,7 @@ from acausal import (
     structural,
     variable,
 )
-from acausal.study.shipping import pack, unpack
+from acausal.study.measuring.shipping import pack, unpack
 from components import Body, FixedTranslation, Prismatic, Revolute, World
 from components.rotational import Damper
 from models import SpinUp

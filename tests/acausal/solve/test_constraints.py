@@ -112,7 +112,7 @@ class Tilted(Model):
 def test_planar_loop_in_an_inclined_plane() -> None:
     compiled = ac.compile(Tilted())
     result = ac.simulate(compiled, stop_time=3, tolerance=1e-9)
-    (loop,) = compiled.report["loops"]
+    (loop,) = result.stats["loops"]
     assert (loop["constraints"], loop["redundant"], loop["redundant_by_rank"]) == (6, 3, 3)
     # Two bars turn, the coupler moves with their ends.
     n, e = Tilted.n, Tilted.e
@@ -159,7 +159,7 @@ def test_flat_parallelogram_keeps_all_constraints_and_goes_where_the_velocity_po
 
     compiled = ac.compile(Flat())
     result = ac.simulate(compiled, stop_time=2, tolerance=1e-8, initial="guesses")
-    (loop,) = compiled.report["loops"]
+    (loop,) = result.stats["loops"]
     assert loop["singular_start"]
     assert loop["redundant_by_rank"] == 0
     assert result["j1.phi"] == pytest.approx(result.time, abs=1e-3)

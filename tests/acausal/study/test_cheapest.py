@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal.study.cheapest import cheapest, search
-from acausal.study.effects_rows import Row
+from acausal.study.switching.cheapest import cheapest, search
+from acausal.study.switching.rows import Row
 
 
 def made(

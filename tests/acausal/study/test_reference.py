@@ -5,7 +5,7 @@ import pytest
 
 from acausal.errors import DeclarationError, SimulationError
 from acausal.study import Formulation, Measurement, Point
-from acausal.study.reference import make, read
+from acausal.study.studies.reference import make, read
 
 T = np.linspace(0, 1, 11)
 

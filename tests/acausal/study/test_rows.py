@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from acausal.study import Formulation, Measurement, Point, Reference, Row, Study
-from acausal.study.rows import pareto, rows_of
-from acausal.study.table import cells, columns, markdown, text
+from acausal.study.studies.rows import pareto, rows_of
+from acausal.study.studies.table import cells, columns
 
 T = np.linspace(0, 1, 11)
 FORMS = (Formulation("good", {}, {"n": (2, 4)}, exact=True), Formulation("bad", {}, {"n": (2, 4)}))
@@ -66,16 +66,17 @@ def test_columns():
 
 
 def test_cells():
-    head, body = cells(ROWS, REFERENCE, ())
+    table = cells(ROWS, REFERENCE, ())
+    head, body = table.head, table.rows
     assert head[:4] == ["", "formulation", "size", "tolerance"]
     assert [row[head.index("error")] for row in body] == [
         "3.0e-02", "1.0e-02", "1.2e-02", "1.0e-04", "< 1.0e-06", "5.1e-02", "5.0e-02", "-", "-"
     ]  # fmt: skip
-    lines = text(head, body).splitlines()
+    lines = table.text().splitlines()
     assert len(lines) == 10
     assert lines[1].startswith("*  good")
     assert lines[9].endswith("it was stopped after 60 s")
-    first, rule, best, *_ = markdown(head, body).splitlines()
+    first, rule, best, *_ = table.markdown().splitlines()
     assert first.startswith("| formulation | size | tolerance |")
     assert set(rule) == set("|- ")
     assert best.startswith("| **good** | **2** | **1e-03** |")

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 import acausal as ac
-from acausal.study import pack, workers
-from acausal.study.pool import cluster, processes
+from acausal.study import pack
+from acausal.study.measuring import workers
+from acausal.study.measuring.pool import cluster, processes
 
 ROOT = Path(__file__).parents[3]
 CRANE = """

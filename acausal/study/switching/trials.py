@@ -14,11 +14,11 @@ from acausal.compiler import compile
 from acausal.errors import AcausalError
 from acausal.language.component import Component
 from acausal.result.lookup import find
-from acausal.study.effects_listing import fitting
-from acausal.study.journal import Journal
-from acausal.study.point import Job, Measurement, Point
-from acausal.study.session import Progress, Session
-from acausal.study.shipping import unpack
+from acausal.study.measuring.journal import Journal
+from acausal.study.measuring.point import Job, Measurement, Point
+from acausal.study.measuring.session import Progress, Session
+from acausal.study.measuring.shipping import unpack
+from acausal.study.switching.listing import fitting
 
 Choices = Mapping[str, Any]
 
@@ -62,7 +62,7 @@ class Trials:
         self, model: Component, settings: Choices, job: Job, executor: Executor, progress: Progress | None = None
     ) -> None:
         self.model, self.settings, self.job, self.executor = model, settings, job, executor
-        self.session = Session(self._job, executor, Journal(None, {}), progress)
+        self.session = Session(job, executor, Journal(None, {}), progress)
 
     def fitting(self, choices: Choices) -> dict[str, Any]:
         """Return the settings of a trial: those that fit together."""
@@ -70,7 +70,9 @@ class Trials:
 
     def fingerprints(self, wanted: Iterable[Choices]) -> list[str]:
         """Return the fingerprint of each trial."""
-        return list(self.executor.map(fingerprint, [self._job(self._point(choices)) for choices in wanted]))
+        return list(
+            self.executor.map(fingerprint, [replace(self.job, point=self._point(choices)) for choices in wanted])
+        )
 
     def measure(self, wanted: Iterable[Choices], what: str, tolerance: float | None = None) -> list[Measurement]:
         """Measure trials.
@@ -91,6 +93,3 @@ class Trials:
 
     def _point(self, choices: Choices) -> Point:
         return replace(self.job.point, settings=self.fitting(choices))
-
-    def _job(self, point: Point) -> Job:
-        return replace(self.job, point=point)

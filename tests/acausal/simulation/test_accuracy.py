@@ -230,7 +230,7 @@ def test_what_cannot_be_reached_is_refused_with_the_best():
 
 
 def test_interrupt_leaves_the_best(monkeypatch):
-    from acausal.solve import trials
+    from acausal.simulation import trials
 
     runs, real = [], trials.run
 

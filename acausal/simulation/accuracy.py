@@ -14,8 +14,8 @@ import numpy as np
 
 from acausal.errors import SimulationError
 from acausal.result import Result
-from acausal.solve.estimate import Estimate, estimate
-from acausal.solve.trials import Choice, Trials
+from acausal.simulation.estimate import Estimate, estimate
+from acausal.simulation.trials import Choice, Trials
 
 # Tolerances tried first, in parts of the accuracy; the loosest and the smallest.
 FIRST, LOOSEST, SMALLEST = 1e-2, 1e-3, 1e-12
@@ -116,7 +116,7 @@ class Search:
                 "tolerance": state.choice.tolerance,
                 "max_order": stats["max_order"],
                 "method": state.choice.method,
-                "sizes": self.trials.sizes(state.choice),
+                "sizes": self.trials.sizes(state.choice.number),
             },
             "trials": self.trials.done,
         }

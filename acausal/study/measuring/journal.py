@@ -18,7 +18,7 @@ from acausal.errors import DeclarationError, ExportError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.result import check_writable
-from acausal.study.point import Measurement, Point
+from acausal.study.measuring.point import Measurement, Point
 
 
 class Journal:

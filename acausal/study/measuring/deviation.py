@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from acausal.solve.estimate import scale
+from acausal.simulation.estimate import scale
 
 # Times the range of an output: beyond it, a solution has nothing to do with the reference.
 RUNAWAY = 10.0

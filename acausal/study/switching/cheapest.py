@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
 
-from acausal.study.effects_rows import Row
+from acausal.study.switching.rows import Row
 
 Search = Generator[Mapping[str, Any], Row, Row]
 

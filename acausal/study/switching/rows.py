@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from acausal.solve.estimate import scale
-from acausal.study.deviation import deviations
-from acausal.study.point import Measurement
+from acausal.simulation.estimate import scale
+from acausal.study.measuring.deviation import deviations
+from acausal.study.measuring.point import Measurement
 
+# What a cheapest set is for, beside one output.
+ALL = "all outputs"
 # Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
 NOISE = 0.1
 
@@ -56,6 +58,11 @@ class Row:
     def change(self, outputs: Iterable[str] | None = None) -> float:
         """Return the largest change of some outputs, of all if not given."""
         return max((self.largest[name] for name in (self.largest if outputs is None else outputs)), default=0.0)
+
+    @property
+    def worst(self) -> str:
+        """The output that changes most."""
+        return max(self.largest, key=lambda name: self.largest[name])
 
     def cheaper(self, other: Row) -> bool:
         """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""

@@ -2,30 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from concurrent.futures import Executor
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
-from acausal.solve.stop_time import check_stop_time, own_stop_time
-from acausal.study.pool import cluster, processes
-
-
-def executor_of(executor: Executor | str | None, workers: int | None) -> AbstractContextManager[Executor]:
-    """Return where points run: processes on this machine, a cluster by its address, or what is given.
-
-    Parameters
-    ----------
-    executor : Executor, str or None
-        Of the kind of concurrent.futures, address of a Dask scheduler or "local", or None for processes.
-    workers : int, optional
-        Number of local processes; one for each core if not given.
-    """
-    if executor is None:
-        return processes(workers)
-    return cluster(executor, workers) if isinstance(executor, str) else nullcontext(executor)
+from acausal.result.lookup import find, match
+from acausal.simulation.stop_time import check_stop_time, own_stop_time
 
 
 def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any]) -> float:
@@ -44,6 +28,41 @@ def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any
     if own is None:
         raise DeclarationError(f"{type(model).__name__} tells no stop_time; give one: stop_time=2.0.")
     return check_stop_time(own)
+
+
+def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of what is compared, entries of arrays one by one.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    patterns : sequence of str
+        Paths, with * and ?; the outputs of the model if empty.
+    """
+    paths = match(compiled.tree, patterns) or compiled.outputs
+    found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
+    if not found:
+        raise DeclarationError(
+            f"{type(compiled.tree).__name__} has no outputs to compare; name variables, for instance "
+            f"outputs=[{next(iter(compiled.states), 'joint.phi')!r}]."
+        )
+    return found
+
+
+def check_run(intervals: int, repeats: int, limit: float) -> None:
+    """Refuse what no run can have.
+
+    Parameters
+    ----------
+    intervals, repeats : int
+        At least 1.
+    limit : float
+        In s.
+    """
+    check_counts(intervals=intervals, repeats=repeats)
+    if isinstance(limit, bool) or not isinstance(limit, int | float) or not limit > 0:
+        raise DeclarationError(f"limit is {limit!r}; it must be a number of seconds greater than 0.")
 
 
 def check_counts(least: int = 1, **counts: Any) -> None:
@@ -74,9 +93,3 @@ def check_shares(example: float, **shares: Any) -> None:
     for name, value in shares.items():
         if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < 1:
             raise DeclarationError(f"{name} is {value!r}; it must lie between 0 and 1, for instance {example:g}.")
-
-
-def check_limit(limit: Any) -> None:
-    """Refuse a limit of seconds that is none."""
-    if isinstance(limit, bool) or not isinstance(limit, int | float) or not limit > 0:
-        raise DeclarationError(f"limit is {limit!r}; it must be a number of seconds greater than 0.")

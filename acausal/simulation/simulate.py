@@ -12,11 +12,11 @@ from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
-from acausal.solve.accuracy import reach
+from acausal.simulation.accuracy import reach
+from acausal.simulation.settings import settled
+from acausal.simulation.trials import Trials
 from acausal.solve.integrate import Progress
 from acausal.solve.run import Task, run
-from acausal.solve.settings import settled
-from acausal.solve.trials import Trials
 
 METHODS = ("auto", "idas", "rosenbrock", "resolve")
 CONSTRAINTS = ("auto", "states", "projection")

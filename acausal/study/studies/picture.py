@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from acausal.errors import DeclarationError
 from acausal.result.plots import DPI
-from acausal.study.reference import Reference
-from acausal.study.rows import TOLERANCE, Row, pareto
+from acausal.study.studies.reference import Reference
+from acausal.study.studies.rows import TOLERANCE, Row, pareto
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

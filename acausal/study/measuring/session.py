@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from acausal.study.journal import Journal
-from acausal.study.point import Job, Measurement, Point
-from acausal.study.pool import run
+from acausal.study.measuring.journal import Journal
+from acausal.study.measuring.point import Job, Measurement, Point
+from acausal.study.measuring.pool import run
 
 Progress = Callable[[int, int, str], None]
 
@@ -19,8 +19,8 @@ class Session:
 
     Parameters
     ----------
-    job : callable
-        Makes the job of a point.
+    job : Job
+        How points are run; each takes the place of its own.
     executor : Executor
         Where jobs run.
     journal : Journal
@@ -29,7 +29,7 @@ class Session:
         Called with the number of points done, of all points so far, and what is going on.
     """
 
-    job: Callable[[Point], Job]
+    job: Job
     executor: Executor
     journal: Journal
     progress: Progress | None = None
@@ -54,7 +54,7 @@ class Session:
             if kept is not None:
                 self.found[point] = kept
         self._tell(what)
-        for measurement in run([self.job(p) for p in new if p not in self.found], self.executor):
+        for measurement in run([replace(self.job, point=p) for p in new if p not in self.found], self.executor):
             self.journal.add(measurement)
             self.found[measurement.point] = measurement
             self._tell(what)

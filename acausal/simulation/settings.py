@@ -8,7 +8,7 @@ from typing import Any
 from acausal.compiler import CompiledModel
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.solve.stop_time import own_stop_time, own_value
+from acausal.simulation.stop_time import own_stop_time, own_value
 
 DEFAULTS = {
     "stop_time": None,

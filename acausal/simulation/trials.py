@@ -77,9 +77,9 @@ class Trials:
             self._note(choice, found if isinstance(found, Result) else found.result, str(found))
         return self.results[choice]
 
-    def sizes(self, choice: Choice) -> dict[str, int]:
+    def sizes(self, number: int) -> dict[str, int]:
         """Return elements or volumes by path."""
-        return {path: max(choice.number, least) for path, least in self.adaptive.items()}
+        return {path: max(number, least) for path, least in self.adaptive.items()}
 
     def seconds(self) -> dict[str, float]:
         """Return seconds of compiling and solving, all runs together."""
@@ -93,8 +93,7 @@ class Trials:
             self.compiled[number] = self.model
             return self.model, self.model.parameter_values(self.parameters)
         if number not in self.compiled:
-            sizes = {path: max(number, least) for path, least in self.adaptive.items()}
-            self.compiled[number] = compile(self.model, {**self.parameters, **sizes})
+            self.compiled[number] = compile(self.model, {**self.parameters, **self.sizes(number)})
         return self.compiled[number], self.compiled[number].parameter_values(None)
 
     def _note(self, choice: Choice, result: Any, text: str) -> None:
@@ -104,7 +103,7 @@ class Trials:
                 "tolerance": choice.tolerance,
                 "max_order": stats["max_order"],
                 "method": stats["method"],
-                "sizes": self.sizes(choice),
+                "sizes": self.sizes(choice.number),
                 **{name: stats[name] for name in COUNTS},
                 "failed": "" if isinstance(self.results[choice], Result) else text,
             }

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.solve.simulate import CONSTRAINTS, METHODS
-from acausal.study.formulation import Formulation
-from acausal.study.point import Point
+from acausal.simulation.simulate import CONSTRAINTS, METHODS
+from acausal.study.measuring.point import Point
+from acausal.study.studies.formulation import Formulation
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 

@@ -6,12 +6,14 @@ import multiprocessing
 import os
 from collections.abc import Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
-from acausal.study.point import Job, Measurement, measure
-from acausal.study.workers import Workers, initialise, without_main
+from acausal.study.measuring.arguments import check_counts
+from acausal.study.measuring.measure import measure
+from acausal.study.measuring.point import Job, Measurement
+from acausal.study.measuring.workers import Workers, initialise, without_main
 
 # Many points at once on few cores would share threads of linear algebra, and no time would mean anything.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
@@ -43,6 +45,21 @@ def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
             future.cancel()
 
 
+def executor_of(executor: Executor | str | None, workers: int | None) -> AbstractContextManager[Executor]:
+    """Return where points run: processes on this machine, a cluster by its address, or what is given.
+
+    Parameters
+    ----------
+    executor : Executor, str or None
+        Of the kind of concurrent.futures, address of a Dask scheduler or "local", or None for processes.
+    workers : int, optional
+        Number of local processes; one for each core if not given.
+    """
+    if executor is None:
+        return processes(workers)
+    return cluster(executor, workers) if isinstance(executor, str) else nullcontext(executor)
+
+
 @contextmanager
 def processes(workers: int | None = None) -> Iterator[Executor]:
     """Give an executor of processes on this machine, each with one thread for linear algebra.
@@ -52,8 +69,8 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
     workers : int, optional
         Number of processes; one for each core if not given.
     """
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-        raise DeclarationError(f"workers is {workers!r}; it must be a whole number of at least 1.")
+    if workers is not None:
+        check_counts(workers=workers)
     before = set(multiprocessing.active_children())
     pool = ProcessPoolExecutor(workers or _cores(), Workers(), initialise)
     with _one_thread():

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.study.deviation import RUNAWAY, deviations, worst
-from acausal.study.formulation import Formulation
-from acausal.study.point import Measurement, Point
-from acausal.study.reference import Reference
+from acausal.study.measuring.deviation import RUNAWAY, deviations, worst
+from acausal.study.measuring.point import Measurement, Point
+from acausal.study.studies.formulation import Formulation
+from acausal.study.studies.reference import Reference
 
 # What limits the accuracy of a point.
 TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"

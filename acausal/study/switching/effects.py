@@ -12,17 +12,16 @@ import numpy as np
 from acausal.compiler import compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
-from acausal.result import match
-from acausal.result.lookup import find
-from acausal.study.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
-from acausal.study.cheapest import cheapest, search
-from acausal.study.effects_listing import Effect, fullest, same
-from acausal.study.effects_result import ALL, Effects
-from acausal.study.effects_rows import Interaction, Row, interaction, row
-from acausal.study.effects_trials import Choices, Trials
-from acausal.study.point import Job, Measurement, Point
-from acausal.study.session import Progress
-from acausal.study.shipping import pack
+from acausal.study.measuring.arguments import check_counts, check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.point import Job, Measurement, Point
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.session import Progress
+from acausal.study.measuring.shipping import pack
+from acausal.study.switching.cheapest import cheapest, search
+from acausal.study.switching.listing import Effect, fullest, same
+from acausal.study.switching.result import Effects
+from acausal.study.switching.rows import ALL, Interaction, Row, interaction, row
+from acausal.study.switching.trials import Choices, Trials
 
 # An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
 # changes more than this part of a range: what is left without it is another scene.
@@ -96,12 +95,11 @@ def effects(
     """
     given = dict(parameters or {})
     stop = stop_time_of(model, stop_time, given)
-    check_counts(intervals=intervals, repeats=repeats)
+    check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)
     check_shares(1e-2, accuracy=accuracy)
     check_shares(1e-6, tolerance=tolerance)
-    check_limit(limit)
-    names = _outputs(model, given, outputs)
+    names = outputs_of(compile(model, given), outputs or ())
     found, full = fullest(model, given)
     if not found:
         raise DeclarationError(
@@ -242,17 +240,3 @@ def _same(one: Measurement, other: Measurement) -> bool:
     return one.operations == other.operations and all(
         np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
     )
-
-
-def _outputs(model: Component, given: Mapping[str, Any], outputs: Sequence[str] | None) -> tuple[str, ...]:
-    """Names of what to compare; the model as it stands is compiled, which tells what is wrong with it."""
-    compiled = compile(model, given)
-    names = tuple(match(compiled.tree, outputs) if outputs else compiled.outputs)
-    if not names:
-        raise DeclarationError(
-            f"{type(model).__name__} has no outputs to compare; name variables, for instance "
-            f"outputs=[{next(iter(compiled.states), 'joint.phi')!r}]."
-        )
-    for name in names:
-        find(compiled.tree, name)
-    return names

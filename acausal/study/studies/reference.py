@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
-from acausal.study.deviation import deviations, worst
-from acausal.study.formulation import Formulation
-from acausal.study.point import Measurement, Point
+from acausal.study.measuring.deviation import deviations, worst
+from acausal.study.measuring.point import Measurement, Point
+from acausal.study.studies.formulation import Formulation
 
 # Refinements that are tried, and the least tolerance of a reference.
 ROUNDS, LEAST = 6, 1e-12

@@ -13,22 +13,24 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, compile
 from acausal.compiler.call import Call
-from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.result.files import whole
-from acausal.result.lookup import find, match
-from acausal.study import table as tables
-from acausal.study.arguments import check_counts, check_limit, check_shares, executor_of, stop_time_of
-from acausal.study.formulation import Formulation, formulations_of
-from acausal.study.grid import TOLERANCES, Grid
-from acausal.study.journal import Journal, identity
-from acausal.study.point import Job, Point
-from acausal.study.reference import Reference, make, read
-from acausal.study.rows import Row, pareto, rows_of
-from acausal.study.session import Progress, Session
-from acausal.study.shipping import pack
+from acausal.result.plots import save
+from acausal.result.tables import write_csv
+from acausal.study.measuring.arguments import check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.journal import Journal, identity
+from acausal.study.measuring.point import Job, Point
+from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.session import Progress, Session
+from acausal.study.measuring.shipping import pack
+from acausal.study.studies.formulation import Formulation, formulations_of
+from acausal.study.studies.grid import TOLERANCES, Grid
+from acausal.study.studies.picture import draw
+from acausal.study.studies.reference import Reference, make, read
+from acausal.study.studies.rows import Row, pareto, rows_of
+from acausal.study.studies.table import cells, columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,12 +65,12 @@ class Study:
     @property
     def columns(self) -> dict[str, list[Any]]:
         """Everything that is known, by the names of the columns of the CSV."""
-        return tables.columns(self.rows, self.switches)
+        return columns(self.rows, self.switches)
 
     def table(self) -> str:
         """Return reference, points and the price of each digit as text for a terminal."""
-        head, body = tables.cells(self.rows, self.reference, self.switches)
-        return "\n\n".join([self.title, str(self.reference), tables.text(head, body), "\n".join(self.price())])
+        table = cells(self.rows, self.reference, self.switches).text()
+        return "\n\n".join([self.title, str(self.reference), table, "\n".join(self.price())])
 
     def price(self) -> list[str]:
         """Return what each digit costs: the fastest point within each power of ten of the error, a line each."""
@@ -82,9 +84,9 @@ class Study:
 
     def document(self) -> dict[str, Any]:
         """Return all as data."""
-        known, columns = self.reference, self.columns
+        known, table = self.reference, self.columns
         told = {"text": known.text, "agreement": known.agreement, "asked": known.asked, "known_to": known.floors}
-        rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
         return {"model": self.title, "reference": told, "rows": rows}
 
     def to_csv(self, path: str | Path) -> None:
@@ -95,7 +97,7 @@ class Study:
         path : str or Path
             Name of the file.
         """
-        tables.write_table(path, self.rows, self.switches)
+        write_csv(path, self.columns)
 
     def to_markdown(self, path: str | Path) -> None:
         """Write reference, points and the price of each digit as Markdown.
@@ -105,10 +107,10 @@ class Study:
         path : str or Path
             Name of the file.
         """
-        head, body = tables.cells(self.rows, self.reference, self.switches)
+        table = cells(self.rows, self.reference, self.switches).markdown()
         price = "\n".join(f"- {line}" for line in self.price())
         with whole(path) as file:
-            file.write("\n\n".join([str(self.reference), tables.markdown(head, body), price]).strip() + "\n")
+            file.write("\n\n".join([str(self.reference), table, price]).strip() + "\n")
 
     def plot(self, path: str | Path | None = None, output: str | None = None) -> Figure:
         """Draw error over time, both logarithmic.
@@ -120,9 +122,6 @@ class Study:
         output : str, optional
             Whose error; the largest of all outputs if not given.
         """
-        from acausal.result.plots import save
-        from acausal.study.picture import draw
-
         figure = draw(self.rows, self.reference, self.title, output)
         if path is not None:
             save(figure, path)
@@ -208,43 +207,34 @@ def study(
     """
     given = dict(parameters or {})
     stop = stop_time_of(model, stop_time, given)
-    check_counts(intervals=intervals, repeats=repeats)
+    check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
-    check_limit(limit)
     compiled = compile(model, given)
-    names = _scalars(compiled.tree, match(compiled.tree, outputs) or compiled.outputs)
+    names = outputs_of(compiled, outputs)
     forms = tuple(formulations or formulations_of(model, given))
     loops = compiled.closing.size and len(forms) == 1 and not forms[0].refine
     kinds = constraints or (("states", "projection") if loops else ("auto",))
     grid = Grid(forms, tolerances, max_orders, methods, kinds, switches or {})
     trees = [Instantiation(model, point.settings).root for point in grid.structures(given)]
-    own = {path: value for path in grid.switches if (value := _value(compiled, path)) is not None}
-    shipped = pack(model)
-    times = stop * np.linspace(0.0, 1.0, intervals + 1)
-    known = None if reference is None else read(reference, names, times)
+    job = Job(pack(model), Point(), stop, intervals, names, repeats, limit, initial)
+    known = None if reference is None else read(reference, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
     kept = Journal(journal, identity(model, trees, **common))
-
-    def job(point: Point) -> Job:
-        return Job(shipped, point, stop, intervals, names, repeats, limit, initial)
-
     with executor_of(executor, workers) as pool:
         session = Session(job, pool, kept, progress)
         measured = session.measure(grid.points(given), "points")
         if known is None:
             exact = [form for form in forms if form.exact] or list(forms[:1])
-            base = Point("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
+            base = _base(compiled, grid, given)
             known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
     kept.remove()
     return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
 
 
-def _scalars(tree: Component, names: Sequence[str]) -> tuple[str, ...]:
-    """Name the entries of arrays one by one."""
-    found = tuple(name for path in names for _, name, _ in find(tree, path).entries)
-    if not found:
-        raise DeclarationError("the model has no outputs to compare; name some variables: outputs=(...).")
-    return found
+def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Point:
+    """Return what all points of a reference have in common: what is switched stands as in the model itself."""
+    own = {path: value for path in grid.switches if (value := _value(compiled, path)) is not None}
+    return Point("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
 
 
 def _value(compiled: CompiledModel, path: str) -> Any:

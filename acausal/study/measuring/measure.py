@@ -1,0 +1,108 @@
+"""Measure a point in this process: compile it, run it, and tell what it costs."""
+
+from __future__ import annotations
+
+import hashlib
+import statistics
+import time as clock
+import warnings
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel, compile
+from acausal.errors import AcausalError, AcausalWarning
+from acausal.locks import alone
+from acausal.result import Result
+from acausal.simulation import simulate
+from acausal.study.measuring.limit import TooLong, stopping_after
+from acausal.study.measuring.point import Job, Measurement
+from acausal.study.measuring.shipping import unpack
+
+# Seconds after which a run is not repeated: what takes long is measured well enough. Runs that are repeated fill the
+# lesser time, because the times of short ones scatter most.
+ENOUGH, LITTLE = 3.0, 0.2
+KEPT = 2
+# Compiled models of this process, the last used last.
+_COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
+
+
+@alone
+def measure(job: Job) -> Measurement:
+    """Compile and run a point; whatever goes wrong with the model is told in the measurement.
+
+    Parameters
+    ----------
+    job : Job
+        What to run.
+    """
+    try:
+        with stopping_after(job.limit) as show:
+            compiled = _compiled(job)
+            with warnings.catch_warnings():
+                # What formulations neglect is what a study shows, and a measurement tells what is not finite.
+                warnings.simplefilter("ignore", AcausalWarning)
+                return _measure(job, compiled, show)
+    except TooLong:
+        _COMPILED.clear()  # it was left in the middle of something
+        return Measurement(job.point, error=f"it was stopped after {job.limit:g} s")
+    except AcausalError as error:
+        return Measurement(job.point, error=(str(error).splitlines() or [type(error).__name__])[0])
+
+
+def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
+    built = compiled.seconds.pop("integrators", 0.0)
+    result, took = _run(job, compiled, show)
+    stats, seconds = result.stats, [took]
+    while sum(seconds) < (ENOUGH if len(seconds) < job.repeats else LITTLE * (job.repeats > 1)):
+        seconds.append(_run(job, compiled, show)[1])
+    compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
+    found = Measurement(
+        job.point,
+        compile_seconds=stats["compile_seconds"],
+        solve_seconds=statistics.median(seconds),
+        steps=stats["steps"],
+        factorisations=stats["factorisations"],
+        residual_evaluations=stats["residual_evaluations"],
+        equations=stats["equations_reduced"],
+        operations=int(compiled.local.function.n_instructions()),
+        max_order=stats["max_order"],
+        method=stats["method"],
+        constraints=stats["constraints"],
+    )
+    wrong = result.not_finite(*job.outputs)
+    if wrong:
+        name, time = next(iter(wrong.items()))
+        return replace(found, error=f"`{name}` is not finite from t = {time:.6g} s on")
+    values = {s.name: np.array(s.values) for s in result.series(*job.outputs)}
+    return replace(found, times=result.time, values=values)
+
+
+def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
+    """Run, and tell the solve time less what other processes had of the processor meanwhile."""
+    point = job.point
+    began, busy = clock.perf_counter(), clock.process_time()
+    result = simulate(
+        compiled,
+        stop_time=job.stop_time,
+        intervals=job.intervals,
+        tolerance=point.tolerance,
+        max_order=point.max_order,
+        method=point.method,
+        constraints=point.constraints,
+        initial=job.initial,
+        progress=show,
+    )
+    share = (clock.process_time() - busy) / (clock.perf_counter() - began)
+    return result, result.stats["solve_seconds"] * min(1.0, share)
+
+
+def _compiled(job: Job) -> CompiledModel:
+    """Compile a point, or take what another point with the same structure left."""
+    key = (hashlib.sha256(job.model).digest(), job.point.structure)
+    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.point.settings)
+    _COMPILED[key] = found
+    while len(_COMPILED) > KEPT:
+        del _COMPILED[next(iter(_COMPILED))]
+    return found

@@ -1,0 +1,234 @@
+"""Effects: what a study of effects found, as tables, files and choices to apply."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from acausal.result.files import whole
+from acausal.result.tables import Table, write_csv
+from acausal.study.switching.listing import Effect, same
+from acausal.study.switching.rows import ALL, Interaction, Row, as_fast
+from acausal.study.switching.tables import brief_changes, changes, columns, number, sets, together
+
+WIDTH = 120
+# Interactions below this part of the accuracy are not worth a line.
+WORTH = 0.1
+ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
+
+
+@dataclass(frozen=True)
+class Effects:
+    """What the effects of a scene change and cost.
+
+    Parameters
+    ----------
+    scene : str
+        Name of the model.
+    accuracy, tolerance : float
+        As given to `effects`.
+    effects : tuple of Effect
+        All effects of the fullest scene.
+    reference, standing : Row
+        What the others are compared with, and the scene as it stands.
+    refused : str
+        Why the fullest scene is not the reference, "" if it is.
+    floor : Row
+        The reference at a tenth of the tolerance: changes below its own are those of the integration.
+    rows : tuple of Row
+        One switched effect each, the largest change first.
+    interactions : tuple of Interaction
+        Pairs, the largest interaction first.
+    untried : int
+        Number of pairs that were left out.
+    idle : tuple of mapping
+        Switches that leave the equations as they are: the scene does not call for the effect.
+    cheapest : mapping of str to Row
+        The cheapest set for "all outputs" and, where there are several, for each output.
+    choices : mapping of str to mapping
+        Every choice of these sets by path.
+
+    Examples
+    --------
+    >>> found = ac.effects(SliderCrank(), stop_time=1.6)  # doctest: +SKIP
+    >>> print(found.table())  # doctest: +SKIP
+    >>> ac.simulate(SliderCrank(), stop_time=1.6, parameters=found.choices["all outputs"])  # doctest: +SKIP
+    """
+
+    scene: str
+    accuracy: float
+    tolerance: float
+    effects: tuple[Effect, ...]
+    reference: Row
+    standing: Row
+    refused: str
+    floor: Row
+    rows: tuple[Row, ...]
+    interactions: tuple[Interaction, ...]
+    untried: int
+    idle: tuple[Mapping[str, Any], ...]
+    cheapest: Mapping[str, Row]
+    choices: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of what was compared."""
+        return tuple(self.reference.largest)
+
+    def switched(self, name: str = ALL) -> dict[str, Any]:
+        """Return the choices of a cheapest set that the scene does not make as it stands."""
+        standing = {effect.path: effect.value for effect in self.effects}
+        return {path: value for path, value in self.choices[name].items() if not same(value, standing[path])}
+
+    def table(self) -> str:
+        """Return everything as text for people, at most 120 columns wide."""
+        labelled = self._labelled()
+        shown = changes(labelled, self.outputs).text(narrow=True)
+        if max(map(len, shown.splitlines())) > WIDTH:
+            shown = f"{brief_changes(labelled).text(narrow=True)}\n{ELSEWHERE}"
+        found = [part.text(narrow=True) if isinstance(part, Table) else _wrap(part) for part in self._findings()]
+        return "\n\n".join([_wrap(self._heading()), shown, *found, "\n".join(map(_wrap, self._recommendation()))])
+
+    def to_markdown(self, path: str | Path) -> None:
+        """Write everything as Markdown, the root mean square changes as well.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file, written whole or not at all.
+        """
+        parts = [
+            f"# Effects of {self.scene}",
+            self._heading(),
+            "Each change: the largest, then the root mean square.",
+            changes(self._labelled(), self.outputs, rms=True),
+            *self._findings(),
+            *self._recommendation(),
+        ]
+        with whole(path) as file:
+            file.write("\n\n".join(p.markdown() if isinstance(p, Table) else p for p in parts) + "\n")
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write a row for each trial: what it is for, its choices, changes and costs.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file, written whole or not at all.
+        """
+        kinds = [("reference", self.reference), ("as it stands", self.standing), ("tolerance / 10", self.floor)]
+        kinds += [("effect", row) for row in self.rows]
+        kinds += [(f"cheapest for {name}", row) for name, row in self.cheapest.items()]
+        write_csv(path, columns(kinds, self.outputs))
+
+    def document(self) -> dict[str, Any]:
+        """Return everything as mappings, lists, texts and numbers."""
+        return asdict(self)
+
+    def _heading(self) -> str:
+        r = self.reference
+        which = "the scene as it stands" if self.refused else "the fullest scene"
+        if not self.refused and not self.standing.choices:
+            which += ", which is the scene as it stands"
+        words = (
+            f"{self.scene}: what each effect changes and costs, next to {which} ({r.equations} equations, {r.operations} "
+            f"operations, {r.steps} steps, {r.seconds:.3g} s at tolerance {self.tolerance:g}). Changes are the largest, "
+            "in parts of the range of the output."
+        )
+        if self.refused:
+            words += f" The fullest scene is not the reference: {self.refused}"
+        return words
+
+    def _labelled(self) -> list[tuple[str, Row]]:
+        """The rows that are shown, each with what it is called."""
+        labelled = [(row.name, row) for row in self.rows]
+        if self.standing.choices:
+            labelled.append(("the scene as it stands", self.standing))
+        if not self.floor.error:
+            labelled.append((f"(tolerance {self.tolerance / 10:g})", self.floor))
+        return labelled
+
+    def _findings(self) -> Iterator[str | Table]:
+        """What is told after the changes: failures, idle effects, interactions, and the cheapest sets."""
+        for row in self.rows:
+            if row.error:
+                yield f"{row.name} failed: {row.error}"
+        if self.idle:
+            names = ", ".join(dict.fromkeys(path for choices in self.idle for path in choices))
+            yield f"Not called for by this scene, so that switching changes no equation: {names}."
+        worth = self._worth()
+        if worth:
+            yield together(worth)
+        if self.interactions:
+            yield self._interaction_words(bool(worth))
+        yield f"Cheapest sets whose change stays within {self.accuracy:g}:"
+        yield sets(self.cheapest)
+
+    def _interaction_words(self, found: bool) -> str:
+        if found:
+            words = "An interaction is what both change together beyond the sum of what each changes alone."
+        else:
+            words = (
+                f"None of {len(self.interactions)} pairs interacts: what both change is the sum of what each changes."
+            )
+        if self.untried:
+            words += f" {self.untried} further pairs, whose effects change less, were not tried."
+        return words
+
+    def _worth(self) -> list[tuple[Interaction, str]]:
+        """Interactions above the errors of the integration and a part of the accuracy, and the output where it is most so."""
+        errors = self.floor.largest
+        least = {name: max(WORTH * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
+        worth = []
+        for i in self.interactions:
+            where = max(i.size, key=lambda name: i.size[name] / least[name], default="")
+            if i.error or i.size[where] > least[where]:
+                worth.append((i, where))
+        return sorted(worth, key=lambda pair: -pair[0].size.get(pair[1], 0.0))
+
+    def _recommendation(self) -> Iterator[str]:
+        best, standing = self.cheapest[ALL], self.standing
+        if best.choices:
+            yield f"For all outputs: {_praise(best, self.reference)}."
+        else:
+            yield (
+                f"For all outputs together nothing can be left out: what saves time changes one of them by more than "
+                f"{self.accuracy:g}."
+            )
+        groups: dict[str, list[str]] = {}
+        for name, row in self.cheapest.items():
+            if name != ALL and row.choices != best.choices:
+                groups.setdefault(_praise(row, self.reference), []).append(name)
+        for words, names in groups.items():
+            yield f"For {' or '.join(names)} alone: {words}."
+        if not self.refused and not standing.error and standing.change() > self.accuracy:
+            yield (
+                f"The scene as it stands is not among them: it is {number(standing.change())} from the fullest "
+                f"({standing.worst})."
+            )
+        for name, error in self.floor.largest.items():
+            if error > self.accuracy:
+                yield (
+                    f"The integration itself is off by {number(error)} in {name}, so that smaller changes of it mean "
+                    f"nothing: take a smaller tolerance than {self.tolerance:g}, or leave that output out."
+                )
+        switched = " ".join(f"--set {path}={value}" for path, value in self.switched().items())
+        if switched:
+            yield f"From the scene as it stands to the set for all outputs: {switched}"
+
+
+def _praise(row: Row, reference: Row) -> str:
+    """Name a set and what it saves."""
+    if not row.choices:
+        return "all effects of the reference"
+    if as_fast(row, reference):
+        return f"{row.name}; {row.work:.2f} of the operations, as fast as far as can be told"
+    times = f"{reference.seconds / row.seconds:.2g} times faster"
+    return f"{row.name}; {times} ({row.seconds:.3g} s instead of {reference.seconds:.3g} s)"
+
+
+def _wrap(words: str) -> str:
+    return "\n".join(textwrap.wrap(words, WIDTH, break_on_hyphens=False, break_long_words=False))
