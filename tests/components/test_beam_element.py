@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from components.beam_element import element_matrices
+from components.beams.element import element_matrices
 
 xi = sp.Symbol("xi")
 ALONG = (1 - xi, 0, 0, xi, 0, 0, xi * (1 - xi))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import as_expr, atan2, chain, connect, observed, parts, structural
-from components.beam import Beam
-from components.flexible_beam import FlexibleBeam
+from components.beams.beam import Beam
+from components.beams.flexible_beam import FlexibleBeam
 
 
 class SubstructuredBeam(Beam):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from acausal import Scalar, effect, observed, parameter, sqrt, structural
-from components.beam_range import beam_range
+from components.beams.range import beam_range
 from components.frame import TwoFrames
 from components.orientation import resolve2
 
