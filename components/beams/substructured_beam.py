@@ -12,13 +12,6 @@ from components.beams.flexible_beam import FlexibleBeam
 class SubstructuredBeam(Beam):
     """Beam of several volumes, each a FlexibleBeam in a frame of its own: geometrically non-linear.
 
-    Parameters
-    ----------
-    length, E, rho, A, J, J_y, torsional_inertia, reference, alpha, beta, initial
-        As of FlexibleBeam, for the whole beam.
-    volumes, elements_per_volume : int
-        Number of volumes, and of finite elements in each.
-
     Notes
     -----
     Schiavo, Vigano, Ferretti 2006, section 3.4: the compatibility of the volumes is what connecting them means.
