@@ -56,11 +56,10 @@ def _type(cls: Any, name: str, field: f.Field) -> str:
     if choices or plain in PLAIN:
         return "bool" if choices else plain
     more = " or expression of time" if isinstance(field, f.Variable) else ""
-    if callable(field.shape):
-        return f"array{more}"
     if field.shape is None:
         return "object"
-    return (f"array, shape {field.shape}" if field.shape else "float") + more
+    shape = f", shape {field.shape}" if field.shape and not callable(field.shape) else ""
+    return f"{'array' if field.shape else 'float'}{more}{shape}"
 
 
 def _unit(field: f.Field) -> str:
