@@ -1,6 +1,7 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
 from components import rotational
+from components.beams import FlexibleBeam, SubstructuredBeam
 from components.body import Body
 from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
@@ -11,7 +12,6 @@ from components.driven_joint import DrivenJoint
 from components.fixed import Fixed
 from components.fixed_rotation import FixedRotation
 from components.flange import Flange, TwoFlanges
-from components.flexible_beam import FlexibleBeam
 from components.force import Force
 from components.frame import Frame, TwoFrames, move
 from components.line_force import LineForce
@@ -33,7 +33,6 @@ from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstra
 from components.spherical import Spherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
-from components.substructured_beam import SubstructuredBeam
 from components.torque import Torque
 from components.translation import FixedTranslation
 from components.translational_flange import TranslationalFlange

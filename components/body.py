@@ -34,22 +34,6 @@ from components.world import World
 class Body(Component):
     """Rigid body with mass, centre of mass and inertia; a body that nothing else guides moves freely.
 
-    Parameters
-    ----------
-    m : float
-        Mass in kg.
-    r_CM : array of 3 floats
-        Centre of mass from frame_a, resolved in frame_a, in m.
-    I : 3 x 3 array
-        Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2. It must be that of some body, but moments
-        about axes that the body does not turn about may be left 0.
-    angles_start, sequence_start, angles_fixed
-        Orientation of a freely moving body at the start: angles in rad about the axes of the sequence, a guess unless
-        angles_fixed. Joints that hold the body have start values of their own.
-    gyroscopic : bool
-        False leaves out the torque w x I w. Valid where w stays along a principal axis, or where that torque is small
-        against the others: in other motions the energy is no longer balanced, as a turning body does not precess.
-
     Notes
     -----
     f = m (a + z x r_CM + w x (w x r_CM) - g),  t = I z + w x I w + r_CM x f: Newton and Euler in body axes.
@@ -58,11 +42,28 @@ class Body(Component):
     ends = ("frame_a", "")
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=(0, 0, 0))
-    I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=np.zeros((3, 3)))
-    angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    I: Matrix33 = parameter(
+        "inertia tensor about the centre of mass",
+        unit="kg.m2",
+        default=np.zeros((3, 3)),
+        doc="Resolved in frame_a. It must be that of some body, but moments about axes that the body does not "
+        "turn about may be left 0.",
+    )
+    angles_start: Any = structural(
+        "angles at the start",
+        default=(0, 0, 0),
+        shape=(3,),
+        doc="In rad; the orientation of a freely moving body, a guess unless angles_fixed. Joints that hold the "
+        "body have start values of their own.",
+    )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
-    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True)
+    gyroscopic: bool = effect(
+        "gyroscopic torque w x I w",
+        default=True,
+        doc="False is valid where w stays along a principal axis, or where that torque is small against the "
+        "others: in other motions the energy is no longer balanced, as a turning body does not precess.",
+    )
     world: World = outer(World)
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")

@@ -27,34 +27,43 @@ PARALLEL = 1e-6  # sine of an angle below which two directions are one
 
 
 class BodyBox(TwoFrameBody):
-    """Box with its axis along r; mass, centre of mass and inertia follow from size and density.
+    """Box with its axis along r; mass, centre of mass and inertia follow from size and density."""
 
-    Parameters
-    ----------
-    r : array of 3 floats
-        From frame_a to frame_b along the axis, resolved in frame_a, in m; its entries that are 0 are structural.
-    width : float
-        Width in m along width_direction.
-    height : float
-        Height in m across both; default: width.
-    density : float
-        Density in kg/m3.
-    width_direction : array of 3 floats
-        Direction of the width, resolved in frame_a: its part across r counts. Default (0, 1, 0), or (1, 0, 0) if r
-        has no other part than y.
-    m, r_CM, I
-        Mass in kg, centre of mass from frame_a in m and inertia tensor about it in kg.m2, both resolved in frame_a;
-        given instead of the values of the box.
-    """
-
-    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
-    width: Scalar = parameter("width", unit="m", positive=True)
-    height: Scalar = parameter("height", unit="m", default=lambda s: s.width, positive=True)
+    r: Vector3 = parameter(
+        "from frame_a to frame_b, resolved in frame_a",
+        unit="m",
+        doc="It is the axis of the box; its entries that are 0 are structural.",
+    )
+    width: Scalar = parameter("width", unit="m", positive=True, doc="It lies along width_direction.")
+    height: Scalar = parameter(
+        "height",
+        unit="m",
+        default=lambda s: s.width,
+        positive=True,
+        doc="It lies across r and the width, and is equal to the width if not given.",
+    )
     density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
-    width_direction: Any = structural("direction of the width, resolved in frame_a", default=None)
-    m: Scalar = parameter("mass", unit="kg", default=lambda s: s.density * s.length * s.width * s.height, minimum=0)
-    r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
-    I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.box_inertia())
+    width_direction: Any = structural(
+        "direction of the width, resolved in frame_a",
+        default=None,
+        doc="Its part across r counts; (0, 1, 0) if not given, or (1, 0, 0) if r has no other part than y.",
+    )
+    m: Scalar = parameter(
+        "mass",
+        unit="kg",
+        default=lambda s: s.density * s.length * s.width * s.height,
+        minimum=0,
+        doc="That of the box if not given.",
+    )
+    r_CM: Vector3 = parameter(
+        "centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2, doc="That of the box if not given."
+    )
+    I: Matrix33 = parameter(
+        "inertia tensor about the centre of mass",
+        unit="kg.m2",
+        default=lambda s: s.box_inertia(),
+        doc="Resolved in frame_a; that of the box if not given.",
+    )
 
     def requirements(self):
         name = self._path or "BodyBox"

@@ -12,29 +12,30 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyCylinder(TwoFrameBody):
-    """Cylinder with its axis along r; mass, centre of mass and inertia follow from size and density.
+    """Cylinder with its axis along r; mass, centre of mass and inertia follow from size and density."""
 
-    Parameters
-    ----------
-    r : array of 3 floats
-        From frame_a to frame_b along the axis, resolved in frame_a, in m; its entries that are 0 are structural.
-    diameter, inner_diameter : float
-        Outer diameter in m, and inner diameter of a pipe.
-    density : float
-        Density in kg/m3.
-    m, r_CM, I
-        Mass in kg, centre of mass from frame_a in m and inertia tensor about it in kg.m2, both resolved in frame_a;
-        given instead of the values of the cylinder.
-    """
-
-    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
+    r: Vector3 = parameter(
+        "from frame_a to frame_b, resolved in frame_a",
+        unit="m",
+        doc="It is the axis of the cylinder; its entries that are 0 are structural.",
+    )
     diameter: Scalar = parameter("outer diameter", unit="m", positive=True)
-    inner_diameter: Scalar = parameter("inner diameter", unit="m", default=0, minimum=0)
+    inner_diameter: Scalar = parameter("inner diameter", unit="m", default=0, minimum=0, doc="Not 0 for a pipe.")
     density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
-    m: Scalar = parameter("mass", unit="kg", default=lambda s: s.cylinder_mass(), minimum=0)
-    r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2)
+    m: Scalar = parameter(
+        "mass", unit="kg", default=lambda s: s.cylinder_mass(), minimum=0, doc="That of the cylinder if not given."
+    )
+    r_CM: Vector3 = parameter(
+        "centre of mass, resolved in frame_a",
+        unit="m",
+        default=lambda s: s.r / 2,
+        doc="That of the cylinder if not given.",
+    )
     I: Matrix33 = parameter(
-        "inertia tensor about the centre of mass", unit="kg.m2", default=lambda s: s.cylinder_inertia()
+        "inertia tensor about the centre of mass",
+        unit="kg.m2",
+        default=lambda s: s.cylinder_inertia(),
+        doc="Resolved in frame_a; that of the cylinder if not given.",
     )
 
     def requirements(self):

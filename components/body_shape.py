@@ -9,21 +9,11 @@ from components.two_frame_body import TwoFrameBody
 
 
 class BodyShape(TwoFrameBody):
-    """Rigid body with mass and inertia, and with frame_b at r from frame_a.
-
-    Parameters
-    ----------
-    r : array of 3 floats
-        From frame_a to frame_b, resolved in frame_a, in m.
-    m : float
-        Mass in kg.
-    r_CM : array of 3 floats
-        Centre of mass from frame_a, resolved in frame_a, in m.
-    I : 3 x 3 array
-        Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2.
-    """
+    """Rigid body with mass and inertia, and with frame_b at r from frame_a."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
     m: Scalar = parameter("mass", unit="kg", minimum=0)
     r_CM: Vector3 = parameter("centre of mass, resolved in frame_a", unit="m", default=(0, 0, 0))
-    I: Matrix33 = parameter("inertia tensor about the centre of mass", unit="kg.m2", default=np.zeros((3, 3)))
+    I: Matrix33 = parameter(
+        "inertia tensor about the centre of mass", unit="kg.m2", default=np.zeros((3, 3)), doc="Resolved in frame_a."
+    )

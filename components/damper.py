@@ -7,13 +7,7 @@ from components.line_force import LineForce
 
 
 class Damper(LineForce):
-    """Linear damper along the line from frame_a to frame_b.
-
-    Parameters
-    ----------
-    d : float
-        Damping constant in N.s/m.
-    """
+    """Linear damper along the line from frame_a to frame_b."""
 
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
 

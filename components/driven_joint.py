@@ -10,21 +10,18 @@ from components.world import require_direction
 
 
 class DrivenJoint(TwoFrames):
-    """Base of joints along or about an axis n; a subclass declares n, d, compliance and its own motion.
+    """Base of joints along or about an axis n; a subclass declares n, d, compliance and its own motion."""
 
-    Parameters
-    ----------
-    use_axis_flange : bool
-        True gives the joint a drive `axis` and the housing of the drive, `support`.
-    friction : bool
-        False leaves out viscous and dry friction.
-    elasticity : bool
-        False makes the drive rigid, whatever its compliance.
-    """
-
-    use_axis_flange: bool = structural("whether the joint has a drive", default=False, choices=(True, False))
-    friction: bool = effect("friction in the joint", default=True)
-    elasticity: bool = effect("compliance of the drive", default=True)
+    use_axis_flange: bool = structural(
+        "whether the joint has a drive",
+        default=False,
+        choices=(True, False),
+        doc="True gives the joint a drive `axis` and the housing of the drive, `support`.",
+    )
+    friction: bool = effect("friction in the joint", default=True, doc="False leaves out viscous and dry friction.")
+    elasticity: bool = effect(
+        "compliance of the drive", default=True, doc="False makes the drive rigid, whatever its compliance."
+    )
     n: Any
     d: Any
     compliance: Any

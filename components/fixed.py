@@ -9,13 +9,7 @@ from components.frame import Frame
 
 
 class Fixed(Component):
-    """Frame_b stands still at r, with the axes of the world.
-
-    Parameters
-    ----------
-    r : array of 3 floats
-        Position of frame_b, resolved in the world, in m.
-    """
+    """Frame_b stands still at r, with the axes of the world."""
 
     ends = ("", "frame_b")
     r: Vector3 = parameter("position of frame_b, resolved in the world", unit="m", default=(0, 0, 0))

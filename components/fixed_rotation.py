@@ -11,21 +11,13 @@ from components.world import require_direction
 
 
 class FixedRotation(TwoFrames):
-    """Frame_b is fixed at r from frame_a and turned by a constant angle about n.
-
-    Parameters
-    ----------
-    r : array of 3 floats
-        From frame_a to frame_b, resolved in frame_a, in m.
-    n : array of 3 floats
-        Axis of rotation, the same in frame_a and frame_b; any length but 0.
-    angle : float
-        Angle from frame_a to frame_b about n, in rad.
-    """
+    """Frame_b is fixed at r from frame_a and turned by a constant angle about n."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m", default=(0, 0, 0))
-    n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,))
-    angle: Any = structural("angle of rotation about n, in rad", default=0.0, shape=())
+    n: Any = structural(
+        "axis of rotation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+    )
+    angle: Any = structural("angle of rotation about n, in rad", default=0.0, shape=(), doc="From frame_a to frame_b.")
 
     def check(self) -> None:
         """Refuse an axis of length 0."""

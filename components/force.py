@@ -8,15 +8,7 @@ from components.orientation import resolve1, resolve2
 
 
 class Force(TwoFrames):
-    """Force that acts at the origin of frame_b, and in the opposite sense, on the same line, on frame_a.
-
-    Parameters
-    ----------
-    force : array of 3 floats or expressions of time
-        Force at frame_b in N.
-    resolve_in_frame : "frame_b", "frame_a" or "world"
-        Where `force` is resolved.
-    """
+    """Force that acts at the origin of frame_b, and in the opposite sense, on the same line, on frame_a."""
 
     force: Vector3 = input("force at frame_b, resolved in resolve_in_frame", unit="N")
     resolve_in_frame: str = structural(

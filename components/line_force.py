@@ -12,18 +12,19 @@ from components.orientation import resolve1, resolve2
 class LineForce(TwoFrames):
     """Base of forces along the line from frame_a to frame_b; a subclass states what f is.
 
-    Parameters
-    ----------
-    s_small : float
-        Least length in m that the direction of the line is divided by.
-
     Notes
     -----
     No branch: the component relates no orientations, each end must be held by something else. Where the ends meet in a
     run with a force that is not 0 there, the run ends with a SimulationError: the line has no direction there.
     """
 
-    s_small: Scalar = parameter("least length that is divided by", unit="m", default=1e-10, positive=True)
+    s_small: Scalar = parameter(
+        "least length that is divided by",
+        unit="m",
+        default=1e-10,
+        positive=True,
+        doc="The direction of the line is divided by no less.",
+    )
     s: Scalar = variable("length of the line", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
     f: Scalar = variable("force along the line, positive if it pulls the ends together", unit="N")

@@ -12,26 +12,23 @@ from components.translational_flange import TranslationalFlange
 
 
 class Prismatic(DrivenJoint):
-    """Prismatic joint: frame_b slides relative to frame_a along the axis n.
+    """Prismatic joint: frame_b slides relative to frame_a along the axis n."""
 
-    Parameters
-    ----------
-    n : array of 3 floats
-        Axis of translation, the same in frame_a and frame_b; any length but 0.
-    d : float
-        Viscous friction in N.s/m.
-    f_dry, v_dry : float
-        Dry friction in N, and the speed in m/s below which it fades: d v + f_dry tanh(v / v_dry) acts against v. It
-        creeps where it should stick.
-    compliance : float
-        Of the drive, in m/N: axis.s - s = compliance f; 0 is rigid.
-    """
-
-    n: Any = structural("axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,))
+    n: Any = structural(
+        "axis of translation, the same in frame_a and frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+    )
     d: Scalar = parameter("viscous friction", unit="N.s/m", default=0, minimum=0)
-    f_dry: Scalar = parameter("dry friction", unit="N", default=0, minimum=0)
+    f_dry: Scalar = parameter(
+        "dry friction",
+        unit="N",
+        default=0,
+        minimum=0,
+        doc="d v + f_dry tanh(v / v_dry) acts against v. It creeps where it should stick.",
+    )
     v_dry: Scalar = parameter("speed below which dry friction fades", unit="m/s", default=1e-3, positive=True)
-    compliance: Scalar = parameter("compliance of the drive", unit="m/N", default=0, minimum=0)
+    compliance: Scalar = parameter(
+        "compliance of the drive", unit="m/N", default=0, minimum=0, doc="axis.s - s = compliance f; 0 is rigid."
+    )
     s: Scalar = variable("distance from frame_a to frame_b along n", unit="m", select=PREFER)
     v: Scalar = variable("der(s)", unit="m/s", select=PREFER)
     a: Scalar = variable("der(v)", unit="m/s2")

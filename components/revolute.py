@@ -12,26 +12,28 @@ from components.orientation import planar_rotation, resolve1, unit_vector
 
 
 class Revolute(DrivenJoint):
-    """Revolute joint: frame_b turns relative to frame_a about the axis n.
+    """Revolute joint: frame_b turns relative to frame_a about the axis n."""
 
-    Parameters
-    ----------
-    n : array of 3 floats
-        Axis of rotation, the same in frame_a and frame_b; any length but 0.
-    d : float
-        Viscous friction in N.m.s/rad.
-    tau_dry, w_dry : float
-        Dry friction in N.m, and the speed in rad/s below which it fades: d w + tau_dry tanh(w / w_dry) acts against w.
-        It creeps where it should stick; components.rotational.Friction sticks.
-    compliance : float
-        Of the drive, in rad/(N.m): axis.phi - phi = compliance tau; 0 is rigid.
-    """
-
-    n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
+    n: Any = structural(
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+    )
     d: Scalar = parameter("viscous friction", unit="N.m.s/rad", default=0, minimum=0)
-    tau_dry: Scalar = parameter("dry friction", unit="N.m", default=0, minimum=0)
+    tau_dry: Scalar = parameter(
+        "dry friction",
+        unit="N.m",
+        default=0,
+        minimum=0,
+        doc="d w + tau_dry tanh(w / w_dry) acts against w. It creeps where it should stick; "
+        "components.rotational.Friction sticks.",
+    )
     w_dry: Scalar = parameter("speed below which dry friction fades", unit="rad/s", default=1e-2, positive=True)
-    compliance: Scalar = parameter("compliance of the drive", unit="rad/(N.m)", default=0, minimum=0)
+    compliance: Scalar = parameter(
+        "compliance of the drive",
+        unit="rad/(N.m)",
+        default=0,
+        minimum=0,
+        doc="axis.phi - phi = compliance tau; 0 is rigid.",
+    )
     phi: Scalar = variable("angle from frame_a to frame_b", unit="rad", select=PREFER)
     w: Scalar = variable("der(phi)", unit="rad/s", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")

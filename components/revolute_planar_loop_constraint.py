@@ -15,18 +15,15 @@ from components.world import require_direction
 class RevolutePlanarLoopConstraint(TwoFrames):
     """Holds the origins of both frames together in the plane across n, and nothing else.
 
-    Parameters
-    ----------
-    n : array of 3 floats
-        Axis of rotation, the same in frame_a and frame_b; any length but 0.
-
     Notes
     -----
     For those who expect it from Modelica's library: a loop closed by a Revolute works as well. No branch: both frames
     must be held by the rest of a mechanism that moves across n only. No force along n and no torque is transmitted.
     """
 
-    n: Any = structural("axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,))
+    n: Any = structural(
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+    )
     f_c: Any = variable("constraint forces across n, along the two directions of across()", unit="N", shape=(2,))
 
     def check(self) -> None:

@@ -19,26 +19,25 @@ from components.orientation import (
 class Spherical(TwoFrames):
     """Spherical joint: the origins coincide, frame_b turns freely relative to frame_a.
 
-    Parameters
-    ----------
-    angles_start, sequence_start, angles_fixed
-        Orientation of frame_b relative to frame_a at the start: angles in rad about the axes of the sequence.
-    Q_start : array of 4 floats
-        The same as a quaternion (vector part, scalar part); default: from the angles.
-
     Notes
     -----
     The states are a quaternion, which has no singular position, and w_rel.
     """
 
     start_words: ClassVar[dict[str, str]] = {"Q": "angles_fixed=True"}
-    angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    angles_start: Any = structural(
+        "angles at the start",
+        default=(0, 0, 0),
+        shape=(3,),
+        doc="In rad; the orientation of frame_b relative to frame_a.",
+    )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     Q_start: Any = structural(
         "quaternion of these angles",
         default=lambda s: quaternion_of(axes_rotations(s.sequence_start, s.angles_start)),
         shape=(4,),
+        doc="Vector part, scalar part; from the angles if not given.",
     )
     Q: Any = variable("quaternion from frame_a to frame_b", shape=(4,), start=Q_start, select=PREFER)
     w_rel: Vector3 = variable("angular velocity from frame_a, resolved in frame_b", unit="rad/s", select=PREFER)

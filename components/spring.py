@@ -7,18 +7,12 @@ from components.line_force import LineForce
 
 
 class Spring(LineForce):
-    """Linear spring along the line from frame_a to frame_b.
-
-    Parameters
-    ----------
-    c : float
-        Spring constant in N/m.
-    s_unstretched : float
-        Length in m at which it bears no force.
-    """
+    """Linear spring along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
-    s_unstretched: Scalar = parameter("unstretched length", unit="m", default=0, minimum=0)
+    s_unstretched: Scalar = parameter(
+        "unstretched length", unit="m", default=0, minimum=0, doc="There it bears no force."
+    )
 
     def law(self):
         """Hooke's law."""

@@ -7,19 +7,13 @@ from components.line_force import LineForce
 
 
 class SpringDamperParallel(LineForce):
-    """Linear spring and linear damper along the line from frame_a to frame_b.
-
-    Parameters
-    ----------
-    c, d : float
-        Spring constant in N/m, damping constant in N.s/m.
-    s_unstretched : float
-        Length in m at which the spring bears no force.
-    """
+    """Linear spring and linear damper along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
-    s_unstretched: Scalar = parameter("unstretched length", unit="m", default=0, minimum=0)
+    s_unstretched: Scalar = parameter(
+        "unstretched length", unit="m", default=0, minimum=0, doc="There the spring bears no force."
+    )
 
     def law(self):
         """Hooke's law, and a force in proportion to the speed."""

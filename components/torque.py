@@ -8,15 +8,7 @@ from components.orientation import resolve1, resolve2
 
 
 class Torque(TwoFrames):
-    """Torque that acts at frame_b, and in the opposite sense at frame_a.
-
-    Parameters
-    ----------
-    torque : array of 3 floats or expressions of time
-        Torque at frame_b in N.m.
-    resolve_in_frame : "frame_b", "frame_a" or "world"
-        Where `torque` is resolved.
-    """
+    """Torque that acts at frame_b, and in the opposite sense at frame_a."""
 
     torque: Vector3 = input("torque at frame_b, resolved in resolve_in_frame", unit="N.m")
     resolve_in_frame: str = structural(

@@ -8,13 +8,7 @@ from components.orientation import null_rotation
 
 
 class FixedTranslation(TwoFrames):
-    """Frame_b is fixed at r from frame_a, with the same axes.
-
-    Parameters
-    ----------
-    r : array of 3 floats
-        From frame_a to frame_b, resolved in frame_a, in m.
-    """
+    """Frame_b is fixed at r from frame_a, with the same axes."""
 
     r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
 

@@ -12,20 +12,17 @@ from components.translation import FixedTranslation
 
 
 class TwoFrameBody(TwoFrames):
-    """Base of rigid bodies with frame_a and, at r from it, frame_b; a subclass declares r, m, r_CM and I.
+    """Base of rigid bodies with frame_a and, at r from it, frame_b; a subclass declares r, m, r_CM and I."""
 
-    Parameters
-    ----------
-    angles_start, sequence_start, angles_fixed
-        Orientation of a freely moving body at the start: angles in rad about the axes of the sequence.
-    gyroscopic : bool
-        False leaves out the torque w x I w, as of Body.
-    """
-
-    angles_start: Any = structural("angles at the start", default=(0, 0, 0), shape=(3,))
+    angles_start: Any = structural(
+        "angles at the start",
+        default=(0, 0, 0),
+        shape=(3,),
+        doc="In rad; the orientation of a freely moving body, as of Body.",
+    )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
-    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True)
+    gyroscopic: bool = effect("gyroscopic torque w x I w", default=True, doc="False leaves it out, as of Body.")
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")

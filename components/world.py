@@ -12,25 +12,29 @@ from components.orientation import unit_vector
 
 
 class World(Component):
-    """The inertial frame, and the field of gravity that acts on all bodies. Every model has exactly one.
-
-    Parameters
-    ----------
-    gravity : "uniform", "point" or None
-        Kind of the field: g n everywhere, -mu r / |r|^3, or none.
-    g : float
-        Acceleration of uniform gravity in m/s2.
-    n : array of 3 floats
-        Direction of uniform gravity, resolved in the world; any length but 0.
-    mu : float
-        Gravity constant of the central body in m3/s2 for point gravity.
-    """
+    """The inertial frame, and the field of gravity that acts on all bodies. Every model has exactly one."""
 
     ends = ("", "frame_b")
-    gravity: Any = effect("gravity", default="uniform", choices=("uniform", "point", None), tries=(None,))
-    g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665)
-    n: Any = structural("direction of gravity, resolved in the world", default=(0, -1, 0), shape=(3,))
-    mu: Scalar = parameter("gravity constant of the central body", unit="m3/s2", default=3.986004418e14)
+    gravity: Any = effect(
+        "gravity",
+        default="uniform",
+        choices=("uniform", "point", None),
+        tries=(None,),
+        doc="uniform: g n everywhere; point: -mu r / |r|^3.",
+    )
+    g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665, doc="Where it is uniform.")
+    n: Any = structural(
+        "direction of gravity, resolved in the world",
+        default=(0, -1, 0),
+        shape=(3,),
+        doc="Where it is uniform; any length but 0.",
+    )
+    mu: Scalar = parameter(
+        "gravity constant of the central body",
+        unit="m3/s2",
+        default=3.986004418e14,
+        doc="Where gravity is that of a point.",
+    )
     frame_b: Frame = port(Frame, "the inertial frame")
 
     def check(self) -> None:

@@ -8,15 +8,7 @@ from components.orientation import resolve2
 
 
 class WorldTorque(Component):
-    """Torque from outside of the model that acts at frame_b.
-
-    Parameters
-    ----------
-    torque : array of 3 floats or expressions of time
-        Torque in N.m.
-    resolve_in_frame : "world" or "frame_b"
-        Where `torque` is resolved.
-    """
+    """Torque from outside of the model that acts at frame_b."""
 
     ends = ("frame_b", "frame_b")
     torque: Vector3 = input("torque, resolved in resolve_in_frame", unit="N.m")

@@ -10,7 +10,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy.sparse as sparse
+import scipy
 
 from acausal.compiler.call import Call
 from acausal.compiler.closing import Closing
@@ -38,7 +38,7 @@ class Local:
     """
 
     value: np.ndarray
-    jacobian: sparse.csc_matrix
+    jacobian: scipy.sparse.csc_matrix
 
 
 @dataclass
@@ -185,7 +185,7 @@ class CompiledModel:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, modes, flag)
         rows, starts, shape = self._pattern
-        return Local(value.copy(), sparse.csc_matrix((entries.copy(), rows, starts), shape=shape))
+        return Local(value.copy(), scipy.sparse.csc_matrix((entries.copy(), rows, starts), shape=shape))
 
     @cached_property
     def _pattern(self) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:

@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from networkx.utils import UnionFind
-
 from acausal.errors import ConnectError
 from acausal.flatten.origin import Origin, line_of, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut, spanning_tree
@@ -70,12 +68,9 @@ def build_graph(components: list[Component]) -> Graph:
         for part in cut.loop:
             part._in_loop = True
     cut_ids = {id(cut.statement) for cut in cuts}
-    same = UnionFind(connectors)
-    for _, statement, _ in connects:
-        if id(statement) not in cut_ids:
-            same.union(statement.a, statement.b)
+    same = _sets(connectors, [(s.a, s.b) for _, s, _ in connects if id(s) not in cut_ids])
     order = {id(c): k for k, c in enumerate(connectors)}
-    groups = [tuple(sorted(group, key=lambda c: order[id(c)])) for group in same.to_sets()]
+    groups = [tuple(sorted(group, key=lambda c: order[id(c)])) for group in same]
     groups.sort(key=lambda group: order[id(group[0])])
     joined = {id(port) for _, statement, _ in connects for port in (statement.a, statement.b)}
     alone = tuple(c._path for c in connectors if id(c) not in joined and c._owner is not None)
@@ -128,6 +123,16 @@ def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
         seen[pair] = where
 
 
+def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
+    """Sets of members that pairs join."""
+    from networkx.utils import UnionFind
+
+    union = UnionFind(members)
+    for a, b in pairs:
+        union.union(a, b)
+    return list(union.to_sets())
+
+
 def _balances(
     connectors: list[Connector], connects: list[tuple[Component, Connect, str]], order: dict[int, int]
 ) -> list[tuple[tuple[Connector, int], ...]]:
@@ -135,10 +140,8 @@ def _balances(
 
     Modelica specification, 9.2.
     """
-    faces: UnionFind = UnionFind((c, False) for c in connectors)
-    for component, statement, _ in connects:
-        a, b = ((port, port._owner is component) for port in (statement.a, statement.b))
-        faces.union(a, b)
-    sets = [sorted(s, key=lambda face: order[id(face[0])]) for s in faces.to_sets()]
+    joined = [((s.a, s.a._owner is component), (s.b, s.b._owner is component)) for component, s, _ in connects]
+    faces = _sets([(c, False) for c in connectors], joined)
+    sets = [sorted(s, key=lambda face: order[id(face[0])]) for s in faces]
     sets.sort(key=lambda s: order[id(s[0][0])])
     return [tuple((connector, -1 if outside else 1) for connector, outside in s) for s in sets]

@@ -11,6 +11,7 @@ from acausal.errors import DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.body import read_body
+from acausal.language.docstring import with_parameters
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.slips import SETTINGS
@@ -55,6 +56,7 @@ class Component(f.Template):
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         read_body(cls)
+        cls.__doc__ = with_parameters(cls)
 
     def __init__(self, **values: Any) -> None:
         self._origin = _constructed_at(self)

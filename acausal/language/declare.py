@@ -53,6 +53,7 @@ def structural(
     minimum: float | None = None,
     shape: Shape = None,
     refine: Callable[[Any], bool] | None = None,
+    doc: str = "",
 ) -> Any:
     """Declare a structural parameter: fixed when the model is compiled, a plain Python value in equations().
 
@@ -71,9 +72,11 @@ def structural(
     refine : callable, optional
         Given for a number of elements, of which more bring the component nearer to its continuum: a function of the
         component that tells whether simulate(accuracy=...) may choose it.
+    doc : str, optional
+        More about it, for the docstring of the class alone.
     """
     allowed = tuple(choices) if choices else None
-    return Structural(description, None, shape, default, choices=allowed, minimum=minimum, refine=refine)
+    return Structural(description, None, shape, default, choices=allowed, minimum=minimum, refine=refine, doc=doc)
 
 
 def effect(
@@ -82,6 +85,7 @@ def effect(
     default: Any = True,
     choices: Sequence[Any] = (True, False),
     tries: Sequence[Any] | None = None,
+    doc: str = "",
 ) -> Any:
     """Declare a physical effect that can be switched: a structural parameter that the tool can list and price.
 
@@ -95,9 +99,11 @@ def effect(
         The allowed values, the most complete first.
     tries : sequence, optional
         The choices that a study of effects tries beside the one in force, all if not given.
+    doc : str, optional
+        More about it, for the docstring of the class alone.
     """
     allowed, tried = tuple(choices), None if tries is None else tuple(tries)
-    return Structural(description, None, None, default, choices=allowed, effect=True, tries=tried)
+    return Structural(description, None, None, default, choices=allowed, effect=True, tries=tried, doc=doc)
 
 
 def parameter(
@@ -108,6 +114,7 @@ def parameter(
     shape: Shape = None,
     minimum: float | None = None,
     positive: bool = False,
+    doc: str = "",
 ) -> Any:
     """Declare a parameter: changeable after compiling, except for entries that are exactly 0 when compiled.
 
@@ -125,8 +132,10 @@ def parameter(
         Least allowed value of every entry.
     positive : bool
         True if every entry must be greater than 0.
+    doc : str, optional
+        More about it, for the docstring of the class alone.
     """
-    return Parameter(description, unit, shape, default, minimum=minimum, positive=positive)
+    return Parameter(description, unit, shape, default, minimum=minimum, positive=positive, doc=doc)
 
 
 def variable(
@@ -182,9 +191,9 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
     return Variable(description, unit, shape, start=start, causality="discrete")
 
 
-def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
+def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0, doc: str = "") -> Any:
     """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
-    return Variable(description, unit, shape, start=start, causality="input")
+    return Variable(description, unit, shape, start=start, causality="input", doc=doc)
 
 
 def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = None) -> Any:

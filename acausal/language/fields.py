@@ -130,6 +130,7 @@ class Field(Deferrable):
     shape: Shape = None
     default: Any = MISSING
     name: str = ""
+    doc: str = ""  # what only the docstring of the class tells beyond the description
 
     def __set_name__(self, owner: type, name: str) -> None:
         # Under a second name it is a reference to the first: `load = R.spare`.

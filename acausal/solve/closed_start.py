@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse.linalg import splu
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
@@ -100,7 +100,7 @@ def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) ->
     J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     try:
-        dz = -splu(inner).solve(right) if nz else right
+        dz = -scipy.sparse.linalg.splu(inner).solve(right) if nz else right
     except RuntimeError:
         dz = -np.linalg.lstsq(inner.toarray(), right, rcond=RANK)[0]
     return M, J[rows][:, free].toarray() + J[rows][:, nx:] @ dz

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
@@ -98,7 +98,7 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tu
             continue
         options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
         options["jac"] = lambda u: evaluate(u)[1]
-        u = least_squares(lambda u: evaluate(u)[0], start, **options).x
+        u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
             best, smallest = u, left

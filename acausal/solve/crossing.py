@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from acausal.solve.hermite import coefficients, cubic
 
@@ -70,4 +70,4 @@ def root(times: tuple[float, float], value: tuple[float, float], rate: tuple[flo
     c3, c2 = coefficients(a, b, da, db)
     if b >= 0:
         return times[1]
-    return times[0] + h * float(brentq(lambda s: ((c3 * s + c2) * s + da) * s + a, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]
+    return times[0] + h * float(scipy.optimize.brentq(lambda s: ((c3 * s + c2) * s + da) * s + a, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.solve.consistent import Consistent
@@ -67,7 +67,7 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
     at : array, shape (n,)
         Times in s.
     """
-    return make_interp_spline(times, power, 5).antiderivative()(at)
+    return scipy.interpolate.make_interp_spline(times, power, 5).antiderivative()(at)
 
 
 def refined(
@@ -186,7 +186,7 @@ def _seen(
         rates[ends] = solver.rates(x[ends], z[ends], t[ends], modes)
     probes = _inside((x, z, t, modes), rates, s)
     true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], modes)
-    missed = np.abs(make_interp_spline(times, power, 5)(probes[2]) - true)
+    missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(probes[2]) - true)
     return bool(np.all(missed <= ALIKE * np.max(np.abs(power), axis=0)))
 
 

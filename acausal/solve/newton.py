@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
+import scipy
 
 from acausal.errors import InitializationError
 from acausal.solve.problem import Point, Problem
@@ -116,7 +115,7 @@ def algebraic(problem: Problem, at: Point) -> Point:
     return newton(problem, system, at, 0.0)
 
 
-def _is_rounding(value: np.ndarray, J: sparse.csc_matrix, y: np.ndarray) -> bool:
+def _is_rounding(value: np.ndarray, J: scipy.sparse.csc_matrix, y: np.ndarray) -> bool:
     """Whether residuals are no larger than the rounding of their terms; stiff parts make unknowns follow it."""
     return bool(np.all(np.abs(value) <= TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y) + 1)))
 
@@ -125,9 +124,9 @@ def _is_range(indices: np.ndarray) -> bool:
     return bool(np.all(np.diff(indices) == 1))
 
 
-def _factor(J: sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
+def _factor(J: scipy.sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
     try:
-        return splu(J.tocsc(), permc_spec=order).solve
+        return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
     except (RuntimeError, ValueError):
         pass
     # Singular here, or with rows to spare: the step of least norm, if there is one, leads on.

@@ -11,8 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_matrix, diags
-from scipy.sparse.linalg import splu
+import scipy
 
 from acausal.solve.problem import Point, Problem
 from acausal.solve.tangent import tangent
@@ -43,15 +42,15 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
         N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()
-    inner = splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
+    inner = scipy.sparse.linalg.splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
     to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]
 
     def rate(v: np.ndarray) -> np.ndarray:
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
     shift = 1e-9 * max(abs(J.data).max(), 1.0)
-    diagonal = diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
-    outer = splu((J - diagonal).tocsc()).solve
+    diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
+    outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
     def inverse(v: np.ndarray) -> np.ndarray:
         return outer(np.r_[v, np.zeros(nz)])[:nx]
@@ -82,10 +81,10 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
 
 def state_matrix(J: Any, nx: int) -> np.ndarray:
     """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
-    J = csc_matrix(J)
+    J = scipy.sparse.csc_matrix(J)
     f, g = J[:nx], J[nx:]
     own, right = f[:, :nx].toarray(), g[:, :nx].toarray()
-    return own - f[:, nx:] @ splu(g[:, nx:].tocsc()).solve(right) if g.shape[0] else own
+    return own - f[:, nx:] @ scipy.sparse.linalg.splu(g[:, nx:].tocsc()).solve(right) if g.shape[0] else own
 
 
 def order_limit(values: np.ndarray, duration: float) -> int:

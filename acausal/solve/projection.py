@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
@@ -158,7 +158,7 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
         block = D[active][:, columns]
         order = pivots(block)[: len(active)]
         size = np.abs(block[:, order])
-        pairs = linear_sum_assignment(-np.log(np.maximum(size, 1e-300)))
+        pairs = scipy.optimize.linear_sum_assignment(-np.log(np.maximum(size, 1e-300)))
         for r, k in zip(*pairs, strict=True):
             selection[active[r], columns[order[k]]] = 1.0
     return selection

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.linalg import qr, svd
+import scipy
 
 RANK = 1e-9
 
@@ -18,7 +18,9 @@ def scaled(rows: np.ndarray) -> np.ndarray:
 
 def rank(rows: np.ndarray, tolerance: float = RANK) -> int:
     """Number of independent rows."""
-    return int(np.sum(svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
+    return (
+        int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
+    )
 
 
 def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
@@ -33,15 +35,15 @@ def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
     """
     if not rows.size:
         return np.eye(rows.shape[1])
-    return svd(scaled(rows))[2][rank(rows) if independent is None else independent :]
+    return scipy.linalg.svd(scaled(rows))[2][rank(rows) if independent is None else independent :]
 
 
 def row_space(rows: np.ndarray) -> np.ndarray:
     """Orthonormal rows that span the given ones."""
-    return svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
+    return scipy.linalg.svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
 
 
 def pivots(matrix: np.ndarray) -> np.ndarray:
     """Columns in the order in which a QR factorisation with column pivoting takes them."""
-    factors: Any = qr(matrix, mode="r", pivoting=True)
+    factors: Any = scipy.linalg.qr(matrix, mode="r", pivoting=True)
     return np.asarray(factors[1], dtype=int)

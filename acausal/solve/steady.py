@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse.linalg import splu
+import scipy
 
 from acausal.errors import InitializationError, caution
 from acausal.solve.at_rest import at_rest, kinematic, meters, refuse_motion
@@ -276,6 +276,6 @@ def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
 
 def _solve(matrix, right: np.ndarray) -> np.ndarray:
     try:
-        return splu(matrix).solve(right)
+        return scipy.sparse.linalg.splu(matrix).solve(right)
     except RuntimeError:
         return np.linalg.lstsq(matrix.toarray(), right, rcond=RANK)[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from heapq import heapify, heappop, heappush
 
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from acausal.structure.block import Block
 from acausal.structure.incidence import Rows, sparse
@@ -25,7 +25,7 @@ def block_triangular(rows: Rows, pairs: Iterable[tuple[int, int]]) -> tuple[Bloc
     ordered = sorted((equation, variable) for variable, equation in pairs)
     position = {variable: k for k, (_, variable) in enumerate(ordered)}
     needs = [[position[v] for v in rows[e] if v in position] for e, _ in ordered]
-    count, labels = connected_components(sparse(needs, len(needs)), connection="strong")
+    count, labels = scipy.sparse.csgraph.connected_components(sparse(needs, len(needs)), connection="strong")
     members: list[list[int]] = [[] for _ in range(count)]
     for k, label in enumerate(labels.tolist()):
         members[label].append(k)

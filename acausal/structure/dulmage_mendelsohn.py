@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from acausal.structure.incidence import Rows, sparse, transpose
 from acausal.structure.matching import maximum_matching
@@ -42,7 +42,7 @@ def components(rows: Rows, part: Part) -> tuple[Part, ...]:
     position = {variable: len(part.equations) + k for k, variable in enumerate(part.variables)}
     n = len(position) + len(part.equations)
     graph = [[position[v] for v in rows[e] if v in position] for e in part.equations] + [[] for _ in position]
-    count, labels = connected_components(sparse(graph, n), directed=False)
+    count, labels = scipy.sparse.csgraph.connected_components(sparse(graph, n), directed=False)
     found: list[tuple[list[int], list[int]]] = [([], []) for _ in range(count)]
     for label, equation in zip(labels, part.equations, strict=False):
         found[label][0].append(equation)

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from itertools import chain
 
 import numpy as np
-from scipy.sparse import csr_array
+import scipy
 
 Rows = Sequence[Sequence[int]]
 
 
-def sparse(rows: Rows, n_columns: int) -> csr_array:
+def sparse(rows: Rows, n_columns: int) -> scipy.sparse.csr_array:
     """Pattern of `rows` as a matrix of ones.
 
     Returns
@@ -22,7 +22,9 @@ def sparse(rows: Rows, n_columns: int) -> csr_array:
     pointer = np.zeros(len(rows) + 1, dtype=np.int32)
     np.cumsum([len(row) for row in rows], out=pointer[1:])
     indices = np.fromiter(chain.from_iterable(rows), dtype=np.int32, count=pointer[-1])
-    return csr_array((np.ones(len(indices), dtype=np.int8), indices, pointer), shape=(len(rows), n_columns))
+    return scipy.sparse.csr_array(
+        (np.ones(len(indices), dtype=np.int8), indices, pointer), shape=(len(rows), n_columns)
+    )
 
 
 def transpose(rows: Rows, n_columns: int) -> list[list[int]]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import csc_matrix, identity
-from scipy.sparse.linalg import splu
+import scipy
 
 from acausal.structure.matching import maximum_matching
 from acausal.structure.system import System
@@ -44,10 +43,12 @@ def order_unknowns(
         return tuple(algebraic), tuple(residuals)
     row = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
     column = np.concatenate([np.array(r, dtype=int) for r in rows])
-    pattern = csc_matrix((np.ones(len(row)), (row, column)), shape=(len(rows), len(rows)))[equation_of]
+    pattern = scipy.sparse.csc_matrix((np.ones(len(row)), (row, column)), shape=(len(rows), len(rows)))[equation_of]
     # Only the pattern counts: a dominant diagonal makes the factorisation succeed.
-    dominant = (pattern + pattern.T + 3.0 * len(rows) * identity(len(rows))).tocsc()
-    factors = splu(dominant, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    dominant = (pattern + pattern.T + 3.0 * len(rows) * scipy.sparse.identity(len(rows))).tocsc()
+    factors = scipy.sparse.linalg.splu(
+        dominant, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
     order = np.argsort(factors.perm_c)
     return tuple(algebraic[k] for k in order), tuple(residuals[equation_of[k]] for k in order)
 

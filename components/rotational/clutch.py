@@ -7,19 +7,11 @@ from components.rotational.slipping import Slipping
 
 
 class Clutch(Slipping):
-    """Friction clutch: slips until both shafts turn alike, then locks up to its greatest torque.
+    """Friction clutch: slips until both shafts turn alike, then locks up to its greatest torque."""
 
-    Parameters
-    ----------
-    f_normalized : float or expression of time
-        Normal force between 0 (open) and 1 (closed), in parts of its greatest value.
-    tau_max : float
-        Torque in N.m of sliding at f_normalized = 1.
-    peak : float
-        Ratio of the greatest torques of sticking and sliding, at least 1.
-    """
-
-    f_normalized: Scalar = input("normal force in parts of its greatest value", unit="1")
+    f_normalized: Scalar = input(
+        "normal force in parts of its greatest value", unit="1", doc="Between 0 (open) and 1 (closed)."
+    )
     tau_max: Scalar = parameter("torque of sliding at f_normalized = 1", unit="N.m", minimum=0)
     peak: Scalar = parameter("ratio of the greatest torques of sticking and sliding", unit="1", default=1, minimum=1)
 

@@ -7,13 +7,7 @@ from components.rotational.compliant import Compliant
 
 
 class Damper(Compliant):
-    """Linear torsional damper.
-
-    Parameters
-    ----------
-    d : float
-        Damping constant in N.m.s/rad.
-    """
+    """Linear torsional damper."""
 
     d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
 

@@ -7,13 +7,7 @@ from components.flange import Flange
 
 
 class Fixed(Component):
-    """Shaft end that is held at a constant angle.
-
-    Parameters
-    ----------
-    phi0 : float
-        Angle in rad.
-    """
+    """Shaft end that is held at a constant angle."""
 
     ends = ("flange", "flange")
     phi0: Scalar = parameter("angle of the flange", unit="rad", default=0)

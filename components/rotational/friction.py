@@ -7,19 +7,15 @@ from components.rotational.slipping import Slipping
 
 
 class Friction(Slipping):
-    """Coulomb friction with stiction, as in a brake or a bearing.
+    """Coulomb friction with stiction, as in a brake or a bearing."""
 
-    Parameters
-    ----------
-    tau_static : float
-        Greatest torque in N.m at which it sticks.
-    tau_sliding : float
-        Torque in N.m against sliding, at most `tau_static`.
-    """
-
-    tau_sliding: Scalar = parameter("torque against sliding", unit="N.m", minimum=0)
+    tau_sliding: Scalar = parameter("torque against sliding", unit="N.m", minimum=0, doc="At most tau_static.")
     tau_static: Scalar = parameter(
-        "greatest torque of sticking", unit="N.m", minimum=0, default=lambda self: self.tau_sliding
+        "greatest torque of sticking",
+        unit="N.m",
+        minimum=0,
+        default=lambda self: self.tau_sliding,
+        doc="tau_sliding if not given.",
     )
 
     def holding(self) -> Expr:

@@ -7,13 +7,7 @@ from components.flange import TwoFlanges
 
 
 class Inertia(TwoFlanges):
-    """Rigid rotor with two shaft ends.
-
-    Parameters
-    ----------
-    J : float
-        Moment of inertia in kg.m2.
-    """
+    """Rigid rotor with two shaft ends."""
 
     J: Scalar = parameter("moment of inertia", unit="kg.m2", minimum=0)
     phi: Scalar = variable("absolute angle", unit="rad", select=PREFER)

@@ -12,21 +12,16 @@ AF, BF = 1.3617, 0.6180
 
 
 class Position(OneFlange):
-    """Drive that moves the shaft as prescribed.
+    """Drive that moves the shaft as prescribed."""
 
-    Parameters
-    ----------
-    phi_ref : float or expression of time
-        Angle of the flange in rad; where its second derivative jumps, torques do.
-    exact : bool
-        False lets the flange follow phi_ref through a filter of the second order, begun at rest: for an angle of which no
-        derivative is known, such as an input of the whole model, or one that jumps.
-    f_crit : float
-        Critical frequency of the filter in Hz.
-    """
-
-    phi_ref: Scalar = input("angle of the flange", unit="rad")
-    exact: bool = structural("whether the flange has phi_ref itself", default=True, choices=(True, False))
+    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="Where its second derivative jumps, torques do.")
+    exact: bool = structural(
+        "whether the flange has phi_ref itself",
+        default=True,
+        choices=(True, False),
+        doc="False lets it follow phi_ref through a filter of the second order, begun at rest: for an angle of "
+        "which no derivative is known, such as an input of the whole model, or one that jumps.",
+    )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     phi: Scalar = variable("angle of the flange", unit="rad", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")

@@ -9,21 +9,16 @@ from components.rotational.one_flange import OneFlange
 
 
 class Speed(OneFlange):
-    """Drive that turns the shaft at the prescribed speed.
-
-    Parameters
-    ----------
-    w_ref : float or expression of time
-        Angular velocity of the flange in rad/s.
-    exact : bool
-        False lets the flange follow w_ref through a filter of the first order: for a speed of which no derivative is
-        known, such as an input of the whole model, or one that jumps.
-    f_crit : float
-        Critical frequency of the filter in Hz.
-    """
+    """Drive that turns the shaft at the prescribed speed."""
 
     w_ref: Scalar = input("angular velocity of the flange", unit="rad/s")
-    exact: bool = structural("whether the flange has w_ref itself", default=True, choices=(True, False))
+    exact: bool = structural(
+        "whether the flange has w_ref itself",
+        default=True,
+        choices=(True, False),
+        doc="False lets it follow w_ref through a filter of the first order: for a speed of which no derivative "
+        "is known, such as an input of the whole model, or one that jumps.",
+    )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
     phi: Scalar = variable("angle of the flange", unit="rad", select=PREFER)
 

@@ -7,18 +7,10 @@ from components.rotational.compliant import Compliant
 
 
 class Spring(Compliant):
-    """Linear torsional spring.
-
-    Parameters
-    ----------
-    c : float
-        Spring constant in N.m/rad.
-    phi_rel0 : float
-        Relative angle in rad at which it bears no torque.
-    """
+    """Linear torsional spring."""
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
-    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0)
+    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0, doc="There it bears no torque.")
 
     def law(self):
         """Hooke's law."""

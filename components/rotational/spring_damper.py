@@ -7,19 +7,13 @@ from components.rotational.compliant import Compliant
 
 
 class SpringDamper(Compliant):
-    """Linear torsional spring and linear torsional damper.
-
-    Parameters
-    ----------
-    c, d : float
-        Spring constant in N.m/rad, damping constant in N.m.s/rad.
-    phi_rel0 : float
-        Relative angle in rad at which the spring bears no torque.
-    """
+    """Linear torsional spring and linear torsional damper."""
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
     d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
-    phi_rel0: Scalar = parameter("unstretched relative angle", unit="rad", default=0)
+    phi_rel0: Scalar = parameter(
+        "unstretched relative angle", unit="rad", default=0, doc="There the spring bears no torque."
+    )
 
     def law(self):
         """Hooke's law, and a torque in proportion to the speed."""

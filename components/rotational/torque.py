@@ -7,13 +7,7 @@ from components.rotational.one_flange import OneFlange
 
 
 class Torque(OneFlange):
-    """Drive whose torque acts on the shaft.
-
-    Parameters
-    ----------
-    tau : float or expression of time
-        Torque in N.m, accelerating the shaft where it is positive.
-    """
+    """Drive whose torque acts on the shaft."""
 
     tau: Scalar = input("accelerating torque on the shaft", unit="N.m")
 

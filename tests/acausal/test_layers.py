@@ -70,7 +70,7 @@ def test_structure_sees_integers_only() -> None:
 @pytest.mark.parametrize(
     ("folder", "allowed"),
     [
-        ("components", {"acausal", "components", "numpy", "scipy", "sympy"}),
+        ("components", {"acausal", "components", "numpy", "scipy"}),
         ("models", {"acausal", "components", "models"}),
     ],
 )

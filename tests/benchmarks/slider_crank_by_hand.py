@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from components.beam_element import beam_matrices
+from components.beams.element import beam_matrices
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from acausal import as_expr
-from components.beam_element import beam_matrices
-from components.beam_inertia import Inertia
+from components.beams.element import beam_matrices
+from components.beams.inertia import Inertia
 from tests.reference import floating_beam
 
 LENGTH, RHO_A = 1.4, 3.1

@@ -21,7 +21,7 @@ from components import (
     WorldTorque,
     rotational,
 )
-from components.beam_strain import Strain
+from components.beams.strain import Strain
 from models import SpinUp
 from tests.reference import cantilever, elastica, floating_beam, rotating_beam
 

@@ -12,8 +12,8 @@ import pytest
 import acausal as ac
 from acausal import Model, as_expr, chain, connect, part, structural
 from components import Body, FlexibleBeam, Prismatic, Revolute, SubstructuredBeam, World
-from components.beam_element import beam_matrices
-from components.beam_inertia import Inertia
+from components.beams.element import beam_matrices
+from components.beams.inertia import Inertia
 from tests.reference import cantilever, floating_beam
 
 BAR = {"length": 2.0, "E": 1e5, "rho": 1000.0, "A": 1e-3, "J": 1e-4}

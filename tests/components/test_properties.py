@@ -649,17 +649,20 @@ def test_turned_round(name):
 
 @every(EXPORTED)
 def test_documented(name):
-    """The docstring of the class, or of the base that declares it, names every field of the constructor."""
+    """The docstring of the class names every field of the constructor, with its unit and what it is."""
     cls = EXPORTED[name]
-    assert (cls.__doc__ or "").strip()
-    text = "\n".join(c.__doc__ or "" for c in cls.__mro__ if issubclass(c, Component) and c is not Component)
-    sections = [
-        s for c in cls.__mro__ for s in re.findall(r"Parameters\n\s+-+\n(.*?)(?:\n\s*\n|\Z)", c.__doc__ or "", re.S)
-    ]
+    text = inspect.getdoc(cls) or ""
+    assert text.strip()
+    section = "".join(re.findall(r"Parameters\n\s*-+\n(.*?)(?:\n\s*\n|\Z)", text, re.S))
     given = {n for n, d in cls.fields.items() if isinstance(d, f.Structural | f.Parameter)}
     given |= {n for n, d in cls.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
-    missing = [n for n in given if not re.search(rf"(?<!\w){re.escape(n)}(?!\w)", "\n".join(sections))]
+    missing = [n for n in given if not re.search(rf"(?<!\w){re.escape(n)}(?!\w)", section)]
     assert missing == [], text
+    for n in given:
+        d = cls.fields[n]
+        head, said = re.search(rf"^{n} : (.*)\n((?:    .*\n?)+)", section, re.M).groups()
+        assert isinstance(d.unit, str) is False or d.unit == "1" or f"in {d.unit}" in head
+        assert d.description.lower() in " ".join(said.split()).lower()
     for n, d in cls.fields.items():
         assert (
             isinstance(d, f.Outer)

@@ -5,19 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import as_expr, atan2, chain, connect, observed, parts, structural
-from components.beam import Beam
-from components.flexible_beam import FlexibleBeam
+from components.beams.beam import Beam
+from components.beams.flexible_beam import FlexibleBeam
 
 
 class SubstructuredBeam(Beam):
     """Beam of several volumes, each a FlexibleBeam in a frame of its own: geometrically non-linear.
-
-    Parameters
-    ----------
-    length, E, rho, A, J, J_y, torsional_inertia, reference, alpha, beta, initial
-        As of FlexibleBeam, for the whole beam.
-    volumes, elements_per_volume : int
-        Number of volumes, and of finite elements in each.
 
     Notes
     -----

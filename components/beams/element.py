@@ -11,11 +11,14 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-import sympy as sp
+from numpy.polynomial import Polynomial
 
-xi = sp.Symbol("xi")
-ALONG = (1 - xi, 0, 0, xi, 0, 0)
-ACROSS = (0, 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, 0, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2)
+Row = tuple[Polynomial, ...]
+
+ZERO, ONE, xi = Polynomial([0]), Polynomial([1]), Polynomial([0, 1])
+ALONG = (1 - xi, ZERO, ZERO, xi, ZERO, ZERO)
+ACROSS = (ZERO, 1 - 3 * xi**2 + 2 * xi**3, xi - 2 * xi**2 + xi**3, ZERO, 3 * xi**2 - 2 * xi**3, xi**3 - xi**2)
+COMMON = 420  # of 1 to 7: integrals of whole polynomials up to degree 6 are whole numbers over it, without rounding
 
 
 @dataclass(frozen=True)
@@ -51,26 +54,27 @@ class BeamMatrices:
     bubbles: int = 0
 
 
-def _integral(polynomial: sp.Expr) -> float:
-    return float(sum(c / (k + 1) for (k,), c in sp.Poly(polynomial, xi).terms()))
+def _integral(polynomial: Polynomial) -> float:
+    """Integral from 0 to 1."""
+    coefficients = np.asarray(polynomial.coef)
+    return np.dot(COMMON // np.arange(1, coefficients.size + 1), coefficients) / COMMON
 
 
-def _vector(row: tuple, weight: sp.Expr) -> np.ndarray:
-    return np.array([_integral(sp.sympify(s) * weight) for s in row])
+def _vector(row: Row, weight: Polynomial) -> np.ndarray:
+    return np.array([_integral(s * weight) for s in row])
 
 
-def _matrix(left: tuple, right: tuple, order: int = 0) -> np.ndarray:
-    a, b = ([sp.diff(sp.sympify(s), xi, order) if order else sp.sympify(s) for s in row] for row in (left, right))
-    return np.array([[_integral(p * q) for q in b] for p in a])
+def _matrix(left: Row, right: Row, order: int = 0) -> np.ndarray:
+    return np.array([[_integral(p.deriv(order) * q.deriv(order)) for q in right] for p in left])
 
 
 @cache
 def element_matrices(bubble: bool = False) -> BeamMatrices:
     """Return the integrals of one element."""
-    along, across = (*ALONG, *[xi * (1 - xi)] * bubble), (*ACROSS, *[0] * bubble)
+    along, across = (*ALONG, *[xi * (1 - xi)] * bubble), (*ACROSS, *[ZERO] * bubble)
     return BeamMatrices(
-        s1=_vector(along, sp.Integer(1)),
-        s2=_vector(across, sp.Integer(1)),
+        s1=_vector(along, ONE),
+        s2=_vector(across, ONE),
         x1=_vector(along, xi),
         x2=_vector(across, xi),
         M11=_matrix(along, along),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal import as_expr, cross, dot
-from components.beam_element import beam_matrices
+from components.beams.element import beam_matrices
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal import as_expr, cross, dot
-from components.beam_element import BeamMatrices, element_matrices, places
+from components.beams.element import BeamMatrices, element_matrices, places
 
 
 @dataclass(frozen=True)

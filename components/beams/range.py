@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from acausal import as_expr, cos, expect, sin, sqrt
-from components.beam_strain import Bend, gauss
+from components.beams.strain import Bend, gauss
 
 SHARE = 0.01
 SEEN = 2e-4  # of the length: errors of deflections much smaller than that are not seen

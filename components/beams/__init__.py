@@ -1,0 +1,6 @@
+"""Flexible beams: finite elements in a floating frame, and chains of these for large deflections."""
+
+from components.beams.flexible_beam import FlexibleBeam
+from components.beams.substructured_beam import SubstructuredBeam
+
+__all__ = ["FlexibleBeam", "SubstructuredBeam"]
