@@ -1,5 +1,8 @@
 """The language: what users write models with."""
 
+import copyreg
+
+from acausal.language import shipped
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.condition import Condition
 from acausal.language.connection import branch, chain, connect, in_loop, is_root, potential_root, root, rooted
@@ -42,8 +45,14 @@ from acausal.language.functions import (
     tanh,
     time,
 )
+from acausal.language.symbolic import TWINS
+from acausal.language.twins import twins
 from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
+
+# What expressions need of modules that are made of expressions.
+copyreg.pickle(Expr, shipped.reduced)
+TWINS.update(twins())
 
 __all__ = [
     "ALWAYS",

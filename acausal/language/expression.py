@@ -13,7 +13,7 @@ from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition
 from acausal.language.entries import chosen
-from acausal.language.symbolic import Symbolic
+from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.units import Dimension, parse
 
@@ -45,12 +45,6 @@ class Expr(Symbolic):
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Expr:
         return self  # a symbol is itself by its identity
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Write an expression of time and numbers as text; other symbols mean nothing elsewhere."""
-        from acausal.language.shipped import expression, text
-
-        return expression, (text(self.sx), self.unit, self.name)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -136,9 +130,7 @@ class Expr(Symbolic):
         return as_expr(base) ** self
 
     def __abs__(self) -> Any:
-        from acausal.language.functions import absolute
-
-        return absolute(self)
+        return TWINS["absolute"](self)
 
     def __eq__(self, other: object) -> Any:
         return equation(self, other)

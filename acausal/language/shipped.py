@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import casadi as ca
 
 from acausal.errors import DeclarationError
@@ -36,6 +38,11 @@ def symbols(written: str) -> ca.SX:
     """Read what `text` wrote, in the symbols of this process."""
     found: ca.SX = ca.Function.deserialize(written)(time.sx, initial.sx)  # type: ignore[assignment]
     return found
+
+
+def reduced(value: Expr) -> tuple[Any, ...]:
+    """Return what a pickle of an expression holds; only one of time and numbers means something elsewhere."""
+    return expression, (text(value.sx), value.unit, value.name)
 
 
 def expression(written: str, unit: Unit, name: str) -> Expr:

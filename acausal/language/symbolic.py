@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable
 from typing import Any, ClassVar
 
 from acausal.errors import DeclarationError
+
+# numpy's functions by name, and what they are here; see `twins`.
+TWINS: dict[str, Callable[..., Any]] = {}
 
 
 class Symbolic:
@@ -40,13 +42,13 @@ class Symbolic:
         )
 
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **options: Any) -> Any:
-        twin = _twins().get(function.__name__)
+        twin = TWINS.get(function.__name__)
         if twin is None or method != "__call__" or options:
             self._refuse_numpy(function.__name__)
         return twin(*arguments)  # type: ignore[misc]
 
     def __array_function__(self, function: Any, _: Any, arguments: Any, options: Any) -> Any:
-        twin = _twins().get(function.__name__)
+        twin = TWINS.get(function.__name__)
         if twin is None or options:
             self._refuse_numpy(function.__name__)
         return twin(*arguments)  # type: ignore[misc]
@@ -60,43 +62,3 @@ class Symbolic:
 
     def _shown(self) -> str:
         return repr(self)
-
-
-def _twins() -> dict[str, Callable[..., Any]]:
-    from acausal.language import functions as own
-    from acausal.language.expression import as_expr, is_deferred
-    from acausal.language.fields import Deferred
-
-    def of(operate: Callable[..., Any]) -> Callable[..., Any]:
-        def call(*values: Any) -> Any:
-            # Not the operator of an array, which would ask numpy again.
-            return Deferred(operate, values) if is_deferred(*values) else operate(*map(as_expr, values))
-
-        return call
-
-    named = {"arcsin": "asin", "arccos": "acos", "arctan2": "atan2"}
-    same = ("sin", "cos", "tan", "exp", "log", "tanh", "sqrt", "sign", "cross", *named)
-    operators = {
-        "add": operator.add,
-        "subtract": operator.sub,
-        "multiply": operator.mul,
-        "divide": operator.truediv,
-        "matmul": operator.matmul,
-        "dot": operator.matmul,
-        "power": operator.pow,
-        "negative": operator.neg,
-        "positive": operator.pos,
-        "square": lambda x: x**2,
-        "absolute": abs,
-        "fabs": abs,
-        "equal": operator.eq,
-        "less": operator.lt,
-        "less_equal": operator.le,
-        "greater": operator.gt,
-        "greater_equal": operator.ge,
-    }
-    return (
-        {name: getattr(own, named.get(name, name)) for name in same}
-        | {name: of(operate) for name, operate in operators.items()}
-        | {"shape": lambda x: as_expr(x).shape, "ndim": lambda x: len(as_expr(x).shape)}
-    )

@@ -8,27 +8,40 @@ always. What is declared without a unit is unknown, and so is what a matrix of n
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
+
+import casadi as ca
 
 from acausal.errors import UnitsError
 from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension
 
-if TYPE_CHECKING:
-    from acausal.language.expression import Expr
-
 RATIOS = {sign * k / n for sign in (1, -1) for k in range(1, 10) for n in (1, 2, 3, 4, 6, 8, 12)}
 Unit = Dimension | tuple[Dimension | None, ...] | None
 
 
-def common(a: Expr, b: Expr, where: str) -> Unit:
+class Measured(Protocol):
+    """An expression with its unit."""
+
+    sx: ca.SX
+    unit: Unit
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape as numpy would give it."""
+        ...
+
+    def __iter__(self) -> Iterator[Any]: ...
+
+
+def common(a: Measured, b: Measured, where: str) -> Unit:
     """Return the unit of two expressions that must have the same one, such as the terms of a sum.
 
     Parameters
     ----------
-    a, b : Expr
+    a, b : Measured
         Of one shape.
     where : str
         What joins them, for the message.
@@ -46,7 +59,7 @@ def common(a: Expr, b: Expr, where: str) -> Unit:
     return _merged([v if u is None else u for u, v in pairs])
 
 
-def of_product(a: Expr, b: Expr) -> Unit:
+def of_product(a: Measured, b: Measured) -> Unit:
     """Return the unit of a * b, entry by entry."""
     if a.unit is None and b.unit is None:
         return None
@@ -56,7 +69,7 @@ def of_product(a: Expr, b: Expr) -> Unit:
     return _combined(a, b, lambda u, v: u * v)
 
 
-def of_quotient(a: Expr, b: Expr) -> Unit:
+def of_quotient(a: Measured, b: Measured) -> Unit:
     """Return the unit of a / b, with a scalar b."""
     if is_number(b):
         return _behind_number(a) if _is_pure(b) else None
@@ -65,7 +78,7 @@ def of_quotient(a: Expr, b: Expr) -> Unit:
     return _combined(a, b, lambda u, v: u / v)
 
 
-def of_inner_product(a: Expr, b: Expr) -> Unit:
+def of_inner_product(a: Measured, b: Measured) -> Unit:
     """Return the unit of a @ b.
 
     Raises
@@ -83,13 +96,13 @@ def of_inner_product(a: Expr, b: Expr) -> Unit:
     terms = [x * y for x, y in zip(a, b, strict=True)]
     total = terms[0]
     for term in terms[1:]:
-        total = type(a)(total.sx + term.sx, common(total, term, "terms of a scalar product"))
+        total = type(total)(total.sx + term.sx, common(total, term, "terms of a scalar product"))
     # One unknown term is as little known as the sum is certain.
     unknown = any(t.unit is None and not t.sx.is_zero() for t in terms)
     return None if unknown else total.unit
 
 
-def of_power(base: Expr, power: Any, number: bool = False) -> Unit:
+def of_power(base: Measured, power: Any, number: bool = False) -> Unit:
     """Return the unit of a power by a number; behind a number something dimensionless may have any unit."""
     if not isinstance(power, int | float | Fraction) or base.unit is None:
         return None
@@ -100,7 +113,7 @@ def of_power(base: Expr, power: Any, number: bool = False) -> Unit:
     return _merged([None if number and u is DIMENSIONLESS else u for u in raised])
 
 
-def of_array(items: Sequence[Expr]) -> Unit:
+def of_array(items: Sequence[Measured]) -> Unit:
     """Return the unit of an array of entries, or of rows; entries that are 0 fit the others."""
     units = [item.unit for item in items if not (item.unit is None and item.sx.is_zero())]
     if units and isinstance(units[0], Dimension) and all(u == units[0] for u in units):
@@ -110,22 +123,22 @@ def of_array(items: Sequence[Expr]) -> Unit:
     return _merged([item.unit if isinstance(item.unit, Dimension) else None for item in items])
 
 
-def is_number(value: Expr) -> bool:
+def is_number(value: Measured) -> bool:
     """Tell whether an expression is made of numbers alone."""
     return value.unit is None and value.sx.is_constant()
 
 
-def _is_pure(number: Expr) -> bool:
+def _is_pure(number: Measured) -> bool:
     """Tell whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
     entries = [float(entry) for entry in scalars(number.sx)]
     return any(entries) and all(not entry or entry in RATIOS for entry in entries)
 
 
-def _behind_number(value: Expr) -> Unit:
+def _behind_number(value: Measured) -> Unit:
     return _merged([None if u is DIMENSIONLESS else u for u in _entries(value)])
 
 
-def _combined(a: Expr, b: Expr, operate: Any) -> Unit:
+def _combined(a: Measured, b: Measured, operate: Any) -> Unit:
     if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension):
         return operate(a.unit, b.unit)
     if a.unit is None or b.unit is None:
@@ -135,7 +148,7 @@ def _combined(a: Expr, b: Expr, operate: Any) -> Unit:
     return _merged([None if u is None or v is None else operate(u, v) for u, v in pairs])
 
 
-def _entries(value: Expr) -> list[Dimension | None]:
+def _entries(value: Measured) -> list[Dimension | None]:
     """Unit of each row."""
     unit = value.unit
     return list(unit) if isinstance(unit, tuple) else [unit] * value.sx.shape[0]
@@ -150,12 +163,12 @@ def _plain(power: Fraction) -> int | Fraction:
     return int(power) if power.denominator == 1 else power
 
 
-def _text(value: Expr) -> str:
+def _text(value: Measured) -> str:
     if isinstance(value.unit, tuple):
         return ", ".join("?" if u is None else str(u) for u in value.unit)
     return str(value.unit)
 
 
-def _shown(value: Expr) -> str:
+def _shown(value: Measured) -> str:
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."

@@ -68,15 +68,7 @@ def constrain(
     coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
     states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
     bare, following = _bare(plan, elements, residuals, explicit)
-    duals = {c.row: c.dual for c in flat.loops.closures}
-    switches = {c.row: ca.SX.sym(f"s{k}") for k, c in enumerate(flat.loops.closures)}
-    for constraint in plan.constrained.constraints:
-        on = switches.get(constraint.base)
-        if on is None:
-            continue
-        for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
-            residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
-        residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
+    switches = _switch(flat, plan, elements, residuals)
     bare, following = ca.substitute([bare, following], [coordinates], [states])
     moves, D = ca.SX.sym("moves"), []
     row_of = {m: k for k, m in enumerate(m for c in plan.constrained.constraints for m in c.multipliers)}
@@ -93,8 +85,22 @@ def constrain(
         one = ca.SX(1)
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
-    choice = ca.vertcat(*switches.values(), moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
+    choice = ca.vertcat(*switches, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
     return Closing(bare, choice, coordinates, states, following, moves)
+
+
+def _switch(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
+    """Give each closure a switch, which is 0 where it says nothing new: what works on it is 0 then."""
+    duals = {c.row: c.dual for c in flat.loops.closures}
+    switches = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
+    for constraint in plan.constrained.constraints:
+        on = switches.get(constraint.base)
+        if on is None:
+            continue
+        for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
+            residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
+        residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
+    return list(switches.values())
 
 
 def _bare(
