@@ -66,8 +66,8 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         compiled.local,
         compiled.values,
         compiled.start,
-        compiled.breaks,
-        compiled.modes_at,
+        compiled.guards.breaks,
+        compiled.guards.guess,
         compiled.hoist,
         compiled.closing,
     )

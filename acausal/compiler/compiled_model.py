@@ -215,16 +215,6 @@ class CompiledModel:
         """Conditions that are watched during the integration."""
         return Guards(self.reduced, self.start.function)
 
-    @property
-    def breaks(self) -> Call:
-        """Function of parameters: break times."""
-        return self.guards.breaks
-
-    @property
-    def modes_at(self) -> Call:
-        """Function of parameters and time: modes of the switches and discrete variables, before anything is solved."""
-        return self.guards.guess
-
     def integrator(
         self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool
     ) -> Call:

@@ -65,7 +65,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, task.intervals + 1)
     times[-1] = stop_time
     found = clock_times(compiled, p, start_time, stop_time)
-    breaks = _breaks(compiled.breaks(p)[0].tolist(), start_time, stop_time)
+    breaks = _breaks(compiled.guards.breaks(p)[0].tolist(), start_time, stop_time)
     ends = _breaks([*breaks, *found], start_time, stop_time)
     problem = Problem(compiled, p)
     begun = start(problem, start_time, _middle(start_time, ends, stop_time), task.initial)

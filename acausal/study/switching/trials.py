@@ -37,7 +37,7 @@ def fingerprint(job: Job) -> str:
         outputs = ca.Function("outputs", compiled.arguments, [compiled.reduced.resolve(ca.densify(shown))])
     except AcausalError:
         return ""
-    functions = (compiled.local.function, outputs, compiled.start.function, compiled.breaks.function)
+    functions = (compiled.local.function, outputs, compiled.start.function, compiled.guards.breaks.function)
     return hashlib.sha256("".join(f.serialize() for f in functions).encode()).hexdigest()
 
 

@@ -127,6 +127,7 @@ def test_accuracy_is_reached(name, accuracy):
     assert true <= SLIGHTLY * accuracy
 
 
+@pytest.mark.slow
 def test_estimates_are_true_within_a_factor_of_three():
     assert_honest(QUICK)
 
