@@ -95,7 +95,7 @@ class Run:
         plan = self.agenda.planned(at, at.time - self.agenda.near)
         new = self._happen(at, event=False, fired=fired, constants=constants)
         self.integrator.trace.put(-1, new)
-        acted = _differs(new, at if constants is None else replace(at, constants=constants))
+        acted = new.differs(at if constants is None else replace(at, constants=constants))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
             self.block = 1
             if self.events[-1:] != [at.time]:
@@ -297,9 +297,3 @@ class Run:
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
             "without a jump (smooth=True). What was computed is kept."
         )
-
-
-def _differs(a: Point, b: Point) -> bool:
-    """Whether states, constants or what holds differ."""
-    pairs = ((a.x, b.x), (a.constants.vector, b.constants.vector), (a.truth, b.truth))
-    return any((one != other).any() for one, other in pairs)

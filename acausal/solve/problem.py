@@ -27,6 +27,11 @@ class Point:
         """States and algebraic unknowns."""
         return np.concatenate([self.x, self.z])
 
+    def differs(self, other: Point) -> bool:
+        """Whether states, constants or what holds differ."""
+        mine, others = ((at.x, at.constants.vector, at.truth) for at in (self, other))
+        return any((one != another).any() for one, another in zip(mine, others, strict=True))
+
     def with_y(self, y: np.ndarray) -> Point:
         """Return the point with other states and algebraic unknowns."""
         return replace(self, x=y[: len(self.x)], z=y[len(self.x) :])
