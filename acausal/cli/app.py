@@ -174,8 +174,8 @@ def linearize(
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
     """What the ranks of loops tell, which need consistent positions."""
-    from acausal.solve.instant import start
     from acausal.solve.problem import Problem
+    from acausal.solve.start.start import start
 
     if not compiled.closing.size:
         return None

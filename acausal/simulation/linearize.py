@@ -16,10 +16,9 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.simulation.settings import settled
-from acausal.solve.instant import start
-from acausal.solve.order import state_matrix
 from acausal.solve.problem import Problem
-from acausal.solve.tangent import tangent
+from acausal.solve.start.start import start
+from acausal.solve.start.tangent import state_matrix, tangent
 from acausal.symbols import scalars
 
 

@@ -15,7 +15,7 @@ from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.settings import settled
 from acausal.simulation.trials import Trials
-from acausal.solve.integrate import Progress
+from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
 METHODS = ("auto", "idas", "rosenbrock", "resolve")

@@ -13,12 +13,12 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.solve.consistent import Consistent
-from acausal.solve.hermite import cubic
-from acausal.solve.looks import GOLDEN
-from acausal.solve.newton import algebraic
+from acausal.solve.events.hermite import cubic
+from acausal.solve.events.looks import GOLDEN
+from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
-from acausal.solve.trace import Stretch
+from acausal.solve.start.newton import algebraic
 
 # Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
 FEWEST, ROWS, MOST = 48, 192, 2**17

@@ -12,7 +12,7 @@ from acausal.compiler.call import Call
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
-from acausal.solve.consistent import Consistent
+from acausal.solve.integrate.consistent import Consistent
 
 
 class Evaluator:

@@ -99,3 +99,8 @@ class Problem:
         z = self.compiled.closing.guess(at.x, at.z, self.p, at.time, at.constants.vector)
         z[self.compiled.closing.multipliers] = 0.0
         return replace(at, z=z)
+
+    def watched(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Return the watched excesses and their time derivatives, one row of each."""
+        vector = at.constants.vector
+        return self.compiled.guards.along(at.x[None], at.z[None], self.p, np.array([at.time]), vector)

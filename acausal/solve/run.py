@@ -11,21 +11,23 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError, caution
 from acausal.result import Result
-from acausal.solve.agenda import APART
-from acausal.solve.clock_times import clock_times
+from acausal.solve.checks.meeting import first_meeting
+from acausal.solve.checks.promises import broken_promises
+from acausal.solve.checks.validity import check_start, doubts
 from acausal.solve.evaluator import Evaluator
-from acausal.solve.events import Chattering, Run
-from acausal.solve.initialize import Start
-from acausal.solve.instant import go_on, start
-from acausal.solve.integrate import Failure, Integrator, Progress, Settings
-from acausal.solve.meeting import first_meeting
-from acausal.solve.order import eigenvalues_of, order_limit
+from acausal.solve.events.agenda import APART
+from acausal.solve.events.clock_times import clock_times
+from acausal.solve.events.course import Chattering, Run
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.order import eigenvalues_of, order_limit
+from acausal.solve.integrate.settings import Progress, Settings
+from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point, Problem
-from acausal.solve.projection import is_singular
-from acausal.solve.promises import broken_promises
 from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
-from acausal.solve.trace import Trace
-from acausal.solve.validity import check_start, doubts
+from acausal.solve.start.initialize import Start
+from acausal.solve.start.redundancy import is_singular
+from acausal.solve.start.start import go_on, start
 
 ROUGH = (
     "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
@@ -154,7 +156,7 @@ def _stats(begun: Start, run: Integrator, breaks: list[float]) -> dict[str, Any]
         "method": " and ".join(trace.methods) or "none",
         "method_steps": dict(trace.methods),
         "fastest_rate": run.settings.fastest,
-        "constraints": "none" if not compiled.closing.size else "projection" if run.moves else "states",
+        "constraints": "none" if not compiled.closing.size else "projection" if run.way.moves else "states",
         "choices": trace.choices,
         "loosened_at": trace.loosened,
         "break_times": breaks,
@@ -174,7 +176,7 @@ def _result(
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
     stats["doubts"] = doubts(compiled, evaluate) + broken_promises(run, evaluate)
     if energy:
-        if run.rough:
+        if run.trace.rough:
             caution(ROUGH)
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
         held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]

@@ -8,8 +8,9 @@ from scipy.integrate import solve_ivp
 
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, sin, time, variable, when
-from acausal.solve import events
-from acausal.solve.integrate import Integrator
+from acausal.solve.events import stride
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Kind, Refusal
 from components import rotational
 from models import SCENES, FourBarSpatial, NFourBar, SpinUp
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
@@ -165,7 +166,8 @@ def test_a_time_that_was_not_reached_lends_its_values_to_no_event(monkeypatch, f
     def unreliable(self, at, times, *rest, **named):
         calls[0] += 1
         short = len(times) == 2 and times[1] - times[0] < 1e-3
-        return None if short and calls[0] % 4 < fails else attempt(self, at, times, *rest, **named)
+        refused = Refusal(Kind.OTHER, at.time)
+        return refused if short and calls[0] % 4 < fails else attempt(self, at, times, *rest, **named)
 
     monkeypatch.setattr(Integrator, "attempt", unreliable)
     try:
@@ -263,8 +265,8 @@ def test_many_steps_an_interval_come_to_an_end(intervals, tolerance, method):
 
 
 def test_stretches_are_cut_where_no_number_of_looks_is_enough(monkeypatch):
-    monkeypatch.setattr(events, "ROWS", 1)
-    monkeypatch.setattr(events, "DENSEST", 4)
+    monkeypatch.setattr(stride, "ROWS", 1)
+    monkeypatch.setattr(stride, "DENSEST", 4)
     result = ac.simulate(Rings(), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")
     assert result["x"][-1] == pytest.approx(np.cos(500.0), abs=1e-2)
 

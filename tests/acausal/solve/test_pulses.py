@@ -26,7 +26,7 @@ from acausal import (
     when,
 )
 from acausal.language.functions import tanh
-from acausal.solve.clock_times import clock_times
+from acausal.solve.events.clock_times import clock_times
 
 
 class Pulses(Model):

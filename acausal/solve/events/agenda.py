@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.guards import Guards
-from acausal.solve.instant import Instants
+from acausal.solve.events.instant import Instants
 from acausal.solve.problem import Point
 
 APART = 1e-12  # of the time: less is no room for an integration

@@ -11,8 +11,8 @@ import numpy as np
 
 from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
-from acausal.solve.newton import TERMS, algebraic
 from acausal.solve.problem import Point, Problem
+from acausal.solve.start.newton import TERMS, algebraic
 
 # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
 SETTLED = 1e-7

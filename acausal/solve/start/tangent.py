@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import scipy
 
 from acausal.solve.problem import Point, Problem
-from acausal.solve.rank import null_space, pivots
+from acausal.solve.start.rank import null_space, pivots
 
 
 def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
@@ -32,3 +35,11 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     fits = len(paired) == len(null) and (not len(null) or np.linalg.matrix_rank(null[:, paired]) == len(null))
     chosen = paired if fits else np.sort(order[: len(null)])
     return np.linalg.solve(null[:, chosen], null).T, chosen
+
+
+def state_matrix(J: Any, nx: int) -> np.ndarray:
+    """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
+    J = scipy.sparse.csc_matrix(J)
+    f, g = J[:nx], J[nx:]
+    own, right = f[:, :nx].toarray(), g[:, :nx].toarray()
+    return own - f[:, nx:] @ scipy.sparse.linalg.splu(g[:, nx:].tocsc()).solve(right) if g.shape[0] else own

@@ -12,12 +12,13 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
-from acausal.solve.closed_start import closed_guess, rows_and_knowns
-from acausal.solve.newton import CONSISTENT, InitialSystem, algebraic, follow, newton
 from acausal.solve.problem import Point, Problem
-from acausal.solve.projection import Redundancy, choose_projection, independent
-from acausal.solve.steady import Equilibrium
-from acausal.solve.words import contradiction_text, missing_text
+from acausal.solve.start.complete import closed_guess, rows_and_knowns
+from acausal.solve.start.loop_states import choose_projection, independent
+from acausal.solve.start.newton import CONSISTENT, InitialSystem, algebraic, follow, newton
+from acausal.solve.start.redundancy import Redundancy
+from acausal.solve.start.steady import Equilibrium
+from acausal.solve.start.words import contradiction_text, missing_text
 from acausal.structure import complete
 
 INITIAL = ("fixed", "guesses", "steady")

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.solve.energy import between_rows
-from acausal.solve.hermite import cubic
-from acausal.solve.integrate import Integrator
+from acausal.solve.events.hermite import cubic
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
 # Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
@@ -86,5 +87,7 @@ def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.
         if known:
             return found[-1]
     at = Point(float(ends[0]), x[0], z[0], constants)
-    stretch = run.attempt(at, ends, MOST_STEPS, careful=True)
-    return stretch.energy[-1] if stretch else between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)[0][-1]
+    stretch = run.attempt(at, ends, replace(run.way, max_steps=MOST_STEPS, careful=True))
+    if isinstance(stretch, Stretch):
+        return stretch.energy[-1]
+    return between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)[0][-1]

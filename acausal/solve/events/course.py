@@ -1,8 +1,4 @@
-"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, go on from there.
-
-After an event the outputs are integrated in blocks of 1, 2, 4, ... intervals: their relative grids, and so the
-integrators, are the same after each event.
-"""
+"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, go on from there."""
 
 from __future__ import annotations
 
@@ -14,21 +10,20 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError, caution
-from acausal.solve.agenda import Agenda
-from acausal.solve.between import work_between
-from acausal.solve.instant import Cycling, Instants, places_text
-from acausal.solve.integrate import Failure, Integrator
-from acausal.solve.locate import FINE, Crossing, Locator, TooCoarse
-from acausal.solve.looks import uneven
-from acausal.solve.passage import LONG, passage
+from acausal.solve.events.agenda import Agenda
+from acausal.solve.events.between import work_between
+from acausal.solve.events.instant import Cycling, Instants
+from acausal.solve.events.locate import Crossing, Locator, TooCoarse
+from acausal.solve.events.stride import Stride
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Failure, Refusal, accepted, next_ways
+from acausal.solve.integrate.segment import passage, segment
+from acausal.solve.integrate.settings import LONG
+from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
-from acausal.solve.trace import Stretch
+from acausal.solve.start.start import places_text
 
 MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
-# Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
-DENSEST, STEPS_A_ROW = 32, 4
-# The same of all intervals, that there may be at least: few intervals are looked at as often as many.
-ROWS = 400 * DENSEST
 
 
 class Chattering(Exception):
@@ -64,11 +59,9 @@ class Run:
         self.agenda = Agenda(self.guards, problem.p, times)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=MOST)
-        self.weak, self.density, self.block = 0, 1, 0
+        self.stride = Stride(times)
+        self.weak, self.hasty = 0, False
         self.first: Point | None = None
-        self.hasty, self.piece = False, np.inf
-        self.interval = float(times[-1] - times[0]) / (len(times) - 1)
-        self.densest = max(DENSEST, ROWS // (len(times) - 1))
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -87,7 +80,7 @@ class Run:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
         if at.time in self.found and bool((on != held).any()):
             self.events.append(at.time)
-            self.block = 1
+            self.stride.begin()
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
@@ -97,7 +90,7 @@ class Run:
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
-            self.block = 1
+            self.stride.begin()
             if self.events[-1:] != [at.time]:
                 self.events.append(at.time)
             self._refuse_chattering(at, at.time, self.guards.watched)
@@ -122,8 +115,8 @@ class Run:
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
             while at.time < end:
-                at = self.integrator.segment(at, self._grid(at.time, end))
-                self.block *= 2
+                at = segment(self.integrator, at, self.stride.grid(at.time, end))
+                self.stride.lengthen()
         while at.time < end:
             instant, row = self.agenda.planned(at, at.time + self.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
@@ -136,88 +129,72 @@ class Run:
 
     def _advance(self, at: Point, end: float) -> Point:
         """Integrate one stretch and go to its end, or to the first event in it."""
-        grid = self._grid(at.time, end)
-        stretch = self._integrate(at, grid)
-        if stretch is None:
-            return at if self.integrator.rescue(grid) else self._shorter(at, grid)
-        if stretch.steps > STEPS_A_ROW * (len(stretch.times) + 3):
-            if self.density < self.densest:
-                needed = max(4 * self.density, stretch.steps / (STEPS_A_ROW * (len(grid) - 1)))
-                self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
-            elif len(grid) > 2:
-                self.block = max(1, (len(grid) - 1) // FINE)
-            else:
-                self.piece = float(grid[1] - grid[0]) / FINE
+        grid = self.stride.grid(at.time, end)
+        way = replace(self.integrator.way, max_steps=max(1000, LONG // (len(grid) - 1)))
+        stretch = self.integrator.attempt(at, self.stride.looks(grid), way)
+        if isinstance(stretch, Refusal):
+            return self._otherwise(at, grid, stretch)
+        if not self.stride.is_enough(stretch, grid):
             return at
         try:
             crossing = self.locator.first(at, stretch, content=self.hasty)
         except TooCoarse:
-            if self.density < self.densest:
-                self.density = min(self.densest, 4 * self.density)
-            else:
+            if not self.stride.look_closer():
                 self._warn_of_haste(at)
             return at
-        except Failure:
-            return self._shorter(at, grid)
+        except Failure as failure:
+            return self._shorter(at, grid, failure)
         if crossing is None:
-            self.integrator.trace.add(stretch)
-            self.block *= 2
-            self.piece *= 2
-            return stretch.end(at)
-        return self._event(at, stretch, crossing)
+            self.stride.lengthen()
+        return self._passed(at, stretch, crossing)
 
     def _warn_of_haste(self, at: Point) -> None:
         self.hasty = True
         caution(
-            f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {2 * self.density} times an interval; "
-            "one that changes and changes back in between is missed. One of these:\n"
+            f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {2 * self.stride.density} times an "
+            "interval; one that changes and changes back in between is missed. One of these:\n"
             f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
             "More intervals look more often: simulate(..., intervals=...)."
         )
 
-    def _grid(self, now: float, end: float) -> np.ndarray:
-        """Next times: all up to the end at first, blocks of equal intervals after an event."""
-        ahead = self.times[(self.times > now) & (self.times < end)]
-        grid = np.concatenate([[now], ahead, [end]])
-        if now + self.piece < grid[1]:
-            return np.array([now, now + self.piece])
-        if not self.block:
-            return grid
-        steps = np.diff(grid)
-        equal = int(np.argmin(np.append(np.isclose(steps, steps[0], rtol=1e-9), False)))
-        return grid[: 1 + 2 ** int(np.log2(min(equal, self.block)))]
+    def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
+        """Try in another way, or look at less of the time, as the law may no longer be right beyond an event."""
+        run = self.integrator
+        following = next_ways(run.way, refusal, run.settings.policy(grid, run.loops))
+        if not following:
+            return self._shorter(at, grid, Failure.of(refusal))
+        run.way = following[0]
+        return at
 
-    def _integrate(self, at: Point, grid: np.ndarray) -> Stretch | None:
-        n = len(grid) - 1
-        pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
-        parts = 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n)))
-        return self.integrator.attempt(at, uneven(grid, parts), max(1000, LONG // n), careful=False)
-
-    def _shorter(self, at: Point, grid: np.ndarray) -> Point:
-        """The call failed, perhaps because the law is no longer right beyond an event: look at less of the time."""
-        if len(grid) > 2:
-            self.block = max(1, (len(grid) - 1) // 8)
+    def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:
+        """Look at less of the time: the law may no longer be right beyond an event."""
+        run = self.integrator
+        if self.stride.shorten(grid):
             return at
         for k in range(40):
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            stretch = passage(self.integrator, at, times, hard=not k)
+            way = replace(run.way, max_steps=LONG, careful=True)
+            stretch = run.attempt(at, times, way) if k else passage(run, at, times, 1)
             try:
-                crossing = self.locator.first(at, stretch, depth=1) if stretch else None
-            except Failure:
+                crossing = self.locator.first(at, accepted(stretch), depth=1)
+            except Failure as later:
+                failure = later
                 continue
-            if stretch is None:
-                continue
-            if crossing:
-                return self._event(at, stretch, crossing)
-            self.integrator.trace.add(stretch)
-            return stretch.end(at)
+            return self._passed(at, accepted(stretch), crossing)
         here = self.locator.row(at, at)
         due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
         if not due.any():
-            raise self.integrator.failure(float(grid[0]), float(grid[1]))
+            raise failure
         return self._happen(at, event=True, due=due)
+
+    def _passed(self, at: Point, stretch: Stretch, crossing: Crossing | None) -> Point:
+        """Keep a stretch, up to the first event in it."""
+        if crossing:
+            return self._event(at, stretch, crossing)
+        self.integrator.trace.add(stretch)
+        return stretch.end(at)
 
     def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
         """Keep what was before the event, let it happen, and go on from it."""
@@ -242,10 +219,7 @@ class Run:
         new = self._happen(reached, event=True, crossed=out, label=label, energy=gained)
         if on_output and near == at.time:
             self.integrator.trace.put(-2, new)
-        self.block = 1
-        if self.density > DENSEST:
-            # Where there are many looks to an interval, there are many events: look no further than a few.
-            self.piece = max(4 * (after.time - at.time), self.interval * DENSEST / self.density)
+        self.stride.begin(after.time - at.time)
         return new
 
     def _happen(

@@ -8,16 +8,15 @@ then damped instead of followed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.dae import UNSEEN
+from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Point, Problem
-
-if TYPE_CHECKING:
-    from acausal.solve.integrate import Integrator
 
 # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may leave.
 ROUNDING = 1e-14
@@ -28,7 +27,7 @@ LARGE = 2000
 
 
 @dataclass(frozen=True)
-class Way:
+class Setup:
     """Integrator, its options, and the sizes of states and algebraic unknowns that it sees as 1."""
 
     plugin: str
@@ -43,55 +42,77 @@ class Way:
         return x, z, out["qf"].reshape(n, 2).copy() if out["qf"].size else None
 
 
-def multistep(run: Integrator, at: Point, times: np.ndarray, max_steps: int, careful: bool) -> Way:
+def set_up(problem: Problem, settings: Settings, way: Way, at: Point, times: np.ndarray, floor: np.ndarray) -> Setup:
+    """Return integrator and options of a way.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    settings : Settings
+        How the run is to be integrated.
+    way : Way
+        How this stretch of it is.
+    at : Point
+        Where it begins.
+    times : array
+        Start and output times in s.
+    floor : array
+        Errors that rounding causes, see `rounding`.
+    """
+    if way.method == "rosenbrock":
+        return _one_step(problem, settings, way, times)
+    return _multistep(problem, settings, way, at, times[-1] - times[0], floor)
+
+
+def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: float, floor: np.ndarray) -> Setup:
     """IDAS: order limit, algebraic unknowns out of the error test, weights from nominal values.
 
     IDAS takes all first derivatives as 0 unless it computes them itself: the quick way lets it compute them, if any
     matter; the careful one starts with a step so short that they do not, and with the linear solver that does not rely on
     its pivots.
     """
-    c, tolerance, span = run.compiled, run.tolerance, times[-1] - times[0]
-    rates = run.problem.values(at)[: c.nx]
-    nominal = run.settings.nominal
+    c, tolerance, nominal = problem.compiled, way.tolerance, settings.nominal
+    rates = problem.values(at)[: c.nx]
     weights = tolerance * (np.abs(at.x) + nominal[: c.nx])
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
     options = {
         "reltol": tolerance,
-        "abstolv": np.maximum(tolerance * nominal, run.rounding(at)).tolist(),
-        "max_multistep_order": run.settings.max_order,
+        "abstolv": np.maximum(tolerance * nominal, floor).tolist(),
+        "max_multistep_order": settings.max_order,
         "suppress_algebraic": True,
-        "max_num_steps": max_steps,
+        "max_num_steps": way.max_steps,
         "disable_internal_warnings": True,
         "quad_err_con": False,
         # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular
         # position of a loop they are enlarged.
         "nonlin_conv_coeff": 0.005 if c.closing.size else 0.05,
         "show_eval_warnings": False,
-        "linear_solver": "qr" if careful or c.nx + c.nz > LARGE else "csparse",
-        "calc_ic": steepest > 1 and not careful,
+        "linear_solver": "qr" if way.careful or c.nx + c.nz > LARGE else "csparse",
+        "calc_ic": steepest > 1 and not way.careful,
     }
-    if careful and steepest > 1:
+    if way.careful and steepest > 1:
         options["step0"] = 10.0 ** -np.ceil(np.log10(10 * steepest))
-    return Way("idas", options, (np.ones(c.nx), 1.0))
+    return Setup("idas", options, (np.ones(c.nx), 1.0))
 
 
-def one_step(run: Integrator, at: Point, times: np.ndarray, max_steps: int, careful: bool) -> Way:
+def _one_step(problem: Problem, settings: Settings, way: Way, times: np.ndarray) -> Setup:
     """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
-    c, tolerance, fastest = run.compiled, run.tolerance, run.settings.fastest
-    size = run.settings.nominal[: c.nx].copy()
-    for coordinate, rate in run.problem.rates:
+    tolerance, fastest = way.tolerance, settings.fastest
+    size = settings.nominal[: problem.nx].copy()
+    for coordinate, rate in problem.rates:
         size[rate] = max(size[rate], size[coordinate] * fastest)
     options = {
         "reltol": tolerance,
         "abstol": tolerance,
         "control_group_size": [len(times) - 1],
         "quad_err_con": False,
-        "max_num_steps": max(1000, max_steps),
+        "max_num_steps": max(1000, way.max_steps),
         "show_eval_warnings": False,
     }
     if fastest > 0:
         options["step0"] = min(1e-2, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
-    return Way("rosenbrock", options, (size, UNSEEN))
+    return Setup("rosenbrock", options, (size, UNSEEN))
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

@@ -12,11 +12,12 @@ from itertools import islice
 
 import numpy as np
 
-from acausal.solve.integrate import Integrator
-from acausal.solve.looks import pace
+from acausal.solve.checks.validity import separations
+from acausal.solve.events.looks import pace
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Refusal
+from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point
-from acausal.solve.trace import Trace
-from acausal.solve.validity import separations
 
 # So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
 NEAR, NOTHING = 1e-6, 1e-4
@@ -103,7 +104,7 @@ class _Search:
         at = Point(float(rows.times[k]), x, z, run.compiled.layout.constants(rows.modes[k + 1]))
         times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
         found = run.trial(at, times, STEPS)
-        if found is None:
+        if isinstance(found, Refusal):
             return None
         all_modes = np.tile(found.constants.vector, (PARTS + 1, 1))
         return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), all_modes)

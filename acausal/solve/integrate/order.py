@@ -8,13 +8,12 @@ the motion must lie inside of the wedge.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import scipy
 
 from acausal.solve.problem import Point, Problem
-from acausal.solve.tangent import tangent
+from acausal.solve.start.tangent import state_matrix, tangent
 
 FAST = 30.0
 # States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
@@ -77,14 +76,6 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
         return np.zeros(0, complex)
     (c0, c1), *_ = np.linalg.lstsq(np.column_stack([v, once]), twice, rcond=None)
     return np.roots([1.0, -c1, -c0]).astype(complex)
-
-
-def state_matrix(J: Any, nx: int) -> np.ndarray:
-    """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
-    J = scipy.sparse.csc_matrix(J)
-    f, g = J[:nx], J[nx:]
-    own, right = f[:, :nx].toarray(), g[:, :nx].toarray()
-    return own - f[:, nx:] @ scipy.sparse.linalg.splu(g[:, nx:].tocsc()).solve(right) if g.shape[0] else own
 
 
 def order_limit(values: np.ndarray, duration: float) -> int:

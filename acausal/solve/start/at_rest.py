@@ -10,9 +10,9 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
-from acausal.solve.newton import CONSISTENT, TERMS
 from acausal.solve.problem import Point, Problem
-from acausal.solve.words import equation_text
+from acausal.solve.start.newton import CONSISTENT, TERMS
+from acausal.solve.start.words import equation_text
 from acausal.symbols import scalars
 
 STILL = 1e-7

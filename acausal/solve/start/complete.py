@@ -9,11 +9,12 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
-from acausal.solve.closing import CLOSED, close, refuse_open_loops
 from acausal.solve.problem import Point, Problem
-from acausal.solve.projection import Redundancy, choose_projection, find_redundancy
-from acausal.solve.rank import RANK, null_space, pivots, rank, row_space
-from acausal.solve.words import missing_text
+from acausal.solve.start.loop_states import choose_projection
+from acausal.solve.start.loops import CLOSED, close, refuse_open_loops
+from acausal.solve.start.rank import RANK, null_space, pivots, rank, row_space
+from acausal.solve.start.redundancy import Redundancy, find_redundancy
+from acausal.solve.start.words import missing_text
 
 # Way out of a singular position: its square is the error of what is left out.
 AWAY = 1e-4

@@ -7,15 +7,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.between import FAITHFUL, between
-from acausal.solve.crossing import Sides, dips, levels, root
-from acausal.solve.instant import Instants
-from acausal.solve.integrate import Integrator
-from acausal.solve.looks import pace
+from acausal.solve.events.between import FAITHFUL, between
+from acausal.solve.events.crossing import Sides, dips, levels, root
+from acausal.solve.events.instant import Instants
+from acausal.solve.events.looks import pace
+from acausal.solve.events.stride import FINE
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
+from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
-from acausal.solve.trace import Stretch
 
-FINE, DEPTH, SUSPECTS, TRIALS = 8, 3, 4, 80
+DEPTH, SUSPECTS, TRIALS = 3, 4, 80
 TRIAL_STEPS = 20_000
 # A condition may change within an interval that it could cross so much faster than it moves at the ends.
 REACH = 3.0
@@ -171,10 +173,7 @@ class Locator:
         """Look closer between two rows."""
         times = np.linspace(a.time, b.time, FINE + 1)
         begin = Point(a.time, a.x, a.z, at.constants, at.truth)
-        stretch = self.run.trial(begin, times, TRIAL_STEPS)
-        if stretch is None:
-            raise self.run.failure(a.time, b.time)
-        return self.first(begin, stretch, depth + 1)
+        return self.first(begin, accepted(self.run.trial(begin, times, TRIAL_STEPS)), depth + 1)
 
     def _narrow(self, at: Point, a: Row, b: Row, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
@@ -187,7 +186,8 @@ class Locator:
         level = np.where(a.value > 0, 0.0, np.minimum(a.value, 0.0) - slack)
         shortest = max(self.shortest, 4 * float(np.spacing(abs(b.time))))
         guess, last, width = b.time, b.time, [np.inf, np.inf]
-        wall = np.inf  # a time that could not be reached: perhaps the law has no value beyond the change
+        # A time that could not be reached: perhaps the law has no value beyond the change.
+        wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
         for _ in range(TRIALS):
             span = min(b.time, wall) - a.time
             if span <= shortest:
@@ -199,21 +199,21 @@ class Locator:
                 time = a.time + span / 2
             width.append(span)
             middle = self._between(at, a, b, time)
-            if middle is None:
-                wall = time
+            if isinstance(middle, Refusal):
+                wall, refusal = time, middle
             elif np.any(middle.value < level):
                 b = middle
             else:
                 a = middle
                 peak = np.maximum(peak, a.value)
                 level = np.where(a.value > 0, 0.0, level)
-        return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall), peak)
+        return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
 
-    def _at_wall(self, at: Point, a: Row, b: Row, wall: float) -> Row:
+    def _at_wall(self, at: Point, a: Row, b: Row, wall: float, refusal: Refusal) -> Row:
         """The last row that could be reached, where a condition is as near to its change as the tolerance can tell."""
         due = (b.value <= 0) & (a.value <= self.instants.width(at))
         if not due.any():
-            raise self.run.failure(a.time, wall)
+            raise Failure.of(refusal)
         return replace(a, time=wall, value=np.where(due, np.minimum(a.value, 0.0), a.value))
 
     def _guess(self, a: Row, b: Row, level: np.ndarray) -> float:
@@ -223,13 +223,13 @@ class Locator:
         ]
         return min(found, default=b.time)
 
-    def _between(self, at: Point, a: Row, b: Row, time: float) -> Row | None:
+    def _between(self, at: Point, a: Row, b: Row, time: float) -> Row | Refusal:
         """The row at a time between two others: on their cubic if it follows the motion, else integrated."""
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
             return found[0]
         stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), TRIAL_STEPS)
-        return stretch and self.row(at, stretch.end(at))
+        return stretch if isinstance(stretch, Refusal) else self.row(at, stretch.end(at))
 
 
 def _near(rows: list[Row], level: np.ndarray) -> list[int]:

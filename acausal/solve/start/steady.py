@@ -13,14 +13,14 @@ import numpy as np
 import scipy
 
 from acausal.errors import InitializationError, caution
-from acausal.solve.at_rest import at_rest, kinematic, meters, refuse_motion
-from acausal.solve.closing import tighten
-from acausal.solve.newton import algebraic
 from acausal.solve.problem import Point, Problem
-from acausal.solve.projection import choose_projection
-from acausal.solve.rank import RANK, scaled
-from acausal.solve.tangent import tangent
-from acausal.solve.words import unstable_text
+from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motion
+from acausal.solve.start.loop_states import choose_projection
+from acausal.solve.start.loops import tighten
+from acausal.solve.start.newton import algebraic
+from acausal.solve.start.rank import RANK, scaled
+from acausal.solve.start.tangent import tangent
+from acausal.solve.start.words import unstable_text
 
 NEWTON, RELAXATION = 60, 400
 # Largest change of a state in a step, over its nominal value.

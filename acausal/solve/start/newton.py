@@ -10,7 +10,7 @@ import scipy
 
 from acausal.errors import InitializationError
 from acausal.solve.problem import Point, Problem
-from acausal.solve.words import lost_text
+from acausal.solve.start.words import lost_text
 
 ITERATIONS = 60
 CONVERGED = 1e-8

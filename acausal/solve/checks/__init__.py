@@ -1,0 +1,1 @@
+"""Whether a run was used within what its components and laws promise."""

@@ -1,0 +1,1 @@
+"""Where the equations of a run change, and what happens there."""

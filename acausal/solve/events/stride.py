@@ -1,0 +1,101 @@
+"""How much of the time is integrated at once, and how often conditions are looked at in it.
+
+After an event the outputs are integrated in blocks of 1, 2, 4, ... intervals: their relative grids, and so the
+integrators, are the same after each event.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.solve.events.looks import uneven
+from acausal.solve.integrate.trace import Stretch
+
+# Parts of an interval at least, and of one that is looked into.
+FINE = 8
+# Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
+DENSEST, STEPS_A_ROW = 32, 4
+# The same of all intervals, that there may be at least: few intervals are looked at as often as many.
+ROWS = 400 * DENSEST
+
+
+class Stride:
+    """Times of the next stretch.
+
+    Parameters
+    ----------
+    times : array
+        Output times in s.
+
+    Attributes
+    ----------
+    density : int
+        Pairs of looks in an interval.
+    block : int
+        Intervals in a stretch; 0 for all that there are.
+    piece : float
+        Length of a stretch in s, where that is less than an interval.
+    """
+
+    def __init__(self, times: np.ndarray) -> None:
+        self.times = times
+        self.interval = float(times[-1] - times[0]) / (len(times) - 1)
+        self.densest = max(DENSEST, ROWS // (len(times) - 1))
+        self.density, self.block, self.piece = 1, 0, np.inf
+
+    def grid(self, now: float, end: float) -> np.ndarray:
+        """Return the next times: all up to the end at first, blocks of equal intervals after an event."""
+        ahead = self.times[(self.times > now) & (self.times < end)]
+        grid = np.concatenate([[now], ahead, [end]])
+        if now + self.piece < grid[1]:
+            return np.array([now, now + self.piece])
+        if not self.block:
+            return grid
+        steps = np.diff(grid)
+        equal = int(np.argmin(np.append(np.isclose(steps, steps[0], rtol=1e-9), False)))
+        return grid[: 1 + 2 ** int(np.log2(min(equal, self.block)))]
+
+    def looks(self, grid: np.ndarray) -> np.ndarray:
+        """Return the times at which conditions are looked at in a grid."""
+        n = len(grid) - 1
+        pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
+        return uneven(grid, 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n))))
+
+    def is_enough(self, stretch: Stretch, grid: np.ndarray) -> bool:
+        """Whether a stretch shows all that its steps do; the next one is denser or shorter if not."""
+        if stretch.steps <= STEPS_A_ROW * (len(stretch.times) + 3):
+            return True
+        if self.density < self.densest:
+            needed = max(4 * self.density, stretch.steps / (STEPS_A_ROW * (len(grid) - 1)))
+            self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
+        elif len(grid) > 2:
+            self.block = max(1, (len(grid) - 1) // FINE)
+        else:
+            self.piece = float(grid[1] - grid[0]) / FINE
+        return False
+
+    def look_closer(self) -> bool:
+        """Look more often from now on; False if that is as often as may be."""
+        if self.density >= self.densest:
+            return False
+        self.density = min(self.densest, 4 * self.density)
+        return True
+
+    def lengthen(self) -> None:
+        """Take more of the time next."""
+        self.block *= 2
+        self.piece *= 2
+
+    def shorten(self, grid: np.ndarray) -> bool:
+        """Take fewer intervals than these next; False if it is but one."""
+        if len(grid) <= 2:
+            return False
+        self.block = max(1, (len(grid) - 1) // 8)
+        return True
+
+    def begin(self, since: float | None = None) -> None:
+        """Begin with one interval, after an event that came so many seconds after the point before."""
+        self.block = 1
+        if since is not None and self.density > DENSEST:
+            # Where there are many looks to an interval, there are many events: look no further than a few.
+            self.piece = max(4 * since, self.interval * DENSEST / self.density)

@@ -1,0 +1,1 @@
+"""Integration of one stretch of a run after the other."""

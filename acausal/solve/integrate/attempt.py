@@ -1,0 +1,178 @@
+"""One call of an integrator, and what is made of it."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.compiler.constants import Constants
+from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
+from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.interrupted import reached
+from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
+from acausal.solve.integrate.methods import Setup, rounding, set_up
+from acausal.solve.integrate.settings import Settings
+from acausal.solve.integrate.trace import Stretch, Trace
+from acausal.solve.problem import Point, Problem
+from acausal.solve.start.loop_states import WORN, choose_projection, worn
+
+# Times in a call at which at least the choice of states is looked at.
+FINE = 60
+# Looks at the projection after a call cost about the cube of the number of constraints each.
+WORK = 2e7
+# What is integrated in place of a coordinate follows it; so far off, in parts of its size, it has lost it.
+APART = 0.1
+
+
+class Integrator:
+    """Integration of one model with one set of parameters.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    settings : Settings
+        Tolerance, order limit and what else to compute.
+    span : (float, float)
+        Start and stop time of the whole run, for the progress.
+    before : Trace
+        Of an earlier run whose counts go on.
+    """
+
+    def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
+        self.problem, self.compiled, self.settings, self.span = problem, problem.compiled, settings, span
+        self.hoisted = self.compiled.hoist(problem.p)[0].copy()
+        self.trace = before.emptied()
+        self.consistent = Consistent(problem)
+        self.way = settings.way
+        self._floor: np.ndarray | None = None
+
+    @property
+    def tolerance(self) -> float:
+        """Relative tolerance of the run."""
+        return self.settings.tolerance
+
+    @property
+    def loops(self) -> bool:
+        """Whether there are constraints."""
+        return bool(self.compiled.closing.size)
+
+    def rounding(self, at: Point) -> np.ndarray:
+        """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
+        if self._floor is None:
+            near = self.settings.tolerance < 1e-8 and self.compiled.nz
+            c = self.compiled
+            self._floor = rounding(self.problem, at) if near else np.zeros(c.nx + c.nz)
+        return self._floor
+
+    def _choose(self, at: Point, moves: bool) -> Point:
+        """Start anew from where the constraints hold, with a projection that suits the position."""
+        if not self.loops:
+            return at
+        z = at.z.copy()
+        z[self.compiled.closing.multipliers] = 0.0
+        at = replace(self.problem.projected(at), z=z)
+        self.trace.choices += 1
+        return replace(at, constants=choose_projection(self.problem, at, moves=moves))
+
+    def _is_worn(self, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
+        """Whether the chosen states became unfit on the way."""
+        if not self.loops or constants.moves:
+            return False
+        looks = int(np.clip(WORK / self.compiled.closing.size**3, 8, 100))
+        some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
+        return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
+
+    def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
+        """Integrate in the way of now, carefully where that fails; nobody asks for works."""
+        way = replace(self.way, max_steps=max_steps)
+        found = self.attempt(at, times, way, works=False)
+        return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found
+
+    def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True) -> Stretch | Refusal:
+        """Integrate from a point, at times[0], through all other times in one call.
+
+        Works are 0 where they are not asked for.
+        """
+        c = self.compiled
+        if not c.nx:
+            return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
+        at = self._choose(at, way.moves)
+        parts = -(-FINE // (len(times) - 1)) if self.loops and not way.moves else 1
+        works = works and self.settings.energy
+        if works and not c.powers.is_zero():
+            more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
+            parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
+        times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
+        span = times[-1] - times[0]
+        grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
+        setup = set_up(self.problem, self.settings, way, at, times, self.rounding(at))
+        call = c.integrator(setup.plugin, grid, setup.options, works, way.moves)
+        x_size, z_size = setup.sizes
+        given = {"x0": at.x / x_size, "z0": at.z / z_size}
+        vector, own = at.constants.vector, x_size if setup.plugin != "idas" else []
+        given["p"] = np.concatenate([[times[0], span], self.hoisted, vector, own])
+        for k, name in enumerate(call.function.name_in()):
+            if name in given:
+                call.inputs[k][:] = given[name]
+        call.clear()
+        try:
+            found = self._outcome(call, setup, way, at, times)
+        except KeyboardInterrupt:
+            self._keep_reached(call, setup, at, times, parts)
+            raise
+        return found if isinstance(found, Refusal) else self._settled(found.every(parts), way.tolerance)
+
+    def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
+        """Evaluate a call; its rows, unless it failed or went astray."""
+        c, trace, n = self.compiled, self.trace, len(times) - 1
+        started = clock.perf_counter()
+        done, said = call.attempt()
+        trace.seconds += clock.perf_counter() - started
+        steps = trace.count(call.stats, setup.plugin)
+        if not done:
+            return read(said, times[0], times[-1])
+        states, algebraics, energy = setup.rows(call)
+        if self._is_worn(times[1:], states, at.constants):
+            return Refusal(Kind.WORN, float(times[0]))
+        few = RESOLVED if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
+        if energy is not None and not c.powers.is_zero() and steps < n * few:
+            rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
+            given = np.vstack([np.zeros((1, 2)), energy])
+            work, known = refined(c, self.consistent, rows, given, way.tolerance, steps < n)
+            energy, trace.rough = work[1:], trace.rough or not known
+        energy = np.zeros((n, 2)) if energy is None else energy
+        return Stretch(times[1:], states, algebraics, energy, at.constants, steps)
+
+    def _keep_reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> None:
+        """Keep the rows that an interrupted call had written, unless it was a trial on the way."""
+        begin, end = self.span
+        last = self.trace.last().times if self.trace.pieces else begin
+        here = np.isclose(at.time, last, rtol=1e-9, atol=1e-9 * (end - begin))
+        found = reached(self.consistent, call, setup, at, times) if here else None
+        if found is None or self._is_worn(found.times, found.x, at.constants) or len(found.times) < parts:
+            return
+        if not self.settings.energy or call.function.nnz_out("qf"):
+            self.trace.add(found.every(parts))
+
+    def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
+        """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
+        last, vector = slice(-1, None), stretch.constants.vector
+        z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
+        lost, self.consistent.unsolved = self.consistent.unsolved, []
+        end = Point(float(stretch.times[-1]), stretch.x[-1], z[-1], stretch.constants)
+        q = self.problem.projected(end).x
+        if not np.all(np.abs(q - end.x) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
+            return Refusal(Kind.APART, end.time, Kind.APART.value)
+        if lost and not self.consistent.holds(end.x, end.z, lost[0], vector, tolerance):
+            return Refusal(Kind.UNSOLVABLE, end.time, f"{Kind.UNSOLVABLE.value} there")
+        return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
+
+    def report(self, time: float) -> None:
+        """Tell the progress."""
+        if self.settings.progress:
+            start, stop = self.span
+            self.settings.progress((time - start) / (stop - start), self.trace.steps)

@@ -1,0 +1,59 @@
+"""What a call of an integrator had reached when it was interrupted."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.methods import Setup
+from acausal.solve.integrate.trace import Stretch
+from acausal.solve.problem import Point
+
+
+def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Stretch | None:
+    """Return the rows that an interrupted call had written, up to the first change of a watched condition.
+
+    An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.clear`.
+
+    Parameters
+    ----------
+    consistent : Consistent
+        Solver for algebraic unknowns.
+    call : Call
+        The interrupted call.
+    setup : Setup
+        How it integrates.
+    at : Point
+        Where it began.
+    times : array
+        Its start and output times.
+    """
+    x, z, energy = setup.rows(call)
+    energy = np.zeros((len(x), 2)) if energy is None else energy
+    whole = np.isfinite(np.hstack([x, z, energy])).all(axis=1)
+    found = Stretch(times[1:], x, z, energy, at.constants, 0).rows(0, _leading(whole))
+    if not len(found.times):
+        return None
+    return found.rows(0, _before_event(consistent, at, found))
+
+
+def _leading(holds: Any) -> int:
+    """Number of entries of an array before the first that does not hold."""
+    return len(holds) if holds.all() else int(np.argmin(holds))
+
+
+def _before_event(consistent: Consistent, at: Point, found: Stretch) -> int:
+    """Number of rows before a watched condition changes: beyond, the equations would be others."""
+    guards = consistent.compiled.guards
+    if not guards.watched:
+        return len(found.times)
+    x, z = np.vstack([at.x[None], found.x]), np.vstack([at.z[None], found.z])
+    t, vector = np.concatenate([[at.time], found.times]), at.constants.vector
+    z = consistent(x, z, t, vector, guards.needs)
+    signs = np.sign(guards.along(x, z, consistent.p, t, vector)[0])
+    # Right after an event a condition is at its threshold.
+    first = np.where(signs[0] == 0, signs[1], signs[0])
+    return _leading((signs[1:] == first).all(axis=1))

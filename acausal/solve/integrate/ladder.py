@@ -1,0 +1,170 @@
+"""How a stretch of a run is integrated, and how it is tried next where an integrator refuses."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TypeVar
+
+# Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a singular
+# position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
+PATIENT = 20_000
+LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
+
+
+@dataclass(frozen=True)
+class Way:
+    """How to integrate a stretch.
+
+    Attributes
+    ----------
+    method : str
+        "idas" or "rosenbrock".
+    moves : bool
+        Whether the projection on the constraints moves along with them; the states are chosen once if not.
+    tolerance : float
+        Relative tolerance.
+    max_steps : int
+        Steps after which to give up.
+    careful : bool
+        Whether to begin with a short step, and to factorise without relying on pivots of before.
+    """
+
+    method: str
+    moves: bool
+    tolerance: float
+    max_steps: int
+    careful: bool = False
+
+
+Found = TypeVar("Found")
+
+
+class Kind(Enum):
+    """What an integrator stumbled over."""
+
+    STEPS = "more steps than allowed"
+    CORRECTOR = "the Newton iteration does not converge"
+    ERROR_TEST = "no step is short enough"
+    WORN = "the chosen states are no longer fit"
+    APART = "the loops came apart"
+    UNSOLVABLE = "the algebraic equations have no solution"
+    OTHER = "something else"
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why and when an integrator gave up.
+
+    Attributes
+    ----------
+    kind : Kind
+        The kind of reason.
+    time : float
+        Where it had got to, in s.
+    reason : str
+        What it said, as far as it said something.
+    """
+
+    kind: Kind
+    time: float
+    reason: str = ""
+
+
+class Failure(Exception):
+    """The integrator gave up; `time` is where, `reason` what it said."""
+
+    def __init__(self, time: float, reason: str) -> None:
+        super().__init__(reason)
+        self.time, self.reason = time, reason
+
+    @classmethod
+    def of(cls, refusal: Refusal) -> Failure:
+        """Return the failure that a refusal is, if nothing else helps."""
+        return cls(
+            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it may take"
+        )
+
+
+def accepted(found: Found | Refusal) -> Found:
+    """Return what was found; raise Failure if it is a refusal."""
+    if isinstance(found, Refusal):
+        raise Failure.of(found)
+    return found
+
+
+def read(said: str, begin: float, end: float) -> Refusal:
+    """Read a refusal from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
+
+    Parameters
+    ----------
+    said : str
+        Its words; time counts from 0 to 1.
+    begin, end : float
+        Ends of the stretch in s.
+    """
+    found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", said)
+    time, reason = (begin + float(found[1]) * (end - begin), found[2].strip().rstrip(".")) if found else (begin, "")
+    words = {"mxstep": Kind.STEPS, "corrector": Kind.CORRECTOR, "error test": Kind.ERROR_TEST}
+    kind = next((kind for word, kind in words.items() if word in said), Kind.OTHER)
+    return Refusal(kind, float(time), reason)
+
+
+@dataclass(frozen=True)
+class Policy:
+    """What may be changed from one try to the next.
+
+    Attributes
+    ----------
+    methods : tuple of str
+        Methods that may be taken, the first one first.
+    projects : bool
+        Whether the projection may move where the chosen states wear out.
+    loops : bool
+        Whether there are constraints; then whatever goes wrong but too many steps may be the states' fault.
+    damps : bool
+        Whether vibrations that the outputs cannot show may be damped.
+    tolerance : float
+        The tolerance that was asked for.
+    """
+
+    methods: tuple[str, ...]
+    projects: bool
+    loops: bool
+    damps: bool
+    tolerance: float
+
+    def wears(self, refusal: Refusal) -> bool:
+        """Whether another choice of states may help."""
+        return self.loops and refusal.kind is not Kind.STEPS
+
+
+def next_ways(way: Way, refusal: Refusal, policy: Policy) -> tuple[Way, ...]:
+    """Return the ways to try after a refused one, in this order; none if only shorter stretches are left.
+
+    A quick way gives place to the projection that moves where the chosen states became unfit, and to the one-step method,
+    which damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What
+    comes after a careful way is the other method, then longer steps.
+
+    Parameters
+    ----------
+    way : Way
+        The refused one.
+    refusal : Refusal
+        Why.
+    policy : Policy
+        What may be changed.
+    """
+    if way.careful:
+        looser = (min(factor * policy.tolerance, max(LOOSEST, policy.tolerance)) for factor in LOOSER)
+        return tuple(
+            replace(way, method=method, tolerance=tolerance, max_steps=PATIENT)
+            for tolerance in dict.fromkeys(looser)
+            for method in reversed(policy.methods)
+        )
+    changed = replace(way, moves=way.moves or (policy.projects and policy.wears(refusal)))
+    stuck = refusal.kind is Kind.CORRECTOR and changed == way
+    if "rosenbrock" in policy.methods and (stuck or (refusal.kind is Kind.STEPS and policy.damps)):
+        changed = replace(changed, method="rosenbrock")
+    return () if changed == way else (changed,)

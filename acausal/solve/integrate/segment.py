@@ -1,0 +1,111 @@
+"""One smooth segment of a run: in one call, in chunks where that fails, at last from output to output."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Refusal, Way, accepted, next_ways
+from acausal.solve.integrate.settings import LONG
+from acausal.solve.integrate.trace import Stretch
+from acausal.solve.problem import Point
+
+CHUNKS = 25
+# Steps before a chunk or an output counts as hopeless.
+HOPELESS = 2_000_000
+HALVINGS = 6
+
+
+def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
+    """Integrate from times[0] through all other times, without a break between them; return the last point.
+
+    Raises
+    ------
+    Failure
+        If the integrator gives up; the trace holds what was reached.
+    """
+    found = quickly(run, at, times)
+    if isinstance(found, Stretch):
+        run.trace.add(found)
+        return found.end(at)
+    n = len(times) - 1
+    run.way = replace(run.way, method=run.settings.methods[0])
+    size = max(1, -(-n // CHUNKS))
+    for first in range(0, n, size):
+        part = times[first : first + size + 1]
+        way = replace(run.way, careful=True, max_steps=HOPELESS // (len(part) - 1))
+        found = run.attempt(at, part, way)
+        if isinstance(found, Stretch):
+            run.trace.add(found)
+            at = found.end(at)
+        else:
+            at = _creep(run, at, part, n)
+        run.report(part[-1])
+    return at
+
+
+def quickly(run: Integrator, at: Point, times: np.ndarray) -> Stretch | Refusal:
+    """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
+    way = replace(run.way, max_steps=run.settings.patience(run.way, times))
+    policy = run.settings.policy(times, run.loops)
+    while isinstance(found := run.attempt(at, times, way), Refusal):
+        following = next_ways(way, found, policy)
+        if not following:
+            return found
+        run.way = following[0]
+        way = replace(run.way, max_steps=run.settings.patience(run.way, times))
+    return found
+
+
+def _creep(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Point:
+    """Go from output to output, until the failure if there is one; return the last point."""
+    for k in range(len(times) - 1):
+        found = accepted(passage(run, at, times[k : k + 2], outputs))
+        run.trace.add(found)
+        at = found.end(at)
+    return at
+
+
+def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stretch | Refusal:
+    """Go over one interval where a call over many failed, by everything that there is.
+
+    That is new choices of states on the way, the other method, and a larger tolerance.
+
+    Parameters
+    ----------
+    run : Integrator
+        The run.
+    at : Point
+        Where it begins.
+    times : array, shape (2,)
+        Its ends in s.
+    outputs : int
+        Number of outputs that share the steps.
+    """
+    # Loops that get stuck beside a singular position do so for ever.
+    most = LONG if run.loops else HOPELESS // min(outputs, HOPELESS // LONG)
+    way = replace(run.way, careful=True, max_steps=most)
+    found = _stride(run, at, times, way, HALVINGS)
+    if isinstance(found, Stretch):
+        return found
+    for loose in next_ways(way, found, run.settings.policy(times, run.loops)):
+        stretch = run.attempt(at, times, loose)
+        if isinstance(stretch, Stretch):
+            run.trace.loosened += [float(times[0])] * (loose.tolerance > way.tolerance)
+            return stretch
+    return found
+
+
+def _stride(run: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int) -> Stretch | Refusal:
+    """Go to the next output, with new choices of states on the way where one does not last."""
+    found = run.attempt(at, times, way)
+    if isinstance(found, Stretch) or not halvings or not run.settings.policy(times, run.loops).wears(found):
+        return found
+    middle = (times[0] + times[1]) / 2
+    first = _stride(run, at, np.array([times[0], middle]), way, halvings - 1)
+    if isinstance(first, Refusal):
+        return first
+    last = _stride(run, first.end(at), np.array([middle, times[1]]), way, halvings - 1)
+    return last if isinstance(last, Refusal) else replace(last, energy=last.energy + first.energy[-1])

@@ -1,0 +1,70 @@
+"""How a run is to be integrated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.solve.integrate.ladder import Policy, Way
+
+# Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
+SHORT, LONG = 40_000, 100_000
+Progress = Callable[[float, int], None]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How to integrate.
+
+    Attributes
+    ----------
+    nominal : array
+        Sizes of states and algebraic unknowns.
+    tolerance : float
+        Relative tolerance.
+    max_order : int
+        Limit of the order of the multistep method.
+    energy : bool
+        Whether to integrate the powers as well.
+    progress : callable, optional
+        Told the part that is done, and the steps.
+    constraints, method : str
+        As of `simulate`.
+    fastest : float
+        Size of the largest eigenvalue at the start in 1/s.
+    """
+
+    nominal: np.ndarray
+    tolerance: float
+    max_order: int
+    energy: bool
+    progress: Progress | None = None
+    constraints: str = "auto"
+    method: str = "auto"
+    fastest: float = 0.0
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Methods that may be taken, the first one first."""
+        known = {"auto": ("idas", "rosenbrock"), "rosenbrock": ("rosenbrock",)}
+        return known.get(self.method, ("idas",))
+
+    @property
+    def way(self) -> Way:
+        """The way to begin with."""
+        return Way(self.methods[0], self.constraints == "projection", self.tolerance, LONG)
+
+    def may_ring(self, times: np.ndarray) -> bool:
+        """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
+        return self.method == "auto" and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
+
+    def policy(self, times: np.ndarray, loops: bool) -> Policy:
+        """What may be changed between tries of a stretch with these outputs."""
+        return Policy(self.methods, self.constraints == "auto", loops, self.may_ring(times), self.tolerance)
+
+    def patience(self, way: Way, times: np.ndarray) -> int:
+        """Steps for an output interval after which a first call is given up."""
+        n, rings = len(times) - 1, way.method == "idas" and self.may_ring(times)
+        return max(100, SHORT // n) if rings else max(1000, LONG // n)

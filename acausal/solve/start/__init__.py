@@ -1,0 +1,1 @@
+"""Consistent initial values: closed loops, independent states, all equations satisfied."""

@@ -1,0 +1,82 @@
+"""Where a run begins: values, and modes of the switches that fit them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.errors import InitializationError
+from acausal.solve.problem import Point, Problem
+from acausal.solve.start.complete import leave_singular
+from acausal.solve.start.initialize import Start, initialize
+from acausal.solve.start.loop_states import choose_projection
+from acausal.solve.start.newton import algebraic
+
+ROUNDS = 20
+
+
+def start(problem: Problem, time: float, later: float, initial: str) -> Start:
+    """Find consistent values at the start, and the modes that fit them.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    time, later : float
+        Start time, and a time before the first break.
+    initial : "fixed", "guesses" or "steady"
+        See `initialize`.
+
+    Raises
+    ------
+    InitializationError
+        If no values are found, or none whose modes fit them.
+    """
+    guards, p = problem.compiled.guards, problem.p
+    head = problem.compiled.guards.guess(p, later)[0].copy()
+    for _ in range(ROUNDS):
+        begun = initialize(problem, time, head, initial)
+        at = begun.point
+        found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
+        new = head.copy()
+        own = np.setdiff1d(np.arange(guards.n_modes), [k for k in guards.timed if k < guards.n_switches])
+        new[own] = found[own]
+        if np.allclose(new, head, rtol=1e-9, atol=1e-12):
+            return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
+        previous, head = head, new
+    wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
+    raise InitializationError(
+        f"no modes fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        + places_text(problem.compiled, wrong)
+        + "\nGive start values at which it is clear which of them hold, or use smooth=True."
+    )
+
+
+def _first_truth(problem: Problem, at: Point) -> np.ndarray:
+    """Which watched conditions hold at the start; those that act at the start do not hold before."""
+    guards: Any = problem.compiled.guards
+    if not guards.watched:
+        return np.zeros(0, dtype=bool)
+    value = problem.watched(at)[0][0]
+    own = [guards.guards[k] for k in guards.watched]
+    inclusive = np.array([g.inclusive for g in own])
+    acts = np.array([g.at_start for g in own])
+    return ((value < 0) | ((value == 0) & inclusive)) & ~acts
+
+
+def go_on(problem: Problem, start: Start) -> Point:
+    """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
+    if not start.redundancy.singular:
+        return start.point
+    at = leave_singular(problem, start.point)
+    at = replace(at, constants=choose_projection(problem, at, spare=False))
+    return algebraic(problem, problem.completed(at))
+
+
+def places_text(compiled: CompiledModel, guards: list[int]) -> str:
+    """Say where guards are stated, a line each."""
+    origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
+    return "\n".join(f"  {origin}" for origin in list(origins)[:5])

@@ -1,0 +1,96 @@
+"""What is tried next, without an integrator."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from acausal.solve.integrate.ladder import Failure, Kind, Policy, Refusal, Way, accepted, next_ways, read
+
+QUICK = Way("idas", moves=False, tolerance=1e-6, max_steps=100)
+AUTO = Policy(("idas", "rosenbrock"), projects=True, loops=True, damps=True, tolerance=1e-6)
+FREE = replace(AUTO, loops=False)
+
+
+@pytest.mark.parametrize(
+    ("way", "kind", "policy", "method", "moves"),
+    [
+        (QUICK, Kind.WORN, AUTO, "idas", True),
+        (QUICK, Kind.APART, AUTO, "idas", True),
+        (QUICK, Kind.CORRECTOR, AUTO, "idas", True),
+        (QUICK, Kind.CORRECTOR, FREE, "rosenbrock", False),
+        (replace(QUICK, moves=True), Kind.CORRECTOR, AUTO, "rosenbrock", True),
+        (QUICK, Kind.STEPS, AUTO, "rosenbrock", False),
+        (QUICK, Kind.STEPS, FREE, "rosenbrock", False),
+        (QUICK, Kind.CORRECTOR, replace(AUTO, projects=False), "rosenbrock", False),
+    ],
+)
+def test_what_follows_a_quick_way(way, kind, policy, method, moves):
+    assert next_ways(way, Refusal(kind, 0.5), policy) == (replace(way, method=method, moves=moves),)
+
+
+@pytest.mark.parametrize(
+    ("way", "kind", "policy"),
+    [
+        (QUICK, Kind.ERROR_TEST, FREE),
+        (QUICK, Kind.STEPS, replace(AUTO, damps=False)),
+        (QUICK, Kind.CORRECTOR, replace(FREE, methods=("idas",))),
+        (replace(QUICK, moves=True), Kind.ERROR_TEST, AUTO),
+        (replace(QUICK, method="rosenbrock"), Kind.STEPS, AUTO),
+        (replace(QUICK, method="rosenbrock"), Kind.CORRECTOR, FREE),
+        (QUICK, Kind.WORN, replace(AUTO, projects=False)),
+    ],
+)
+def test_where_nothing_follows_a_quick_way(way, kind, policy):
+    assert next_ways(way, Refusal(kind, 0.5), policy) == ()
+
+
+@pytest.mark.parametrize("kind", list(Kind))
+def test_quick_ways_come_to_an_end(kind):
+    way, tries = QUICK, 0
+    while following := next_ways(way, Refusal(kind, 0.5), AUTO):
+        (way,), tries = following, tries + 1
+    assert tries <= 2
+
+
+def test_careful_ways_take_the_other_method_and_then_longer_steps():
+    found = next_ways(replace(QUICK, careful=True), Refusal(Kind.ERROR_TEST, 0.5), replace(AUTO, tolerance=1e-10))
+    assert [way.method for way in found] == ["rosenbrock", "idas"] * 3
+    assert [way.tolerance for way in found] == pytest.approx([1e-10, 1e-10, 1e-8, 1e-8, 1e-6, 1e-6])
+    assert all(way.careful for way in found)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-10])
+def test_no_tolerance_becomes_smaller_or_looser_than_1e_4(tolerance):
+    policy = replace(AUTO, methods=("idas",), tolerance=tolerance)
+    found = next_ways(replace(QUICK, careful=True, tolerance=tolerance), Refusal(Kind.OTHER, 0.5), policy)
+    assert [way.tolerance for way in found] == sorted({way.tolerance for way in found})
+    assert found[0].tolerance == tolerance
+    assert found[-1].tolerance <= max(tolerance, 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("said", "kind", "time"),
+    [
+        ("At t = 0.5, mxstep steps taken before reaching tout.", Kind.STEPS, 3.0),
+        (
+            "At t = 0.25 and h = 1e-9, the corrector convergence failed repeatedly or with |h| = hmin.",
+            Kind.CORRECTOR,
+            2.5,
+        ),
+        ("At t = 0 and h = 1e-12, the error test failed repeatedly or with |h| = hmin.", Kind.ERROR_TEST, 2.0),
+        ("something else", Kind.OTHER, 2.0),
+        ("", Kind.OTHER, 2.0),
+    ],
+)
+def test_what_an_integrator_says(said, kind, time):
+    found = read(said, 2.0, 4.0)
+    assert (found.kind, found.time) == (kind, time)
+
+
+def test_a_refusal_that_nothing_mends_is_a_failure():
+    with pytest.raises(Failure, match="no step short enough") as raised:
+        accepted(Refusal(Kind.OTHER, 1.5))
+    assert raised.value.time == 1.5
+    assert accepted("a stretch") == "a stretch"
