@@ -207,8 +207,8 @@ class CompiledModel:
     def layout(self) -> Layout:
         """How many constants a segment has."""
         guards, closing = self.guards, self.closing
-        n = guards.n_switches, guards.n_modes - guards.n_switches, len(closing.closures), closing.entries.shape[1]
-        return Layout(*n)
+        discretes, moves = guards.n_modes - guards.n_switches, self.reduced.modes.numel() > guards.n_modes
+        return Layout(guards.n_switches, discretes, len(closing.closures), int(moves), closing.entries.shape[1])
 
     @cached_property
     def guards(self) -> Guards:

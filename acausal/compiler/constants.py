@@ -20,8 +20,8 @@ class Constants:
         Values of the discrete variables.
     closures : array
         1 where the constraints of a closure count, 0 where they are redundant.
-    moves : bool
-        Whether D are factors of the constraint Jacobian, which moves along, or numbers.
+    moves : bool or None
+        Whether D are factors of the constraint Jacobian, which moves along, or numbers; None where nothing is constrained.
     D : array
         Directions along which coordinates are projected on the constraints, see `Closing.entries`.
     """
@@ -29,13 +29,13 @@ class Constants:
     switches: np.ndarray
     discretes: np.ndarray
     closures: np.ndarray
-    moves: bool
+    moves: bool | None
     D: np.ndarray
 
     @cached_property
     def vector(self) -> np.ndarray:
         """All of them, in the order of `ReducedModel.modes`."""
-        moves = np.full(min(1, self.D.size), float(self.moves))
+        moves = [] if self.moves is None else [float(self.moves)]
         return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D])
 
     def switched(self, places: np.ndarray | list[int], on: np.ndarray | list[bool]) -> Constants:
@@ -47,19 +47,20 @@ class Constants:
 
 @dataclass(frozen=True)
 class Layout:
-    """How many constants of each kind a model has: switches, discrete variables, closures, entries of D."""
+    """How many constants of each kind a model has: switches, discrete variables, closures, entries of D; 1 for `moves`."""
 
     switches: int
     discretes: int
     closures: int
+    moves: int
     D: int
 
     def constants(self, vector: np.ndarray) -> Constants:
         """Return the constants in a vector; one that ends before the closures lets all of them count, without D."""
         head = self.switches + self.discretes
-        first = head + self.closures + min(1, self.D)
-        closures, D = np.ones(self.closures), np.ones(self.D)
-        if len(vector) > head:
-            closures, D = vector[head : head + self.closures], vector[first:]
-        moves = bool(self.D and len(vector) > head and vector[first - 1] > 0)
+        first = head + self.closures + self.moves
+        if len(vector) == head:
+            vector = np.concatenate([vector, np.ones(self.closures), np.zeros(self.moves), np.ones(self.D)])
+        closures, D = vector[head : head + self.closures], vector[first:]
+        moves = bool(vector[first - 1]) if self.moves else None
         return Constants(vector[: self.switches], vector[self.switches : head], closures, moves, D)

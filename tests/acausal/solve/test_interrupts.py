@@ -11,8 +11,9 @@ import pytest
 import acausal as ac
 from acausal.solve import run as module
 
-SOLVER = str(Path(module.__file__).parent)
-WHERE = {str(Path(SOLVER, name)) for name in ("events.py", "integrate.py", "interrupted.py", "trace.py")}
+SOLVER = Path(module.__file__).parent
+FILES = ("events/course.py", "integrate/attempt.py", "integrate/interrupted.py", "integrate/trace.py")
+WHERE = {str(SOLVER / name) for name in FILES}
 PLACES = 100
 
 
