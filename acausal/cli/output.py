@@ -14,6 +14,7 @@ import numpy as np
 from acausal.result import Result, check_picture, check_writable
 from acausal.result.files import whole
 from acausal.result.plots import Series
+from acausal.result.statistics import Statistics
 from acausal.result.tables import Table
 from acausal.simulation.accuracy import chosen_text
 from acausal.units import parse
@@ -96,9 +97,9 @@ def summary(result: Result) -> str:
     stats, time = result.stats, result.time
     lines = [
         f"{result.title}: {time[0]:g} s to {time[-1]:g} s, {time.size} points",
-        f"  compiled in {stats['compile_seconds']:.3g} s, solved in {stats['solve_seconds']:.3g} s",
-        f"  {stats['states']} states, {stats['algebraic']} algebraic unknowns; {stats['steps']} steps, "
-        f"{stats['factorisations']} factorisations; {_method(stats)}",
+        f"  compiled in {stats.compile_seconds:.3g} s, solved in {stats.solve_seconds:.3g} s",
+        f"  {stats.states} states, {stats.algebraic} algebraic unknowns; {stats.steps} steps, "
+        f"{stats.factorisations} factorisations; {_method(stats)}",
         *_events(stats),
         *([f"  {chosen_text(stats)}; {len(stats['trials'])} runs"] if "accuracy" in stats else []),
     ]
@@ -115,11 +116,11 @@ def summary(result: Result) -> str:
     return "\n".join([*lines, *_small(stats, series)])
 
 
-def _small(stats: dict, series: list[Series]) -> list[str]:
+def _small(stats: Statistics, series: list[Series]) -> list[str]:
     """Say which outputs are so small that the absolute part of the tolerance decides at most times."""
     lines = []
     for s in series[:FINAL_VALUES]:
-        size = stats["sizes"].get(str(parse(s.unit or "1")), 0.0)
+        size = stats.sizes.get(str(parse(s.unit or "1")), 0.0)
         usual = float(np.median(np.abs(s.values)))
         if 0 < usual < SMALL * size:
             lines.append(
@@ -129,28 +130,25 @@ def _small(stats: dict, series: list[Series]) -> list[str]:
     return lines
 
 
-def _method(stats: dict) -> str:
-    text = f"method {stats['method']}, order at most {stats['max_order']}"
-    if stats["choices"]:
-        kind = "states chosen by pivots" if stats["constraints"] == "states" else "projection"
+def _method(stats: Statistics) -> str:
+    text = f"method {stats.method}, order at most {stats.max_order}"
+    if stats.choices:
+        kind = "states chosen by pivots" if stats.constraints == "states" else "projection"
         text += f"; loops closed by {kind}"
     return text
 
 
-def _events(stats: dict) -> list[str]:
+def _events(stats: Statistics) -> list[str]:
     """Return what happened on the way, and where the energy went."""
     lines = []
-    if stats["break_times"]:
-        lines.append(f"  breaks at {', '.join(f'{t:g}' for t in stats['break_times'][:FINAL_VALUES])} s")
-    if stats["events"]:
-        lines.append(f"  {stats['events']} events, the first at {stats['event_times'][0]:g} s")
-    if stats["loosened_at"]:
-        times = ", ".join(f"{t:g}" for t in stats["loosened_at"][:FINAL_VALUES])
-        lines.append(f"  nearly singular positions were passed with a larger tolerance after {times} s")
-    if stats.get("energy_supplied") or stats.get("energy_stored_change"):
+    if stats.break_times:
+        lines.append(f"  breaks at {', '.join(f'{t:g}' for t in stats.break_times[:FINAL_VALUES])} s")
+    if stats.events:
+        lines.append(f"  {stats.events} events, the first at {stats.event_times[0]:g} s")
+    if stats.energy_supplied or stats.energy_stored_change:
         lines.append(
-            f"  energy: supplied {stats['energy_supplied']:.6g} J, stored {stats['energy_stored_change']:.6g} J more, "
-            f"dissipated {stats['energy_dissipated']:.3g} J, by the method itself {stats['energy_method']:.3g} J"
+            f"  energy: supplied {stats.energy_supplied:.6g} J, stored {stats.energy_stored_change:.6g} J more, "
+            f"dissipated {stats.energy_dissipated:.3g} J, by the method itself {stats.energy_method:.3g} J"
         )
     return lines
 

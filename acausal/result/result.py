@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from acausal.locks import alone
 from acausal.result.kept import Kept, keep
 from acausal.result.lookup import Key, Quantity, Tree, find, names
 from acausal.result.plots import Series, draw, save
+from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
 
 if TYPE_CHECKING:
@@ -62,11 +64,21 @@ class Result:
         self.time = np.asarray(time, dtype=float)
         self.tree = tree
         self.outputs = tuple(outputs)
-        self.stats = dict(stats)
+        self._stats = stats if isinstance(stats, Statistics) else Statistics(**stats)
         self.title = title
         self._evaluate = evaluate
         self._arrays = {"time": self.time} if not _has_time(tree) else {}
         self._told: set[str] = set()
+
+    @property
+    def stats(self) -> Statistics:
+        """Sizes, counts and seconds of the run."""
+        count = getattr(self._evaluate, "evaluations", None)
+        return self._stats if count is None else replace(self._stats, consistent_evaluations=count)
+
+    def with_stats(self, **values: Any) -> Result:
+        """Return the same result with other statistics."""
+        return Result(self.time, self._evaluate, self.tree, self.outputs, replace(self.stats, **values), self.title)
 
     def __repr__(self) -> str:
         span = f", {self.time[0]:g} to {self.time[-1]:g} s" if self.time.size else ""
@@ -87,7 +99,7 @@ class Result:
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Result:
         # The model and its values are never changed.
-        own = deepcopy(self.stats, memo)
+        own = deepcopy(self._stats, memo)
         return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title)
 
     @alone
@@ -249,7 +261,7 @@ def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
     )
 
 
-def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: dict[str, Any], title: str) -> Result:
+def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
     return Result(time, kept.evaluate, kept, outputs, stats, title)
 
 

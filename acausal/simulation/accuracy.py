@@ -7,6 +7,7 @@ The larger of both errors tells what to refine.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -101,26 +102,26 @@ class Search:
 
     def report(self, state: State) -> Result:
         """Return the run with what was chosen, estimated and tried in its stats."""
-        stats, found = state.result.stats, state.estimate
-        stats |= self.trials.seconds()
-        stats |= {
-            "accuracy": self.accuracy,
-            "accuracy_reached": found.total <= self.accuracy,
-            "error_estimate": found.total,
-            "error_output": found.worst,
-            "error_tolerance": found.tolerance,
-            "error_elements": found.elements,
-            "error_estimates": found.outputs,
-            "elements_kept": self.trials.keeps_elements,
-            "chosen": {
-                "tolerance": state.choice.tolerance,
-                "max_order": stats["max_order"],
-                "method": state.choice.method,
-                "sizes": self.trials.sizes(state.choice.number),
-            },
-            "trials": self.trials.done,
+        found = state.estimate
+        chosen = {
+            "tolerance": state.choice.tolerance,
+            "max_order": state.result.stats.max_order,
+            "method": state.choice.method,
+            "sizes": self.trials.sizes(state.choice.number),
         }
-        return state.result
+        return state.result.with_stats(
+            **self.trials.seconds(),
+            accuracy=self.accuracy,
+            accuracy_reached=found.total <= self.accuracy,
+            error_estimate=found.total,
+            error_output=found.worst,
+            error_tolerance=found.tolerance,
+            error_elements=found.elements,
+            error_estimates=found.outputs,
+            elements_kept=self.trials.keeps_elements,
+            chosen=chosen,
+            trials=self.trials.done,
+        )
 
     def _way(self, choice: Choice) -> Choice:
         """Follow every vibration at order 5 where going on as before would cost more.
@@ -130,8 +131,8 @@ class Search:
         task, coarse = self.trials.task, self.trials(choice)
         if isinstance(coarse, SimulationError) or task.max_order or task.method == "rosenbrock":
             return choice
-        follows = coarse.stats["max_order"] == 5 and "rosenbrock" not in coarse.stats["method_steps"]
-        turns = coarse.stats["fastest_rate"] * (task.stop_time - task.start_time)
+        follows = coarse.stats.max_order == 5 and "rosenbrock" not in coarse.stats.method_steps
+        turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
         if follows or GROWTH * _work(coarse) < ANEW * turns:
             return choice
         self.history.clear()
@@ -204,15 +205,16 @@ class Search:
     def _refusal(self, reason: str) -> SimulationError:
         if self.best is None:
             return self.failures[-1]
-        text = chosen_text(self.report(self.best).stats)
+        best = self.report(self.best)
+        text = chosen_text(best.stats)
         return SimulationError(
             f"the accuracy is not reached: {reason}. The best run is kept: {text}. Ask for less, or look with "
             "tolerance=... at what the outputs do.",
-            self.best.result,
+            best,
         )
 
 
-def chosen_text(stats: dict[str, Any]) -> str:
+def chosen_text(stats: Mapping[str, Any]) -> str:
     """Return what was asked, chosen and estimated, a line."""
     chosen = stats["chosen"]
     sizes = "".join(f", {n} {_what(path)}" for path, n in chosen["sizes"].items())
@@ -235,7 +237,7 @@ def _what(path: str) -> str:
 
 def _work(run: Result) -> int:
     """Return the steps, those of the one-step method counted several times."""
-    return sum(n * (ONE_STEP if name == "rosenbrock" else 1) for name, n in run.stats["method_steps"].items())
+    return sum(n * (ONE_STEP if name == "rosenbrock" else 1) for name, n in run.stats.method_steps.items())
 
 
 def _tenth(tolerance: float, k: int) -> float:

@@ -140,8 +140,9 @@ def _simulate(
 
 def _warn(result: object) -> None:
     """Tell where components were used outside of their range."""
-    for doubt in result.stats.get("doubts", ()) if isinstance(result, Result) else ():
-        caution(doubt)
+    if isinstance(result, Result):
+        for doubt in result.stats.doubts:
+            caution(doubt)
 
 
 def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:

@@ -101,8 +101,8 @@ class Trials:
         self.done.append(
             {
                 "tolerance": choice.tolerance,
-                "max_order": stats["max_order"],
-                "method": stats["method"],
+                "max_order": stats.max_order,
+                "method": stats.method,
                 "sizes": self.sizes(choice.number),
                 **{name: stats[name] for name in COUNTS},
                 "failed": "" if isinstance(self.results[choice], Result) else text,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
@@ -29,11 +27,6 @@ class Evaluator:
         from the states when it is read first.
     solver : Consistent
         Solves for it, and counts.
-
-    Attributes
-    ----------
-    counts : dict
-        Where the number of evaluations of the equations is written.
     """
 
     def __init__(
@@ -47,9 +40,13 @@ class Evaluator:
     ) -> None:
         self.compiled, self.solver = compiled, solver
         self.t, self.x, self.z, self.modes = t, x, z, modes
-        self.counts: dict[str, Any] = {}
         self._given = z
         self._solved: set[int] = set()
+
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the equations so far."""
+        return self.solver.evaluations
 
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
@@ -77,7 +74,6 @@ class Evaluator:
         self.z = self.z.copy()
         self.z[:, unknowns] = solved[:, unknowns]
         self._solved.update(unknowns.tolist())
-        self.counts["consistent_evaluations"] = self.solver.evaluations
         if self.solver.unsolved:
             names = ", ".join(f"`{self.compiled.algebraic[k]}`" for k in sorted(wanted)[:3])
             caution(

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError, caution
 from acausal.result import Result
+from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
@@ -29,6 +30,7 @@ from acausal.solve.start.initialize import Start
 from acausal.solve.start.redundancy import is_singular
 from acausal.solve.start.start import go_on, start
 
+SHOWN = 5  # times in a message
 ROUGH = (
     "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
     "intervals, simulate(..., intervals=...), give more points."
@@ -61,63 +63,94 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    start_time, stop_time = task.start_time, task.stop_time
-    built = compiled.seconds.get("integrators", 0.0)
-    started = clock.perf_counter()
-    times = start_time + (stop_time - start_time) * np.linspace(0.0, 1.0, task.intervals + 1)
-    times[-1] = stop_time
-    found = clock_times(compiled, p, start_time, stop_time)
-    breaks = _breaks(compiled.guards.breaks(p)[0].tolist(), start_time, stop_time)
-    ends = _breaks([*breaks, *found], start_time, stop_time)
+    built, started = compiled.seconds.get("integrators", 0.0), clock.perf_counter()
     problem = Problem(compiled, p)
-    begun = start(problem, start_time, _middle(start_time, ends, stop_time), task.initial)
+    plan = _plan(problem, task)
+    begun = start(problem, task.start_time, plan.inside, task.initial)
     check_start(problem, begun.point)
-    first, at = begun.point, go_on(problem, begun)
-    rates = eigenvalues_of(problem, at)
-    max_order = task.max_order or order_limit(rates, stop_time - start_time)
-    fastest = float(np.max(np.abs(rates), initial=0.0))
-    span = stop_time - start_time
-    fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
-    nominal, counts = compiled.nominal, Trace()
-    for _ in range(PASSES):
-        integrator = Integrator(problem, Settings(nominal, *fixed), (start_time, stop_time), counts)
-        events = Run(integrator, times, ends, breaks)
-        failure: BaseException | None = None
-        try:
-            events.go(at)
-        except (Failure, Chattering, KeyboardInterrupt) as caught:
-            failure = caught
-        fitting = (
-            None
-            if isinstance(failure, KeyboardInterrupt)
-            else smaller_sizes(problem, integrator.trace.rows(at).x, nominal, task.tolerance, span)
-        )
-        if fitting is None:
-            break
-        nominal, counts = fitting, integrator.trace
-    waited = compiled.seconds.get("integrators", 0.0) - built
-    stats = _stats(begun, integrator, breaks)
-    stats |= {"events": len(events.events), "event_times": events.events}
-    stats["solve_seconds"] = clock.perf_counter() - started - waited
-    first = (events.first or at) if at is first else first
-    met = None if isinstance(failure, KeyboardInterrupt) else first_meeting(integrator, first)
+    done = _integrated(problem, task, plan, begun)
+    seconds = clock.perf_counter() - started - (compiled.seconds.get("integrators", 0.0) - built)
+    met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
-        integrator.trace = integrator.trace.until(met.time)
-    result = _result(compiled, integrator, first, times, stats, task.energy)
+        done.integrator.trace = done.integrator.trace.until(met.time)
+    result = _result(done, plan, replace(_counted(done, plan), solve_seconds=seconds), task.energy)
     if met:
         raise SimulationError(met.text, result)
-    if failure is not None:
-        _raise(failure, result, integrator, replace(begun, point=at))
+    if done.failure is not None:
+        _raise(done, result)
     return result
 
 
-def _raise(failure: BaseException, result: Result, integrator: Integrator, first: Start) -> NoReturn:
+@dataclass(frozen=True)
+class _Plan:
+    """Output times, break times that parameters tell, all instants of time alone, and a time before the first of them."""
+
+    times: np.ndarray
+    breaks: list[float]
+    ends: list[float]
+
+    @property
+    def inside(self) -> float:
+        return (self.times[0] + (self.ends[0] if self.ends else self.times[-1])) / 2
+
+
+@dataclass(frozen=True)
+class _Done:
+    """What a run did: where it began and went on, what integrated it, its events, and what ended it before its time."""
+
+    begun: Start
+    at: Point
+    integrator: Integrator
+    course: Run
+    failure: BaseException | None
+
+    @property
+    def first(self) -> Point:
+        """The first row of the result."""
+        return (self.course.first or self.at) if self.at is self.begun.point else self.begun.point
+
+
+def _plan(problem: Problem, task: Task) -> _Plan:
+    begin, end = task.start_time, task.stop_time
+    times = begin + (end - begin) * np.linspace(0.0, 1.0, task.intervals + 1)
+    times[-1] = end
+    found = clock_times(problem.compiled, problem.p, begin, end)
+    breaks = _breaks(problem.compiled.guards.breaks(problem.p)[0].tolist(), begin, end)
+    return _Plan(times, breaks, _breaks([*breaks, *found], begin, end))
+
+
+def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Done:
+    """Integrate, again where states turn out to be much smaller than they were taken for."""
+    at, span = go_on(problem, begun), task.stop_time - task.start_time
+    rates = eigenvalues_of(problem, at)
+    max_order = task.max_order or order_limit(rates, span)
+    fastest = float(np.max(np.abs(rates), initial=0.0))
+    fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
+    nominal, counts = problem.nominal, Trace()
+    for _ in range(PASSES):
+        integrator = Integrator(problem, Settings(nominal, *fixed), (task.start_time, task.stop_time), counts)
+        done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), None)
+        try:
+            done.course.go(at)
+        except KeyboardInterrupt as interrupt:
+            return replace(done, failure=interrupt)
+        except (Failure, Chattering) as failure:
+            done = replace(done, failure=failure)
+        fitting = smaller_sizes(problem, integrator.trace.rows(at).x, nominal, task.tolerance, span)
+        if fitting is None:
+            break
+        nominal, counts = fitting, integrator.trace
+    return done
+
+
+def _raise(done: _Done, result: Result) -> NoReturn:
     """Raise what ended a run, with what was computed."""
+    failure: Any = done.failure
     if isinstance(failure, Failure):
-        raise SimulationError(_failure_text(integrator, first, failure), result)
+        raise SimulationError(_failure_text(done, failure), result)
     if isinstance(failure, Chattering):
         raise SimulationError(str(failure), result)
-    failure.result = result  # type: ignore[attr-defined]
+    failure.result = result
     raise failure
 
 
@@ -130,72 +163,77 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     return found
 
 
-def _middle(start: float, breaks: list[float], stop: float) -> float:
-    return (start + (breaks[0] if breaks else stop)) / 2
+def _counted(done: _Done, plan: _Plan) -> Statistics:
+    run, trace = done.integrator, done.integrator.trace
+    compiled = run.compiled
+    report = compiled.report_at(done.begun.found(compiled))
+    return Statistics(
+        equations_flat=report["equations_flat"],
+        equations_reduced=report["equations_reduced"],
+        states=compiled.nx,
+        algebraic=compiled.nz,
+        compile_seconds=sum(compiled.seconds.values()),
+        integration_seconds=trace.seconds,
+        steps=trace.steps,
+        factorisations=trace.factorisations,
+        residual_evaluations=trace.residual_evaluations,
+        calls=trace.calls,
+        choices=trace.choices,
+        max_order=run.settings.max_order,
+        tolerance=run.settings.tolerance,
+        sizes=absolute_sizes(compiled, run.settings.nominal),
+        method=" and ".join(trace.methods) or "none",
+        method_steps=dict(trace.methods),
+        fastest_rate=run.settings.fastest,
+        constraints="none" if not run.loops else "projection" if run.way.moves else "states",
+        loosened_at=trace.loosened,
+        break_times=plan.breaks,
+        events=len(done.course.events),
+        event_times=done.course.events,
+        loops=report["loops"],
+        independent_states=report["independent_states"],
+    )
 
 
-def _stats(begun: Start, run: Integrator, breaks: list[float]) -> dict[str, Any]:
-    compiled, trace = run.compiled, run.trace
-    report = compiled.report_at(begun.found(compiled))
-    return {
-        "loops": report["loops"],
-        "independent_states": report["independent_states"],
-        "equations_flat": report["equations_flat"],
-        "equations_reduced": report["equations_reduced"],
-        "states": compiled.nx,
-        "algebraic": compiled.nz,
-        "compile_seconds": sum(compiled.seconds.values()),
-        "steps": trace.steps,
-        "factorisations": trace.factorisations,
-        "residual_evaluations": trace.residual_evaluations,
-        "calls": trace.calls,
-        "integration_seconds": trace.seconds,
-        "max_order": run.settings.max_order,
-        "tolerance": run.settings.tolerance,
-        "sizes": absolute_sizes(compiled, run.settings.nominal),
-        "method": " and ".join(trace.methods) or "none",
-        "method_steps": dict(trace.methods),
-        "fastest_rate": run.settings.fastest,
-        "constraints": "none" if not compiled.closing.size else "projection" if run.way.moves else "states",
-        "choices": trace.choices,
-        "loosened_at": trace.loosened,
-        "break_times": breaks,
-    }
-
-
-def _result(
-    compiled: CompiledModel,
-    run: Integrator,
-    first: Point,
-    times: np.ndarray,
-    stats: dict[str, Any],
-    energy: bool,
-) -> Result:
-    t, x, z, works, modes = run.trace.rows(first)
+def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result:
+    run = done.integrator
+    compiled, times = run.compiled, plan.times
+    t, x, z, works, modes = run.trace.rows(done.first)
     rows = np.searchsorted(t, times[times <= t[-1]])
     evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
-    stats["doubts"] = doubts(compiled, evaluate) + broken_promises(run, evaluate)
+    found = doubts(compiled, evaluate) + broken_promises(run, evaluate)
+    stats = replace(stats, doubts=[*found, *_loosened(run)])
     if energy:
         if run.trace.rough:
             caution(ROUGH)
         stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
-        held = stored(compiled.reduced.flat.energies["stored_energy"])[:, 0]
-        supplied, dissipated = works[-1]
-        change = held[1] - held[0]
-        stats |= {
-            "energy_supplied": float(supplied),
-            "energy_stored_change": float(change),
-            "energy_dissipated": float(dissipated),
-            "energy_method": float(supplied - change - dissipated),
-        }
-    stats["consistent_evaluations"] = run.consistent.evaluations
-    result = Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
-    evaluate.counts = result.stats
-    return result
+        change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
+        supplied, dissipated = works[-1].tolist()
+        stats = replace(
+            stats,
+            energy_supplied=supplied,
+            energy_stored_change=change,
+            energy_dissipated=dissipated,
+            energy_method=supplied - change - dissipated,
+        )
+    return Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
 
 
-def _failure_text(run: Integrator, first: Start, failure: Failure) -> str:
-    problem, compiled, trace, at = run.problem, run.compiled, run.trace, first.point
+def _loosened(run: Integrator) -> list[str]:
+    """Say where a larger tolerance was needed."""
+    times = run.trace.loosened
+    if not times:
+        return []
+    shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
+    return [
+        f"positions of the loops that are nearly singular were passed with a larger tolerance than {run.tolerance:g}, after "
+        f"t = {shown} s: the error may be larger from there on."
+    ]
+
+
+def _failure_text(done: _Done, failure: Failure) -> str:
+    problem, trace, at = done.integrator.problem, done.integrator.trace, done.at
+    compiled = problem.compiled
     lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
     if trace.pieces:
         last = trace.last()
@@ -204,7 +242,7 @@ def _failure_text(run: Integrator, first: Start, failure: Failure) -> str:
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
         lines.append(f"Until t = {at.time:.6g} s all is well; what changes fastest there: {names}.")
-    left = first.redundancy
+    left = done.begun.redundancy
     if is_singular(problem, at, left) or (left.singular and not trace.pieces):
         lines.append(
             "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "

@@ -60,16 +60,16 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
     compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
     found = Measurement(
         job.point,
-        compile_seconds=stats["compile_seconds"],
+        compile_seconds=stats.compile_seconds,
         solve_seconds=statistics.median(seconds),
-        steps=stats["steps"],
-        factorisations=stats["factorisations"],
-        residual_evaluations=stats["residual_evaluations"],
-        equations=stats["equations_reduced"],
+        steps=stats.steps,
+        factorisations=stats.factorisations,
+        residual_evaluations=stats.residual_evaluations,
+        equations=stats.equations_reduced,
         operations=int(compiled.local.function.n_instructions()),
-        max_order=stats["max_order"],
-        method=stats["method"],
-        constraints=stats["constraints"],
+        max_order=stats.max_order,
+        method=stats.method,
+        constraints=stats.constraints,
     )
     wrong = result.not_finite(*job.outputs)
     if wrong:
@@ -95,7 +95,7 @@ def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
         progress=show,
     )
     share = (clock.process_time() - busy) / (clock.perf_counter() - began)
-    return result, result.stats["solve_seconds"] * min(1.0, share)
+    return result, result.stats.solve_seconds * min(1.0, share)
 
 
 def _compiled(job: Job) -> CompiledModel:

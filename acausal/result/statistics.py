@@ -1,0 +1,100 @@
+"""Sizes, counts and seconds of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Statistics(Mapping[str, Any]):
+    """What a run took and found: `stats.steps`, or `stats.steps`.
+
+    What does not apply to a run is None as an attribute, and no key.
+
+    Parameters
+    ----------
+    equations_flat, equations_reduced, states, algebraic : int
+        Scalar equations before and after the reduction, states and algebraic unknowns.
+    steps, factorisations, residual_evaluations, calls, choices : int
+        Of the integrators; `choices` counts how often states of loops were chosen.
+    compile_seconds, solve_seconds, integration_seconds : float
+        Seconds; the last are those inside of the integrators.
+    method, method_steps, max_order, tolerance, fastest_rate, constraints
+        What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
+        the start in 1/s, and how loops stayed closed.
+    sizes : dict of str to float
+        Least size of the states of each unit: below it the tolerance is absolute.
+    break_times, event_times, loosened_at : list of float
+        Instants in s, the last where a larger tolerance was needed.
+    events : int
+        Number of events.
+    loops, independent_states
+        What the ranks of loops told at the start.
+    doubts : list of str
+        What was used outside of its range.
+    energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
+        In J, if asked for; the last is what the method itself lost.
+    consistent_evaluations : int
+        Evaluations of the equations for values that were read.
+    accuracy, accuracy_reached, error_estimate, error_output, error_tolerance, error_elements, error_estimates
+        What was asked for and estimated, where an accuracy was.
+    elements_kept, chosen, trials
+        What was chosen and tried for it.
+    """
+
+    equations_flat: int = 0
+    equations_reduced: int = 0
+    states: int = 0
+    algebraic: int = 0
+    compile_seconds: float = 0.0
+    solve_seconds: float = 0.0
+    integration_seconds: float = 0.0
+    steps: int = 0
+    factorisations: int = 0
+    residual_evaluations: int = 0
+    calls: int = 0
+    choices: int = 0
+    consistent_evaluations: int = 0
+    max_order: int = 0
+    tolerance: float = 0.0
+    sizes: dict[str, float] = field(default_factory=dict)
+    method: str = ""
+    method_steps: dict[str, int] = field(default_factory=dict)
+    fastest_rate: float = 0.0
+    constraints: str = "none"
+    loosened_at: list[float] = field(default_factory=list)
+    break_times: list[float] = field(default_factory=list)
+    events: int = 0
+    event_times: list[float] = field(default_factory=list)
+    loops: list[dict[str, Any]] = field(default_factory=list)
+    independent_states: list[str] = field(default_factory=list)
+    doubts: list[str] = field(default_factory=list)
+    energy_supplied: float | None = None
+    energy_stored_change: float | None = None
+    energy_dissipated: float | None = None
+    energy_method: float | None = None
+    accuracy: float | None = None
+    accuracy_reached: bool | None = None
+    error_estimate: float | None = None
+    error_output: str | None = None
+    error_tolerance: float | None = None
+    error_elements: float | None = None
+    error_estimates: dict[str, float] | None = None
+    elements_kept: bool | None = None
+    chosen: dict[str, Any] | None = None
+    trials: list[dict[str, Any]] | None = None
+
+    def __getitem__(self, name: str) -> Any:
+        """Return what goes by a name."""
+        value = self.__dict__.get(name)
+        if value is None:
+            raise KeyError(name)
+        return value
+
+    def __iter__(self) -> Iterator[str]:
+        return (f.name for f in fields(self) if getattr(self, f.name) is not None)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
