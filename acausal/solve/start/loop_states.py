@@ -1,8 +1,4 @@
-"""What is chosen for the constraints when numbers are known: which of them count, and along which directions to project.
-
-A constraint is redundant only if its Jacobian lacks rank at consistent positions all around: where the rank rises after
-a small motion, the position is singular, and all constraints stay.
-"""
+"""Which coordinates of loops are states, or along which directions they are projected, once numbers are known."""
 
 from __future__ import annotations
 
@@ -18,11 +14,6 @@ from acausal.solve.start.loops import levels
 from acausal.solve.start.rank import pivots, scaled
 from acausal.solve.start.tangent import state_matrix
 
-MOTION = 1e-2
-# Positions where ranks are lost are known only as well as the root of how well loops close.
-NEARLY = 1e-5
-# Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
-BESIDE = 1e-3
 WORN, SPARED = 0.05, 0.3
 
 
