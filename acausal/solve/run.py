@@ -226,8 +226,8 @@ def _loosened(run: Integrator) -> list[str]:
         return []
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
-        f"positions of the loops that are nearly singular were passed with a larger tolerance than {run.tolerance:g}, after "
-        f"t = {shown} s: the error may be larger from there on."
+        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as beside a singular position; a "
+        "larger one was taken for one output interval each time, and the error may be larger from there on."
     ]
 
 

@@ -48,15 +48,14 @@ def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
 
 def quickly(run: Integrator, at: Point, times: np.ndarray) -> Stretch | Refusal:
     """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
-    way = replace(run.way, max_steps=run.settings.patience(run.way, times))
     policy = run.settings.policy(times, run.loops)
-    while isinstance(found := run.attempt(at, times, way), Refusal):
-        following = next_ways(way, found, policy)
+    while True:
+        way = replace(run.way, max_steps=run.settings.patience(run.way, times))
+        found = run.attempt(at, times, way)
+        following = next_ways(way, found, policy) if isinstance(found, Refusal) else ()
         if not following:
             return found
         run.way = following[0]
-        way = replace(run.way, max_steps=run.settings.patience(run.way, times))
-    return found
 
 
 def _creep(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Point:
