@@ -1,4 +1,4 @@
-"""One thread at a time: what models share in a process is not made for two."""
+"""One thread at a time: what models share in a process is not thread-safe."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from acausal.simulation.accuracy import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20
-# Of the size of states: outputs below it are known ten times less than the relative tolerance says, or worse.
+# Of the size of states: the relative error of smaller outputs is ten times the tolerance or more.
 SMALL = 0.1
 ROUNDING = 1e-12
 Progress = Callable[[float, int], None] | None
@@ -124,8 +124,8 @@ def _small(stats: Statistics, series: list[Series]) -> list[str]:
         usual = float(np.median(np.abs(s.values)))
         if 0 < usual < SMALL * size:
             lines.append(
-                f"  {s.name} is about {usual:.2g}, but the tolerance counts from {size:g} {s.unit}: for more digits of it take a "
-                "smaller tolerance, or give the states behind it a nominal value"
+                f"  {s.name} is about {usual:.2g}, but the tolerance is absolute below {size:g} {s.unit}: for more digits take a "
+                "smaller tolerance, or give its states a nominal value"
             )
     return lines
 
@@ -147,8 +147,8 @@ def _events(stats: Statistics) -> list[str]:
         lines.append(f"  {stats.events} events, the first at {stats.event_times[0]:g} s")
     if stats.energy_supplied or stats.energy_stored_change:
         lines.append(
-            f"  energy: supplied {stats.energy_supplied:.6g} J, stored {stats.energy_stored_change:.6g} J more, "
-            f"dissipated {stats.energy_dissipated:.3g} J, by the method itself {stats.energy_method:.3g} J"
+            f"  energy: supplied {stats.energy_supplied:.6g} J, stored energy changed by {stats.energy_stored_change:.6g} J, "
+            f"dissipated {stats.energy_dissipated:.3g} J, lost by the method {stats.energy_method:.3g} J"
         )
     return lines
 

@@ -33,7 +33,7 @@ def find_scene(name: str) -> type[Model]:
     Raises
     ------
     DeclarationError
-        If there is none; the message tells the nearest names.
+        If there is none; the message names the nearest ones.
     """
     path, _, cls = name.rpartition(":") if ".py:" in name else (name, "", "")
     if path.endswith(".py"):
@@ -60,8 +60,8 @@ def place_in(error: BaseException, path: Path) -> str:
 def ended(error: SystemExit, path: Path) -> DeclarationError:
     """Return the error for a file that ends the program while it is read."""
     return DeclarationError(
-        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it is only to "
-        'tell a model. Put what runs, sys.exit as well, under `if __name__ == "__main__":`.'
+        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "
+        'only define a model. Put code that runs, sys.exit included, under `if __name__ == "__main__":`.'
     )
 
 

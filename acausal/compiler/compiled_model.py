@@ -67,7 +67,7 @@ class CompiledModel:
         return pickled(self.source)
 
     def __copy__(self) -> CompiledModel:
-        # The equations are never changed; everything that is computed from them is made anew.
+        # The equations never change; everything that is computed from them is recomputed.
         return CompiledModel(self.reduced, dict(self.seconds), self.source)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:

@@ -45,7 +45,7 @@ def pickled(source: Source | None) -> tuple[Any, ...]:
         If another process could not import the model.
     """
     if source is None:
-        raise ExportError("this compiled model cannot be pickled: it was not made by ac.compile, so nobody knows how.")
+        raise ExportError("this compiled model cannot be pickled: it was not made by ac.compile.")
     for cls in {type(c) for c in _templates(source.model)}:
         _refuse_hidden(cls)
     try:
@@ -87,7 +87,7 @@ def _refuse_hidden(cls: type) -> None:
         return
     raise ExportError(
         f"a compiled model with {cls.__name__} cannot be pickled: the class is defined {where}, where another process "
-        f"cannot import it. {mend}. A result can be pickled all the same."
+        f"cannot import it. {mend}. A result can be pickled nevertheless."
     )
 
 

@@ -55,13 +55,13 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
             needed = rest
     lines = [f"  {zeros[path][1]}" for path in alone or needed]
     which = " one of" if len(alone) > 1 else ""
-    return f"A parameter is 0, and what it multiplies has left the equations. The model is complete with{which}:\n" + (
+    return f"A parameter is 0, so the terms that it multiplies were removed. The model is complete with{which}:\n" + (
         "\n".join(lines)
     )
 
 
 def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
-    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the mend."""
+    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the remedy."""
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}

@@ -197,7 +197,7 @@ class Assembly:
         return {place[s] for s in asked if s in place}
 
     def _unused(self, done: Simplification) -> set[int]:
-        """Residuals that say nothing new, and substitutes of those that do."""
+        """Redundant residuals, and the substitutes of the others."""
         redundant = set(done.redundant)
         return redundant | {s for row, s in self.substitutes.items() if row not in redundant}
 

@@ -28,7 +28,7 @@ from acausal.symbols import scalars
 class Closure:
     """A scalar residual that closes a loop.
 
-    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual says nothing new.
+    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual is redundant.
     """
 
     row: int
@@ -144,7 +144,7 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
             if np.any(value != 0):
                 raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
-                raise DeclarationError(f"{origin}: this equation says nothing; its two sides are the same expression.")
+                raise DeclarationError(f"{origin}: this equation is empty: both sides are the same expression.")
         found.add(statement, origin)
 
 

@@ -33,7 +33,7 @@ class FlatClosure:
     row : int
         The residual.
     dual : casadi.SX
-        Flow that works on it, which is undetermined where the residual says nothing new.
+        Flow that works on it, undetermined where the residual is redundant.
     loop : int
         Number of its loop.
     """
@@ -45,7 +45,7 @@ class FlatClosure:
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that is cut: the connection, its components, and what of its closing equations said nothing new.
+    """A loop that is cut: the connection, its components, and which of its closing equations were redundant.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class FlatEquations:
     initial : tuple of Initial
         Fixed start values and initial equations.
     redundant : tuple of Origin
-        Equations that said nothing new.
+        Redundant equations.
     """
 
     residuals: ca.SX

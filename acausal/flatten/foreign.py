@@ -1,5 +1,5 @@
 """Refuse what only CasADi knows: calls that cannot be written out, as the passes that follow see elementary operations
-only, and symbols that nobody declared.
+only, and symbols that were not declared.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ class Given:
         if here in self._open:
             circle = " -> ".join(n for _, n in (*self._open[self._open.index(here) :], here))
             raise DeclarationError(
-                f"the values of {owner_text(bound)} follow each other in a circle: {circle}. "
+                f"the values of {owner_text(bound)} depend on each other in a circle: {circle}. "
                 f"Give one of them: {type(bound).__name__}(..., {name}=...)."
             )
         self._open.append(here)
@@ -118,7 +118,7 @@ class Given:
         where = f"`{name}` of {owner_text(bound)}"
         if _symbolic(value):
             raise DeclarationError(
-                f"{where} is structural: it cannot follow the parameter {value!r}, which may change after compiling. "
+                f"{where} is structural: it cannot depend on the parameter {value!r}, which may change after compiling. "
                 "Declare that one structural(...) as well."
             )
         if declared.choices is not None and not any(value is c or value == c for c in declared.choices):

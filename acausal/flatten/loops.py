@@ -29,7 +29,7 @@ def loops_of(
     raw : Said
         What was said.
     redundant : set of int
-        Residuals that say nothing new.
+        Redundant residuals.
     values : list of Linear
         What each unknown is.
     rows : list of int

@@ -50,7 +50,7 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
     except AcausalError as error:
         raise type(error)(f"{_place(error, origin)}: {error}") from None
     except RecursionError as error:
-        raise DeclarationError(f"{_place(error, origin)}: a call of itself without end.") from None
+        raise DeclarationError(f"{_place(error, origin)}: infinite recursion.") from None
     except Exception as error:
         raise DeclarationError(f"{_place(error, origin)}: {_brief(error)}") from error
 
@@ -59,8 +59,8 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
     """Raise DeclarationError if one generator has said more than any component can mean."""
     if count >= most:
         raise DeclarationError(
-            f"{origin}: {what} has {most:,} entries and goes on: a loop such as `while True` does not end. "
-            "Go through a range or a list of parts."
+            f"{origin}: {what} has {most:,} entries and continues: a loop such as `while True` does not end. "
+            "Iterate over a range or a list of parts."
         )
 
 
@@ -91,7 +91,7 @@ def _brief(error: Exception) -> str:
 
 
 def _of_casadi(name: str) -> str:
-    """Return the mend for a function of CasADi that was called with expressions of this package."""
+    """Return the remedy for a function of CasADi that was called with expressions of this package."""
     what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
     return (
         f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "

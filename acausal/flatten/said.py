@@ -103,7 +103,7 @@ def _look_at_observed(components: list[Component]) -> None:
     """Raise UnitsError for observed quantities whose units contradict each other, looked at once for each class.
 
     Those of a library may be dear to form: only classes that stand where the model's class stands are looked at. Anything
-    else that is wrong with one is told to those who read it.
+    else that is wrong with one is reported when it is read.
     """
     home = type(components[0]).__module__
     own = {type(c): c for c in reversed(components) if type(c).__module__ == home}

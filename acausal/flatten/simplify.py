@@ -46,9 +46,9 @@ class Simplifier:
     derivative : list of int
         Unknown -> the unknown that is its derivative, or -1.
     rank : list of int
-        How gladly an unknown stays: CHAINED or DECLARED plus its preference.
+        How strongly an unknown is preferred to stay: CHAINED or DECLARED plus its preference.
     substitutes : dict of int to int, optional
-        Residuals that remove no unknown, and the residual that takes the place of each if it says nothing new.
+        Residuals that remove no unknown, and the residual that takes the place of each if it is redundant.
     """
 
     def __init__(

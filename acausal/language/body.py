@@ -61,7 +61,7 @@ def refuse_late_fields(cls: Any) -> None:
             if name in base.fields or isinstance(value, f.Field) or holds_parts(value):
                 mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 raise DeclarationError(
-                    f"{base.__name__}.{name} = {shown(value)} was set after the class was made, when it changes no model. "
+                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
                 )
         refuse_slips(base, late, base.fields)

@@ -164,7 +164,7 @@ def variable(
     fixed : bool
         True makes `start` an equation of the initial system.
     select : int
-        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how gladly it becomes a state.
+        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how strongly it is preferred as a state.
     nominal : float or array or callable
         Typical size, in its unit; absolute tolerance = tolerance * nominal. If not given it is 1, or what all such
         variables of the same unit reach in a run if that is less.

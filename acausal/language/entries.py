@@ -31,9 +31,9 @@ def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.nd
     ends = [end for item in indices for end in _ends(item)]
     if any(isinstance(end, bool) or not isinstance(end, int | np.integer) for end in ends):
         raise DeclarationError(
-            f"{_asked(show(), indices)}: entries of a symbol are chosen by whole numbers, which are known when the model is "
+            f"{_asked(show(), indices)}: entries of a symbol are selected by integers that are known when the model is "
             "built. Declare what "
-            "chooses structural(...), or choose with piecewise((value, condition), ..., otherwise)."
+            "selects them structural(...), or select with piecewise((value, condition), ..., otherwise)."
         )
     # A scalar is its own entry 0, and a vector has one column.
     whole = (*shape, 1) if len(indices) > len(shape) < 2 else shape
@@ -44,7 +44,7 @@ def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.nd
     )
     if not fits:
         shown = show()
-        raise DeclarationError(f"{_asked(shown, indices)} is outside of {shown}, {_extent(shown, shape)}.")
+        raise DeclarationError(f"{_asked(shown, indices)} is outside {shown}, {_extent(shown, shape)}.")
     return np.arange(int(np.prod(shape))).reshape(whole, order="F")[index]
 
 

@@ -226,7 +226,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         Any other condition is watched: the integration stops where it changes, located to about the tolerance.
     smooth : bool
         True promises that value and first two derivatives are continuous, so that no stop is needed. A run in which
-        the value jumps all the same ends with a warning.
+        the value jumps nevertheless ends with a warning.
 
     Returns
     -------
@@ -241,7 +241,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         if not isinstance(case, tuple | list) or len(case) != 2 or not isinstance(case[1], Condition):
             raise DeclarationError(
                 "a case of piecewise is a pair (value, condition), with a condition such as time < 1; the last argument is "
-                "the value otherwise. That two symbols are equal, `a == b`, is no condition but an equation."
+                "the value otherwise. `a == b` with symbols is an equation, not a condition."
             )
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):

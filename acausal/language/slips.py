@@ -1,4 +1,4 @@
-"""Names that are no fields, but nearly: slips of the pen that Python takes for attributes of their own."""
+"""Names that are no fields, but nearly: typing errors that Python takes for new attributes."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Symbolic:
 
     def _steps(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`%`, `//` and round() of {self._shown()} would jump unseen. Count the steps with a discrete variable, "
+            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete variable, "
             "when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
         )
 

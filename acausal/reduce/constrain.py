@@ -11,7 +11,7 @@ from acausal.flatten import FlatModel
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
 
-FEEDBACK = 1.0  # in 1/s: how fast what is integrated returns to what the constraints allow
+FEEDBACK = 1.0  # in 1/s: how fast the integrated coordinates return to the constraints
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Closing:
     residuals : casadi.SX
         The equations at all their levels, without the projection: coordinates are what is integrated.
     choice : casadi.SX
-        Numbers that are chosen when values are known: for each closure 1 if it says something new; 1 if D moves with the
+        Numbers that are chosen when values are known: for each closure 1 if it is not redundant; 1 if D moves with the
         constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
         `acausal.structure.constraints`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
@@ -90,7 +90,7 @@ def constrain(
 
 
 def _switch(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a switch, which is 0 where it says nothing new: what works on it is 0 then."""
+    """Give each closure a switch, which is 0 where it is redundant: the flow that works on it is 0 then."""
     duals = {c.row: c.dual for c in flat.loops.closures}
     switches = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
     for constraint in plan.constrained.constraints:

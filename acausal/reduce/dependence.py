@@ -36,7 +36,7 @@ class Dependence:
         return {k for k in found if k is not None}
 
     def closure(self, wanted: Iterable[int]) -> tuple[np.ndarray, np.ndarray]:
-        """Return all unknowns that must be solved for to know the wanted ones, ascending, and their equations."""
+        """Return all unknowns that must be solved for to obtain the wanted ones, ascending, and their equations."""
         stack = list(wanted)
         seen = set(stack)
         while stack:

@@ -71,11 +71,11 @@ def _target(path: str | Path) -> Path:
         raise ExportError("cannot write: the name of the file is empty; give one, such as out.csv.")
     target = Path(path).expanduser().resolve()
     if not target.is_dir() and os.path.basename(path) in ("", ".", ".."):  # a Path forgets the slash at the end
-        raise ExportError(f"cannot write {path}: that is the name of a directory; add the name of a file.")
+        raise ExportError(f"cannot write {path}: that is the name of a directory; append a file name.")
     if target.is_dir():
-        raise ExportError(f"cannot write {path}: it is a directory; add the name of a file.")
+        raise ExportError(f"cannot write {path}: it is a directory; append a file name.")
     if not target.parent.is_dir():
-        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; make it first.")
+        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; create it first.")
     if target.exists() and not os.access(target, os.W_OK):
         raise ExportError(f"cannot write {path}: the file is write-protected.")
     return target

@@ -119,7 +119,7 @@ class Result:
         Raises
         ------
         DeclarationError
-            If the model has no such variable; the message tells the nearest names.
+            If the model has no such variable; the message names the nearest ones.
         """
         return self._look([key])[0][1]
 
@@ -199,7 +199,7 @@ class Result:
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
     def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
-        """Return quantities with their arrays for a user, who is told of values that are no numbers."""
+        """Return quantities with their arrays for a user, and warn of values that are not numbers."""
         quantities = [find(self.tree, key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
@@ -256,8 +256,8 @@ def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
     count = int(wrong.reshape(time.size, -1).any(axis=1).sum())
     cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
     return (
-        f"`{name}` is {what} at t = {time[row]:.6g} s for the first time, at {count} of {time.size} times in all. "
-        f"Look at the equation that gives it: {cause}."
+        f"`{name}` is {what} for the first time at t = {time[row]:.6g} s, and at {count} of {time.size} times in all. "
+        f"Check the equation that gives it: {cause}."
     )
 
 

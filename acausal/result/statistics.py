@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Statistics(Mapping[str, Any]):
-    """What a run took and found: `stats.steps`, or `stats.steps`.
+    """What a run took and found: `stats.steps`, or `stats["steps"]`.
 
     What does not apply to a run is None as an attribute, and no key.
 
@@ -31,7 +31,7 @@ class Statistics(Mapping[str, Any]):
     events : int
         Number of events.
     loops, independent_states
-        What the ranks of loops told at the start.
+        What the ranks of loops showed at the start.
     doubts : list of str
         What was used outside of its range.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float

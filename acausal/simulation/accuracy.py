@@ -1,7 +1,7 @@
 """Accuracy: choose tolerance, method, order limit and number of elements so that every output is as good as asked.
 
 The error of a run is its difference from a run with a tenth of the tolerance, and from one with twice the elements. The
-run that is returned is the one whose error is estimated so, not the better ones beside it, whose errors nobody knows.
+run that is returned is the one whose error was estimated, not the better ones beside it, whose errors are unknown.
 The larger of both errors tells what to refine.
 """
 
@@ -18,13 +18,13 @@ from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
 from acausal.simulation.trials import Choice, Trials
 
-# Tolerances tried first, in parts of the accuracy; the loosest and the smallest.
+# Tolerances tried first, as fractions of the accuracy; the loosest and the smallest.
 FIRST, LOOSEST, SMALLEST = 1e-2, 1e-3, 1e-12
 FEWEST, MOST = 2, 128
 # A run with a smaller tolerance is better only if it takes more work: at the limit of stability it does not.
 MORE, TENTHS = 1.2, 3
 # A step of the one-step method is worth several; growth of the work by a tenth of the tolerance; runs that it takes
-# to begin anew with another method.
+# to begin again with another method.
 ONE_STEP, GROWTH, ANEW = 10, 3, 3
 FAILURES, STUCK = 3, 0.8
 
@@ -44,7 +44,7 @@ def reach(accuracy: float, trials: Trials) -> Result:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     trials : Trials
         Runs of the model.
 
@@ -71,7 +71,7 @@ class Search:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     trials : Trials
         Runs of the model.
     """
@@ -185,7 +185,7 @@ class Search:
             return replace(choice, number=2 * choice.number)
         self.history.append(found.tolerance)
         if len(self.history) > 2 and self.history[-1] > STUCK * self.history[-3]:
-            raise self._refusal("smaller tolerances change the result without an end")
+            raise self._refusal("smaller tolerances keep changing the result")
         missing = np.log10(min(found.tolerance, 1e3) / self.accuracy)
         return self._tighter(choice, max(1, int(missing)))
 
@@ -208,8 +208,8 @@ class Search:
         best = self.report(self.best)
         text = chosen_text(best.stats)
         return SimulationError(
-            f"the accuracy is not reached: {reason}. The best run is kept: {text}. Ask for less, or look with "
-            "tolerance=... at what the outputs do.",
+            f"the accuracy was not reached: {reason}. The best run is kept: {text}. Ask for less, or examine "
+            "the outputs of a run with tolerance=... .",
             best,
         )
 
@@ -219,12 +219,12 @@ def chosen_text(stats: Mapping[str, Any]) -> str:
     chosen = stats["chosen"]
     sizes = "".join(f", {n} {_what(path)}" for path, n in chosen["sizes"].items())
     text = (
-        f"accuracy {stats['accuracy']:g} asked: tolerance {chosen['tolerance']:g}, order at most "
+        f"accuracy {stats['accuracy']:g} requested: tolerance {chosen['tolerance']:g}, order at most "
         f"{chosen['max_order']}{sizes}; estimated error {stats['error_estimate']:.1g} of the range of "
         f"`{stats['error_output']}`"
     )
     if stats["elements_kept"]:
-        text += "; the numbers of elements are kept, and what they lack is not part of it (adaptive=True)"
+        text += "; the numbers of elements are fixed, and their error is not included (adaptive=True)"
     if sizes:
         text += f" (tolerance {stats['error_tolerance']:.1g}, elements {stats['error_elements']:.1g})"
     return text

@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.result import Result
 
-# An output that moves by no more than this, in parts of its size or of 1, rests.
+# An output that moves by no more than this fraction of its size or of 1 is at rest.
 ROUNDING = 1e-13
 # The error falls at least with the power 2/3 of the tolerance, that of order 2, or with the order 2 of the elements.
 BY_TOLERANCE, ORDER, HIGHEST = 2 / 3, 2.0, 4.0
@@ -16,7 +16,7 @@ BY_TOLERANCE, ORDER, HIGHEST = 2 / 3, 2.0, 4.0
 
 @dataclass(frozen=True)
 class Estimate:
-    """Estimated errors of a run in parts of the range of each output.
+    """Estimated errors of a run as fractions of the range of each output.
 
     Parameters
     ----------

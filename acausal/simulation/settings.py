@@ -1,4 +1,4 @@
-"""What a model tells of its own simulation: attributes that `simulate` takes where its arguments are not given."""
+"""What a model declares about its own simulation: attributes that `simulate` takes where its arguments are not given."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def settled(
 
 
 def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
-    """Return a setting that a model tells of itself, None where it has none.
+    """Return a setting that a model declares, None where it declares none.
 
     Parameters
     ----------

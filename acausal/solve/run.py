@@ -32,8 +32,8 @@ from acausal.solve.start.start import go_on, start
 
 SHOWN = 5  # times in a message
 ROUGH = (
-    "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
-    "intervals, simulate(..., intervals=...), give more points."
+    "the energies are less accurate than the tolerance: a power varies faster than points between the outputs can follow. "
+    "Take more points: simulate(..., intervals=...)."
 )
 
 
@@ -226,8 +226,8 @@ def _loosened(run: Integrator) -> list[str]:
         return []
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
-        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as beside a singular position; a "
-        "larger one was taken for one output interval each time, and the error may be larger from there on."
+        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as happens near a singular position; "
+        "a larger one was taken for one output interval each time, and the error may be larger from there on."
     ]
 
 
@@ -241,17 +241,17 @@ def _failure_text(done: _Done, failure: Failure) -> str:
         rates = problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
-        lines.append(f"Until t = {at.time:.6g} s all is well; what changes fastest there: {names}.")
+        lines.append(f"The solution is good up to t = {at.time:.6g} s; what changes fastest there: {names}.")
     left = done.begun.redundancy
     if is_singular(problem, at, left) or (left.singular and not trace.pieces):
         lines.append(
-            "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "
-            "on which branch they go on, and forces have no value. Start 0.01 rad beside it, give a velocity with which they "
-            "can go on, w=fixed(...) of a joint, or try another method=. What was computed is kept."
+            "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
+            "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
+            "they can continue, w=fixed(...) of a joint, or try another method=. The result up to there is kept."
         )
         return "\n".join(lines)
     lines.append(
         "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
-        "stops an integrator. What was computed is kept."
+        "stops an integrator. The result up to there is kept."
     )
     return "\n".join(lines)

@@ -9,8 +9,8 @@ from acausal.solve.problem import Problem
 
 # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
 SMALLER = 0.1
-# What reaches less, in SI units and in parts of the absolute tolerance, rests but for rounding: a falling free body turns
-# by 2e-13 rad/s, and nobody wants to follow that. What begins with a value does not rest.
+# What reaches less, in SI units and as a fraction of the absolute tolerance, rests but for rounding: a falling body turns
+# by 2e-13 rad/s, which is not worth following. What begins with a value does not rest.
 REST, LOST = 1e-11, 1e-4
 # Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
 PASSES = 5

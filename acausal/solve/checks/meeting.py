@@ -19,7 +19,7 @@ from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point
 
-# So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
+# Nearer than this fraction of their greatest distance points meet; an effect below this fraction of its greatest is 0.
 NEAR, NOTHING = 1e-6, 1e-4
 # Points may move so much faster between two rows than at them.
 REACH = 3.0
@@ -144,5 +144,5 @@ def _search(search: _Search, first: Point, trace: Trace, text: str) -> list[Meet
     everywhere = n <= FEW and trace.steps > STEPS_A_ROW * n
     for time, effect in islice(search.run(rows, everywhere), HARMLESS):
         if abs(effect) > least:
-            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). What came before is kept.")]
+            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). The result up to there is kept.")]
     return []

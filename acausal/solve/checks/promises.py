@@ -120,7 +120,7 @@ def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, p
         if jump > STEP * size:
             return (
                 f"{promise.origin}: `smooth=True` promises a law without a jump, but near t = {time:.4g} s it jumps by "
-                f"{jump:.4g}; the integration did not stop there, and its error is not known. Leave `smooth=True` out, or "
+                f"{jump:.4g}; the integration did not stop there, and its error is unknown. Leave `smooth=True` out, or "
                 "let the cases of piecewise meet where they switch."
             )
     return ""

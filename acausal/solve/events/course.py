@@ -107,7 +107,7 @@ class Run:
         constants = agenda.constants(at.constants, after)
         if (constants.vector != at.constants.vector).any():
             acts = ~self.instants.is_switch
-            with suppress(Cycling, InitializationError, Failure):  # laws without values there hold for nobody
+            with suppress(Cycling, InitializationError, Failure):  # laws without values there do not matter
                 # What acts is kept from becoming true.
                 new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
@@ -151,10 +151,10 @@ class Run:
     def _warn_of_haste(self, at: Point) -> None:
         self.hasty = True
         caution(
-            f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {2 * self.stride.density} times an "
-            "interval; one that changes and changes back in between is missed. One of these:\n"
+            f"from t = {at.time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
+            "interval; a change that reverts in between is missed. One of these:\n"
             f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
-            "More intervals look more often: simulate(..., intervals=...)."
+            "More intervals mean more checks: simulate(..., intervals=...)."
         )
 
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
@@ -267,7 +267,7 @@ class Run:
         return (
             f"at t = {time:.6g} s the events do not come to an end; these conditions {what}:\n"
             f"{places_text(self.integrator.compiled, guards)}\n"
-            "A body that bounces ever lower, or a force that changes sign with the speed, does that. Let a discrete "
+            "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
-            "without a jump (smooth=True). What was computed is kept."
+            "without a jump (smooth=True). The result up to there is kept."
         )

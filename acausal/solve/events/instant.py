@@ -123,8 +123,8 @@ class Instants:
         if jumps[worst] > JUMP:
             raise Failure(
                 at.time,
-                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}, and no "
-                "derivative is as fast as a jump. Let the cases of piecewise meet where they switch: a speed by a ramp, "
+                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; a jump has no "
+                "derivative. Let the cases of piecewise meet where they switch: a speed by a ramp, "
                 "piecewise((0, time < t1), (c * (time - t1), time < t2), c * (t2 - t1)), an angle with its slope as well; "
                 "or let a state jump by when(..., reinit(...))",
             )

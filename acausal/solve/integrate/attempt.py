@@ -23,7 +23,7 @@ from acausal.solve.start.loop_states import WORN, choose_projection, worn
 FINE = 60
 # Looks at the projection after a call cost about the cube of the number of constraints each.
 WORK = 2e7
-# What is integrated in place of a coordinate follows it; so far off, in parts of its size, it has lost it.
+# What is integrated in place of a coordinate follows it; beyond this fraction of its size it has lost it.
 APART = 0.1
 
 
@@ -69,7 +69,7 @@ class Integrator:
         return self._floor
 
     def _choose(self, at: Point, moves: bool) -> Point:
-        """Start anew from where the constraints hold, with a projection that suits the position."""
+        """Restart from where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
         z = at.z.copy()
@@ -87,7 +87,7 @@ class Integrator:
         return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
-        """Integrate in the way of now, carefully where that fails; nobody asks for works."""
+        """Integrate in the current way, carefully where that fails; without works."""
         way = replace(self.way, max_steps=max_steps)
         found = self.attempt(at, times, way, works=False)
         return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found

@@ -20,7 +20,7 @@ SETTLED = 1e-7
 ONCE = 1.0
 # Of the largest unknown: what is smaller may be rounding, which never settles.
 NOISE = 1e-9
-# Times at which sizes of terms are taken, and times in a call from which on that is done anew: it costs little then.
+# Times at which sizes of terms are taken, and times in a call from which on that is repeated: it costs little then.
 LOOKS, MANY = 4, 200
 
 

@@ -42,7 +42,7 @@ Found = TypeVar("Found")
 
 
 class Kind(Enum):
-    """What an integrator stumbled over."""
+    """Why an integrator gave up."""
 
     STEPS = "more steps than allowed"
     CORRECTOR = "the Newton iteration does not converge"
@@ -64,7 +64,7 @@ class Refusal:
     time : float
         Where it had got to, in s.
     reason : str
-        What it said, as far as it said something.
+        What the integrator reported, if anything.
     """
 
     kind: Kind
@@ -83,7 +83,7 @@ class Failure(Exception):
     def of(cls, refusal: Refusal) -> Failure:
         """Return the failure that a refusal is, if nothing else helps."""
         return cls(
-            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it may take"
+            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it is allowed"
         )
 
 
@@ -113,14 +113,14 @@ def read(said: str, begin: float, end: float) -> Refusal:
 
 @dataclass(frozen=True)
 class Policy:
-    """What may be changed from one try to the next.
+    """What may be changed from one attempt to the next.
 
     Attributes
     ----------
     methods : tuple of str
         Methods that may be taken, the first one first.
     projects : bool
-        Whether the projection may move where the chosen states wear out.
+        Whether the projection may move where the chosen states become unsuitable.
     loops : bool
         Whether there are constraints; then whatever goes wrong but too many steps may be the states' fault.
     damps : bool

@@ -47,7 +47,7 @@ def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
 
 
 def quickly(run: Integrator, at: Point, times: np.ndarray) -> Stretch | Refusal:
-    """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
+    """Integrate through all times in one call, in the current way or in those that come next; the last one stays."""
     policy = run.settings.policy(times, run.loops)
     while True:
         way = replace(run.way, max_steps=run.settings.patience(run.way, times))

@@ -113,7 +113,7 @@ class Stretch:
         return Point(float(self.times[-1]), self.x[-1], self.z[-1], self.constants, at.truth)
 
     def rows(self, first: int, last: int) -> Stretch:
-        """Return some of the rows, as if the call had begun at its start all the same."""
+        """Return some of the rows, as if the call had begun at its start nevertheless."""
         part = slice(first, last)
         return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)
 

@@ -64,16 +64,16 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
     compiled, nx, nz, t = problem.compiled, problem.nx, problem.nz, at.time
     moving = _moving(problem, at)
     if moving:
-        lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what moves on:"]
+        lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what keeps moving:"]
         lines += [f"  {name} = 0: off by {value:.4g}" for name, value in moving[:5]]
         lines.append(
-            "Something drives it without end, as weight does what nothing carries or a torque what nothing brakes: hold it, "
-            "brake it, or stop the drive; or give guesses nearer to rest."
+            "Something drives it endlessly, such as weight that nothing carries or a torque that nothing brakes: hold it, "
+            "brake it, or stop the drive; or give guesses closer to rest."
         )
         raise InitializationError("\n".join(lines))
     local = problem.local(at)
     value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, at.y)
-    lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
+    lines = [f"at t = {t:g} s there is an equilibrium, but its initial conditions do not hold in it:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
         condition = compiled.reduced.flat.equations.initial[k - nx - nz]

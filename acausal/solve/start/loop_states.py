@@ -18,7 +18,7 @@ WORN, SPARED = 0.05, 0.3
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
-    """Return the constants of a segment with D chosen anew at a consistent point.
+    """Return the constants of a segment with a new choice of D at a consistent point.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
 def _spared(J: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
 
-    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that serves.
+    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
     for exponent in range(1, 13):
         weights = 1 / (1 + stiffness / 10.0**exponent)

@@ -23,7 +23,7 @@ BESIDE = 1e-3
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Constraints that say nothing new, by number, and whether the position is a singular one."""
+    """Redundant constraints, by number, and whether the position is singular."""
 
     dropped: tuple[int, ...] = ()
     singular: bool = False

@@ -49,7 +49,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     raise InitializationError(
-        f"no modes fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        f"no switches fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
         + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )

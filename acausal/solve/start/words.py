@@ -17,7 +17,7 @@ def missing_text(compiled: CompiledModel, free: list[int]) -> str:
     """Say which states are left open, and what would fix each."""
     names = [compiled.states[k] for k in free]
     lines = [
-        f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
+        f"the initial system leaves {len(free)} degree{'s' if len(free) > 1 else ''} of freedom open: "
         "too few start values are fixed (the model itself is complete).",
         "Fix for instance:",
     ]
@@ -98,7 +98,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
             condition = flat.equations.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
     if surplus.size:
-        lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
+        lines.append("More values are fixed than there are degrees of freedom; these had to follow from the others:")
         lines += [f"  {c.text} ({c.origin})" for c in (flat.equations.initial[row - nz] for row in surplus[:5])]
     lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
     return "\n".join(lines)
@@ -107,8 +107,8 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
 def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:
     """Say that an equilibrium is unstable."""
     return (
-        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: what disturbs it grows e-fold in "
-        f"{1 / rate:.3g} s. Give guesses nearer to a stable one, as guess(...) of joints or angles_start of bodies."
+        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: a disturbance grows by a factor of e in "
+        f"{1 / rate:.3g} s. Give guesses closer to a stable one, such as guess(...) of joints or angles_start of bodies."
     )
 
 

@@ -26,7 +26,7 @@ def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any
     """
     own = own_stop_time(model, values) if given is None else given
     if own is None:
-        raise DeclarationError(f"{type(model).__name__} tells no stop_time; give one: stop_time=2.0.")
+        raise DeclarationError(f"{type(model).__name__} declares no stop_time; give one: stop_time=2.0.")
     return check_stop_time(own)
 
 

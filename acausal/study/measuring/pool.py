@@ -1,4 +1,4 @@
-"""Run the points of a study side by side, in processes or on the workers of a cluster."""
+"""Run the points of a study in parallel, in processes or on the workers of a cluster."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         with client:
             yield client.get_executor(pure=False)
         return
-    # Whoever reaches a scheduler may run code on its workers: nobody but this machine reaches this one.
+    # Whoever reaches a scheduler may run code on its workers: only this machine reaches this one.
     here: dict[str, Any] = {"host": LOOPBACK, "dashboard_address": f"{LOOPBACK}:0"}
     with without_main():
         local = LocalCluster(n_workers=workers or _cores(), threads_per_worker=1, processes=True, **here)

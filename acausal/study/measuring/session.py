@@ -37,7 +37,7 @@ class Session:
     wanted: int = 0
 
     def measure(self, points: Iterable[Point], what: str = "") -> list[Measurement]:
-        """Measure points side by side, and return what they gave in their order.
+        """Measure points in parallel, and return what they gave in their order.
 
         Parameters
         ----------

@@ -29,7 +29,7 @@ class Reference:
     values : mapping of str to array, shape (times,)
         Outputs by name.
     agreement : mapping of str to mapping of str to float
-        What it was compared with: the largest deviation of each output, in parts of its range.
+        What it was compared with: the largest deviation of each output, as a fraction of its range.
     asked : float
         The deviation that was asked for.
     text : str
@@ -47,12 +47,12 @@ class Reference:
 
     @property
     def floors(self) -> dict[str, float]:
-        """Errors of each output below which none are told apart."""
+        """Errors of each output below which none can be distinguished."""
         return {name: max((a[name] for a in self.agreement.values()), default=0.0) for name in self.values}
 
     @property
     def floor(self) -> float:
-        """Errors below it are not told apart."""
+        """Errors below it cannot be distinguished."""
         return max(self.floors.values(), default=0.0)
 
     def __str__(self) -> str:
@@ -61,7 +61,7 @@ class Reference:
         compared = ", ".join(f"{what} {max(found.values()):.1e}" for what, found in self.agreement.items())
         lines = [f"reference: {self.text}; known to {self.floor:.1e} of the range ({compared})"]
         if self.floor > self.asked:
-            lines.append(f"{self.asked:.0e} was asked for and not reached: smaller errors are not told apart")
+            lines.append(f"{self.asked:.0e} was requested but not reached: smaller errors cannot be distinguished")
         if len(self.values) > 1:
             lines.append("by output: " + ", ".join(f"{name} {floor:.1e}" for name, floor in self.floors.items()))
         return "\n".join(lines)
@@ -73,7 +73,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], point: Point, le
     Parameters
     ----------
     measure : callable
-        Measures points side by side.
+        Measures points in parallel.
     formulations : sequence of Formulation
         Those with the same limit; two of them check each other.
     point : Point
@@ -81,7 +81,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], point: Point, le
     least : float
         The tightest tolerance of the study.
     asked : float
-        Deviation to be reached, in parts of the range.
+        Deviation to be reached, as a fraction of the range.
     """
     start = replace(point, tolerance=max(LEAST, least / 10))
     if not any(form.refine for form in formulations):
@@ -123,7 +123,7 @@ def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Referen
         )
     values = {name: table[name].to_numpy(dtype=float) for name in outputs}
     if not all(np.all(np.isfinite(column)) for column in values.values()):
-        raise DeclarationError(f"the reference {path} has entries that are no finite numbers.")
+        raise DeclarationError(f"the reference {path} has entries that are not finite numbers.")
     return Reference(times, values, text=str(path))
 
 

@@ -28,7 +28,7 @@ class Row:
     measurement : Measurement
         Costs and counts.
     errors : mapping of str to (float, float)
-        Largest and root mean square error of each output, in parts of its range.
+        Largest and root mean square error of each output, as fractions of its range.
     limit : str
         What limits the accuracy: "tolerance", "elements" (of which there are too few), "model" (the formulation has
         another limit than the reference), or "reference" (which is not known better).
@@ -107,7 +107,7 @@ def pareto(rows: Sequence[Row], floor: float = 0.0, output: str | None = None) -
     rows : sequence of Row
         With errors.
     floor : float
-        Errors below it are not told apart.
+        Errors below it cannot be distinguished.
     output : str, optional
         Whose error; the largest of all outputs if not given.
     """

@@ -151,7 +151,7 @@ def study(
     journal: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Study:
-    """Run a model in many ways, side by side, and tell the error and the cost of each.
+    """Run a model in many ways, in parallel, and report the error and the cost of each.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def study(
     reference : str or Path, optional
         A table as `simulate --csv` writes it; made from the model if not given.
     accuracy : float
-        How well the reference is to be known, in parts of each output's range: the smallest error that is told.
+        Required accuracy of the reference, as a fraction of each output's range: the smallest error that is reported.
     intervals : int
         Every run has intervals + 1 equidistant points.
     initial : str, optional

@@ -59,7 +59,7 @@ def effects(
     stop_time : float, optional
         In s; that of the model if not given.
     accuracy : float
-        Largest change of the outputs that the cheapest set may make, in parts of their ranges.
+        Largest change of the outputs that the cheapest set may make, as a fraction of their ranges.
     tolerance, initial, method
         As of `simulate`.
     intervals : int
@@ -75,7 +75,7 @@ def effects(
     pairs : int
         How many pairs are tried at most, those first whose effects change most.
     workers : int, optional
-        Processes side by side; one for each core if not given.
+        Parallel processes; one per core if not given.
     executor : Executor or str, optional
         Where to run instead: an executor of the kind of concurrent.futures, or the address of a Dask scheduler.
     progress : callable, optional

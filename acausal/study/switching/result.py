@@ -136,7 +136,7 @@ class Effects:
         words = (
             f"{self.scene}: what each effect changes and costs, next to {which} ({r.equations} equations, {r.operations} "
             f"operations, {r.steps} steps, {r.seconds:.3g} s at tolerance {self.tolerance:g}). Changes are the largest, "
-            "in parts of the range of the output."
+            "as a fraction of the range of the output."
         )
         if self.refused:
             words += f" The fullest scene is not the reference: {self.refused}"
@@ -152,13 +152,13 @@ class Effects:
         return labelled
 
     def _findings(self) -> Iterator[str | Table]:
-        """What is told after the changes: failures, idle effects, interactions, and the cheapest sets."""
+        """What follows the changes: failures, idle effects, interactions, and the cheapest sets."""
         for row in self.rows:
             if row.error:
                 yield f"{row.name} failed: {row.error}"
         if self.idle:
             names = ", ".join(dict.fromkeys(path for choices in self.idle for path in choices))
-            yield f"Not called for by this scene, so that switching changes no equation: {names}."
+            yield f"Irrelevant to this scene, because switching them changes no equation: {names}."
         worth = self._worth()
         if worth:
             yield together(worth)
@@ -225,7 +225,7 @@ def _praise(row: Row, reference: Row) -> str:
     if not row.choices:
         return "all effects of the reference"
     if as_fast(row, reference):
-        return f"{row.name}; {row.work:.2f} of the operations, as fast as far as can be told"
+        return f"{row.name}; {row.work:.2f} of the operations, no measurable difference in time"
     times = f"{reference.seconds / row.seconds:.2g} times faster"
     return f"{row.name}; {times} ({row.seconds:.3g} s instead of {reference.seconds:.3g} s)"
 

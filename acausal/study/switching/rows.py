@@ -14,7 +14,7 @@ from acausal.study.measuring.point import Measurement
 
 # What a cheapest set is for, beside one output.
 ALL = "all outputs"
-# Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
+# Ratio of solve times that cannot be distinguished from 1: medians of a few runs scatter that much.
 NOISE = 0.1
 
 
@@ -27,7 +27,7 @@ class Row:
     choices : mapping of str to value
         What is switched; nothing in the reference.
     largest, rms : mapping of str to float
-        Change of each output in parts of its range: the largest, and the root mean square.
+        Change of each output as a fraction of its range: the largest, and the root mean square.
     seconds : float
         Median solve time.
     time, work : float
@@ -72,13 +72,13 @@ class Row:
 
 
 def as_fast(one: Row, other: Row) -> bool:
-    """Tell whether the times of two trials cannot be told apart."""
+    """Return whether the times of two trials cannot be distinguished."""
     return abs(one.seconds - other.seconds) <= NOISE * other.seconds
 
 
 @dataclass(frozen=True)
 class Interaction:
-    """What two effects change together beyond the sum of what they change alone, by output, in parts of its range."""
+    """What two effects change together beyond the sum of what they change alone, by output, as a fraction of its range."""
 
     first: Mapping[str, Any]
     second: Mapping[str, Any]

@@ -123,7 +123,7 @@ def test_no_stop_time_at_all():
     class Endless(Decay):
         stop_time = None
 
-    with pytest.raises(DeclarationError, match=r"tells no stop_time; give one: stop_time=2\.0"):
+    with pytest.raises(DeclarationError, match=r"declares no stop_time; give one: stop_time=2\.0"):
         ac.simulate(Endless())
     assert ac.simulate(Endless(), stop_time=1).time[-1] == 1
 
