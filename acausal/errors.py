@@ -68,7 +68,7 @@ class AcausalWarning(UserWarning):
 
 
 def caution(text: str) -> None:
-    """Warn with the user's line: the innermost one outside of this package.
+    """Warn with the user's line: the innermost one outside this package.
 
     Parameters
     ----------

@@ -84,7 +84,7 @@ def read_settings(texts: Iterable[str]) -> dict[str, Any]:
     Raises
     ------
     DeclarationError
-        If a text is no such pair.
+        If a text is not such a pair.
     """
     values: dict[str, Any] = {}
     for text in texts:

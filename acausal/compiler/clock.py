@@ -1,4 +1,4 @@
-"""Comparisons of time with parameters inside of joined conditions: each switches by the clock, at a break time.
+"""Comparisons of time with parameters inside joined conditions: each switches by the clock, at a break time.
 
 A condition that also compares other things is watched, but what the clock decides in it must not be left to a search: a
 pulse may begin and end between two looks. So each such comparison becomes a switch of its own, whose instants are

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 Bounds = tuple[np.ndarray, np.ndarray]
-# Relative widening after each operation, so that rounding is inside of the bounds.
+# Relative widening after each operation, so that rounding is inside the bounds.
 ROUNDING = 4e-16
 _RISING: dict[int, Callable[[np.ndarray], np.ndarray]] = {
     ca.OP_ASSIGN: np.positive,

@@ -76,7 +76,7 @@ def _refuse_hidden(cls: type) -> None:
     """Raise ExportError for a class that another process cannot import."""
     name = cls.__qualname__
     if "<locals>" in name:
-        where, mend = f"inside of the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
+        where, mend = f"inside the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
     elif cls.__module__ in ("__main__", "__mp_main__"):
         where = "in the script that runs (__main__)"
         mend = f"Move it to a file of its own, and import it: from {name.lower()} import {name}"

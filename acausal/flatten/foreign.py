@@ -67,7 +67,7 @@ def _undeclared(symbol: ca.SX) -> str:
     name = symbol.name()
     word = name if name.isidentifier() else "q"
     return (
-        f"`{name}` is no variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
+        f"`{name}` is not a variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
         f'Declare it in the class body, `{word}: Scalar = variable("...")` or `parameter("...")`, and use self.{word}.'
     )
 

@@ -101,7 +101,7 @@ def _of_casadi(name: str) -> str:
 
 
 def _place(error: BaseException, origin: Origin) -> Origin:
-    """Locate the innermost line outside of this package."""
+    """Locate the innermost line outside this package."""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
             return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")

@@ -35,7 +35,7 @@ class Cut:
 class _Tree:
     """Breadth first from the roots; what a branch ties together is reached at once, so that no branch is cut.
 
-    What is connected inside of a part is reached with the part, so that loops are cut between parts.
+    What is connected inside a part is reached with the part, so that loops are cut between parts.
     """
 
     def __init__(

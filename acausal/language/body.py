@@ -36,7 +36,7 @@ def read_body(cls: Any) -> None:
             plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
         else:
             plain.update(vars(base))
-    # A base that is no component says its values as if they stood here.
+    # A base that is not a component says its values as if they stood here.
     said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
     own: dict[str, f.Field] = {}
     new: dict[str, Any] = {}

@@ -88,19 +88,19 @@ def potential_root(connector: Any, priority: int = 0) -> Root:
 
 
 def is_root(connector: Any) -> bool:
-    """Tell in equations() whether the connector was chosen as a root."""
+    """Return, in equations(), whether the connector was chosen as a root."""
     return connector._is_root
 
 
 def rooted(a: Any, b: Any | None = None) -> bool:
-    """Tell in equations() whether `a` is nearer to the root than the other end of its branch (than `b`)."""
+    """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
     if b is not None:
         return a in b._parents
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
 def in_loop(component: Any) -> bool:
-    """Tell in equations() whether the component is part of a closed loop of over-determined records."""
+    """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop
 
 

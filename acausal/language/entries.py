@@ -25,7 +25,7 @@ def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.nd
     Raises
     ------
     DeclarationError
-        If this is no index, or lies outside of the array.
+        If this is not an index, or lies outside the array.
     """
     indices = index if isinstance(index, tuple) else (index,)
     ends = [end for item in indices for end in _ends(item)]
@@ -58,7 +58,7 @@ def _ends(item: Any) -> list[Any]:
 
 
 def _bounds(item: Any) -> list[int]:
-    """What must lie inside of the array."""
+    """What must lie inside the array."""
     return [e for e in (item.start, item.stop) if e is not None] if isinstance(item, slice) else [item]
 
 

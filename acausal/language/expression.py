@@ -229,7 +229,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
 
 
 def is_deferred(*values: Any) -> bool:
-    """Tell whether one of the values is a field of a class body, known only when the model is built."""
+    """Return whether one of the values is a field of a class body, known only when the model is built."""
     return any(getattr(value, "is_deferred", False) for value in values)
 
 

@@ -1,4 +1,4 @@
-"""Names that are no fields, but nearly: typing errors that Python takes for new attributes."""
+"""Names that are not fields, but nearly: typing errors that Python takes for new attributes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
     cls : Component class
         The class, whose body may be under execution.
     name : str
-        What is no field.
+        What is not a field.
     known : iterable of str
         What could be meant.
     """
@@ -89,7 +89,7 @@ def _body(cls: Any) -> Iterator[CodeType]:
 
 
 def _codes(cls: Any) -> Iterator[CodeType]:
-    """Code of all functions in a class and its bases, and of those inside of them."""
+    """Code of all functions in a class and its bases, and of those inside them."""
     waiting: list[Any] = [value for base in cls.__mro__ for value in vars(base).values()]
     while waiting:
         item = waiting.pop()

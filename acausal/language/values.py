@@ -83,7 +83,7 @@ def holds_parts(value: Any) -> bool:
 
 
 def user_line() -> str:
-    """Return file and line of the innermost frame outside of this package."""
+    """Return file and line of the innermost frame outside this package."""
     frame: Any = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
         frame = frame.f_back

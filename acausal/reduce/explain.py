@@ -47,7 +47,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         lines.append(f"Nothing determines {_names(flat, part)}.")
         lines += _hints(flat, part)
         if part.equations:
-            lines.append(f"Equations that contain them: only {len(part.equations)}.")
+            lines.append(f"The only equations that contain them ({len(part.equations)}):")
             lines += _equations(flat, part)
         lines.append(
             "Add the missing equation, or connect the part; "

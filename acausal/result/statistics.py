@@ -20,7 +20,7 @@ class Statistics(Mapping[str, Any]):
     steps, factorisations, residual_evaluations, calls, choices : int
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
-        Seconds; the last are those inside of the integrators.
+        Seconds; the last are those inside the integrators.
     method, method_steps, max_order, tolerance, fastest_rate, constraints
         What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
         the start in 1/s, and how loops stayed closed.
@@ -33,7 +33,7 @@ class Statistics(Mapping[str, Any]):
     loops, independent_states
         What the ranks of loops showed at the start.
     doubts : list of str
-        What was used outside of its range.
+        What was used outside its range.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
         In J, if asked for; the last is what the method itself lost.
     consistent_evaluations : int

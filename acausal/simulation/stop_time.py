@@ -34,7 +34,7 @@ def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> 
     Raises
     ------
     DeclarationError
-        If it is no number of seconds greater than 0.
+        If it is not a number of seconds greater than 0.
     """
     cls = type(model)
     declared = getattr(cls, "stop_time", None)

@@ -82,7 +82,7 @@ def refined(
     compiled, solver
         As of `powers`.
     rows : tuple of arrays
-        x, z, t, modes of n rows, as of `powers`.
+        x, z, t, modes of n rows, as in `powers`.
     given : array, shape (n, 2)
         What the integrator found, in J.
     tolerance : float

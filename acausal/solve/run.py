@@ -39,7 +39,7 @@ ROUGH = (
 
 @dataclass(frozen=True)
 class Task:
-    """What to run, as of `simulate`; `max_order` None is chosen from the eigenvalues."""
+    """What to run, as in `simulate`; `max_order` None is chosen from the eigenvalues."""
 
     start_time: float
     stop_time: float
@@ -155,7 +155,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
 
 
 def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
-    """Break times inside of a run; those that are but a few rounding errors apart are one."""
+    """Break times inside a run; those that are but a few rounding errors apart are one."""
     found: list[float] = []
     for b in sorted(b for b in instants if start < b < stop):
         if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):

@@ -96,7 +96,7 @@ class Agenda:
     def held_back(self, at: Point, instants: Instants) -> Point:
         """Return a point at the stop time at which what becomes true only after it does not act.
 
-        `time > due` is not true where time is `due`: a run that goes on from there begins with that.
+        `time > due` is not true where time is `due`: a run that continues from there begins with that.
         """
         if not len(at.truth):
             return at

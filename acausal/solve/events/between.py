@@ -77,7 +77,7 @@ def between(
 
 
 def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as of `between`."""
+    """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as in `between`."""
     c, modes = run.compiled, constants.vector
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)

@@ -1,4 +1,4 @@
-"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, go on from there."""
+"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, continue from there."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Run:
     breaks : list of float
         Times at which conditions of time alone change.
     declared : list of float
-        Those of them that are no events, as they follow from parameters.
+        Those of them that are not events, as they follow from parameters.
     """
 
     def __init__(self, integrator: Integrator, times: np.ndarray, breaks: list[float], declared: list[float]) -> None:
@@ -197,7 +197,7 @@ class Run:
         return stretch.end(at)
 
     def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
-        """Keep what was before the event, let it happen, and go on from it."""
+        """Keep what was before the event, let it happen, and continue from it."""
         after = crossing.after
         out = after.value <= 0
         width = self.instants.width(at)

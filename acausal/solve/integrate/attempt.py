@@ -39,7 +39,7 @@ class Integrator:
     span : (float, float)
         Start and stop time of the whole run, for the progress.
     before : Trace
-        Of an earlier run whose counts go on.
+        Of an earlier run whose counts continue.
     """
 
     def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
@@ -159,7 +159,7 @@ class Integrator:
             self.trace.add(found.every(parts))
 
     def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
-        """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
+        """What continues from the last row starts on the equations; the other rows settle when somebody reads them."""
         last, vector = slice(-1, None), stretch.constants.vector
         z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
         lost, self.consistent.unsolved = self.consistent.unsolved, []

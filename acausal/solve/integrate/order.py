@@ -1,8 +1,8 @@
 """Order limit of the multistep method: fast, lightly damped oscillations make high orders unstable.
 
-BDF of order k is stable outside of a wedge around the negative real axis of half angle 90, 90, 86.03, 73.35, 51.84
+BDF of order k is stable outside a wedge around the negative real axis of half angle 90, 90, 86.03, 73.35, 51.84
 degrees for k = 1...5 (Hairer & Wanner II, V.2.7). Oscillations that the steps resolve do no harm; those much faster than
-the motion must lie inside of the wedge.
+the motion must lie inside the wedge.
 """
 
 from __future__ import annotations

@@ -83,7 +83,7 @@ def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stre
     outputs : int
         Number of outputs that share the steps.
     """
-    # Loops that get stuck beside a singular position do so for ever.
+    # Loops that get stuck beside a singular position do so forever.
     most = LONG if run.loops else HOPELESS // min(outputs, HOPELESS // LONG)
     way = replace(run.way, careful=True, max_steps=most)
     found = _stride(run, at, times, way, HALVINGS)

@@ -73,7 +73,7 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
         raise InitializationError("\n".join(lines))
     local = problem.local(at)
     value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, at.y)
-    lines = [f"at t = {t:g} s there is an equilibrium, but its initial conditions do not hold in it:"]
+    lines = [f"at t = {t:g} s there is an equilibrium, but the initial conditions do not hold in it:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
         condition = compiled.reduced.flat.equations.initial[k - nx - nz]

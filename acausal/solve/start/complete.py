@@ -148,7 +148,7 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     speed = float(np.max(np.abs(x[rates]), initial=0.0))
     if not speed > REST:
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops continue. "
+            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops go on. "
             "Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
     later = AWAY / speed

@@ -49,7 +49,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     raise InitializationError(
-        f"no switches fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        f"no setting of the switches fits the values at t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
         + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )
@@ -68,7 +68,7 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
 
 
 def go_on(problem: Problem, start: Start) -> Point:
-    """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
+    """Leave a singular position, where the equations do not tell how to continue; any other point stays."""
     if not start.redundancy.singular:
         return start.point
     at = leave_singular(problem, start.point)

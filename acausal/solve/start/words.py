@@ -17,7 +17,7 @@ def missing_text(compiled: CompiledModel, free: list[int]) -> str:
     """Say which states are left open, and what would fix each."""
     names = [compiled.states[k] for k in free]
     lines = [
-        f"the initial system leaves {len(free)} degree{'s' if len(free) > 1 else ''} of freedom open: "
+        f"the initial system leaves {len(free)} state{'s' if len(free) > 1 else ''} undetermined: "
         "too few start values are fixed (the model itself is complete).",
         "Fix for instance:",
     ]
@@ -107,7 +107,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
 def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:
     """Say that an equilibrium is unstable."""
     return (
-        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: a disturbance grows by a factor of e in "
+        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: a disturbance grows e-fold in "
         f"{1 / rate:.3g} s. Give guesses closer to a stable one, such as guess(...) of joints or angles_start of bodies."
     )
 

@@ -66,7 +66,7 @@ def check_run(intervals: int, repeats: int, limit: float) -> None:
 
 
 def check_counts(least: int = 1, **counts: Any) -> None:
-    """Refuse what is no whole number, or less than the least.
+    """Refuse what is not a whole number, or less than the least.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def check_counts(least: int = 1, **counts: Any) -> None:
 
 
 def check_shares(example: float, **shares: Any) -> None:
-    """Refuse what is no number between 0 and 1.
+    """Refuse what is not a number between 0 and 1.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Stop what takes too long, also inside of an integrator."""
+"""Stop what takes too long, also inside an integrator."""
 
 from __future__ import annotations
 

@@ -125,7 +125,7 @@ def _cores() -> int:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let processes that start inside of the block use one thread for linear algebra."""
+    """Let processes that start inside the block use one thread for linear algebra."""
     before = {name: os.environ.get(name) for name in THREADS}
     os.environ.update(dict.fromkeys(THREADS, "1"))
     try:

@@ -166,7 +166,7 @@ def study(
     formulations : sequence of Formulation, optional
         Ways of discretising the model; those that it declares or that its fields tell if not given.
     tolerances, max_orders, methods : sequence
-        Tolerances, limits of the order and methods, as of `simulate`.
+        Tolerances, limits of the order and methods, as in `simulate`.
     constraints : sequence of str, optional
         As of `simulate`; "states" and "projection" for a model with loops and a single formulation.
     switches : mapping of str to sequence, optional
@@ -189,7 +189,7 @@ def study(
         Where points run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
         address of a Dask scheduler. Processes of this machine if not given.
     journal : str or Path, optional
-        File that keeps what is done; an interrupted study goes on from it, a complete one removes it.
+        File that keeps what is done; an interrupted study continues from it, a complete one removes it.
     progress : callable, optional
         Called with the number of points done, of points so far, and what is going on.
 

@@ -65,7 +65,7 @@ class Row:
         return max(self.largest, key=lambda name: self.largest[name])
 
     def cheaper(self, other: Row) -> bool:
-        """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
+        """Return whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
         if not as_fast(self, other):
             return self.seconds < other.seconds
         return (self.operations, self.steps) < (other.operations, other.steps)

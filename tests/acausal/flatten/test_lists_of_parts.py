@@ -197,13 +197,13 @@ BUILT = ac.compile(Named()).tree
     [
         (
             lambda s: chain(s.world, Revolute(), s.tip),
-            r"Revolute\(\) is made in connections\(\).*class body, `revolute =",
+            r"Revolute\(\) is created in connections\(\).*class body, `revolute =",
         ),
         (
             lambda s: iter([connect(s.world.frame_b, Revolute().frame_a)]),
             "`frame_a` belongs to a component that is not",
         ),
-        (lambda s: iter([connect(s.world.frame_b, Frame())]), r"Frame\(\) is made in connections"),
+        (lambda s: iter([connect(s.world.frame_b, Frame())]), r"Frame\(\) is created in connections"),
         (
             lambda s: iter([connect(s.world.frame_b, OTHER.tip.frame_a)]),
             "`tip.frame_a` belongs to a component that is not",
@@ -232,7 +232,7 @@ def test_what_is_not_in_the_model_is_refused_at_its_line(connections, text):
 
 
 def test_fields_and_paths_are_not_gone_through_without_end():
-    with pytest.raises(DeclarationError, match="no entries to go through in the class body"):
+    with pytest.raises(DeclarationError, match="cannot be iterated over in the class body"):
         type("M", (Base,), {"first": list(Named.m)})
     with pytest.raises(TypeError, match="not iterable"):
         list(OTHER.tip)

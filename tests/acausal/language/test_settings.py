@@ -110,7 +110,7 @@ def test_a_structural_value_and_a_choice():
         ("formulation", "gem", "must be one of"),
         ("omega", "fast", "must be a number"),
         ("omega", None, "must be a number"),
-        ("omega", fixed(3), "is no variable"),
+        ("omega", fixed(3), "is not a variable"),
         ("angle", 3, "write angle=fixed"),
         ("world", 5, "is a part; put a component in its place"),
     ],
@@ -412,7 +412,7 @@ def test_parts_and_values_set_in_a_constructor_are_refused_with_the_mend(name, n
 
 
 def test_what_is_found_or_computed_takes_no_value():
-    with pytest.raises(DeclarationError, match="found by itself"):
+    with pytest.raises(DeclarationError, match="found automatically"):
         Body(m=1, world=World())
 
 

@@ -127,7 +127,7 @@ def test_files_that_are_none(scene, tmp_path):
     (tmp_path / "broken.json").write_text("{")
     code, text = run("simulate", scene, "--effects", tmp_path / "broken.json")
     assert code == 2
-    assert "is no JSON document" in text
+    assert "is not a JSON document" in text
 
 
 def test_what_cannot_be_written_is_refused_before_any_work(scene, tmp_path):

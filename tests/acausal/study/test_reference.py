@@ -96,7 +96,7 @@ def test_read(tmp_path):
         ("time,y\n0,1\n1,3\n", "has no column `x`; its columns: time, y"),
         ("time,x\n0,1\n0.5,2\n1,3\n", "has 3 times up to 1 s, the study 2 up to 1 s"),
         ("time,x\n0,1\n0.9,2\n", "has 2 times up to 0.9 s, the study 2 up to 1 s"),
-        ("time,x\n0,1\n1,\n", "has entries that are no finite numbers"),
+        ("time,x\n0,1\n1,\n", "has entries that are not finite numbers"),
         ("", "cannot read the reference"),
     ],
 )
