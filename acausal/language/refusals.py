@@ -35,7 +35,7 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
     if at_home(component, constructor=True):
         return f"`{name}` of {cls.__name__} goes to the constructor above: `super().__init__({given})`."
     by_path = f" {_by_path(name, field, value)}" if isinstance(field, f.Structural | f.Parameter) else ""
-    return f"`{name}` of {cls.__name__} is not set on an instance: it belongs in `{cls.__name__}({given})`.{by_path}"
+    return f"`{name}` of {cls.__name__} cannot be set on an instance: it belongs in `{cls.__name__}({given})`.{by_path}"
 
 
 def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:

@@ -256,7 +256,7 @@ def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
     count = int(wrong.reshape(time.size, -1).any(axis=1).sum())
     cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
     return (
-        f"`{name}` is {what} for the first time at t = {time[row]:.6g} s, and at {count} of {time.size} times in all. "
+        f"`{name}` is {what} at t = {time[row]:.6g} s for the first time, at {count} of {time.size} times in all. "
         f"Check the equation that gives it: {cause}."
     )
 

@@ -113,7 +113,7 @@ class Deep(Model):
     ],
 )
 def test_a_generator_that_does_not_end_is_named_with_its_line(model, what):
-    with pytest.raises(DeclarationError, match=rf"{what} [\d,]+ entries and goes on") as caught:
+    with pytest.raises(DeclarationError, match=rf"{what} [\d,]+ entries and continues") as caught:
         ac.compile(model())
     assert "test_endless.py:" in str(caught.value)
 

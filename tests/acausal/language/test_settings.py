@@ -308,7 +308,7 @@ class Own(Rate):
 
 
 def test_a_circle_of_defaults_is_named():
-    with pytest.raises(DeclarationError, match="Circle follow each other in a circle: a -> b -> c -> a"):
+    with pytest.raises(DeclarationError, match="Circle depend on each other in a circle: a -> b -> c -> a"):
         ac.compile(Circle())
     with pytest.raises(DeclarationError, match="n -> n"):
         ac.compile(Own())
@@ -344,7 +344,7 @@ def test_setting_on_an_instance_is_refused_with_the_mend(change, text):
     ("change", "text"),
     [
         (lambda t: setattr(t, "load", 5), r"ac.simulate\(compiled, ..., parameters=\{'load': 5\}\)"),
-        (lambda t: setattr(t.bar, "r", (2, 0, 0)), r"`bar.r` is not set on a built model.*parameters=\{'bar.r'"),
+        (lambda t: setattr(t.bar, "r", (2, 0, 0)), r"`bar.r` cannot be set on a built model.*parameters=\{'bar.r'"),
         (
             lambda t: setattr(t.hinge, "use_axis_flange", False),
             r"ac.compile\(model, parameters=\{'hinge.use_axis_flange'",

@@ -116,18 +116,18 @@ REFUSED = {
     "round": (lambda self: round(self.s, 2), "would jump without an event"),
     "float": (lambda self: float(self.s), "s is symbolic and has no value .* cannot be a Python number"),
     "range": (lambda self: len(range(self.s)), "declare the field structural"),
-    "beyond": (lambda self: self.v[3], r"`v\[3\]` is outside of v, whose entries are v\[0\] to v\[2\]"),
-    "before": (lambda self: self.v[-4], r"`v\[-4\]` is outside of v"),
-    "slice": (lambda self: self.v[1:7], r"`v\[1:7\]` is outside of v"),
+    "beyond": (lambda self: self.v[3], r"`v\[3\]` is outside v, whose entries are v\[0\] to v\[2\]"),
+    "before": (lambda self: self.v[-4], r"`v\[-4\]` is outside v"),
+    "slice": (lambda self: self.v[1:7], r"`v\[1:7\]` is outside v"),
     "row": (lambda self: self.m[3], "which has 3 rows and 3 columns"),
-    "column": (lambda self: self.m[0, 3], r"`m\[0, 3\]` is outside of m"),
-    "scalar": (lambda self: self.s[1], r"`s\[1\]` is outside of s, which is a scalar"),
-    "too many": (lambda self: self.m[0, 0, 0], r"`m\[0, 0, 0\]` is outside of m"),
-    "symbol": (lambda self: self.v[self.s], r"`v\[s\]`: entries of a symbol are chosen by whole numbers"),
+    "column": (lambda self: self.m[0, 3], r"`m\[0, 3\]` is outside m"),
+    "scalar": (lambda self: self.s[1], r"`s\[1\]` is outside s, which is a scalar"),
+    "too many": (lambda self: self.m[0, 0, 0], r"`m\[0, 0, 0\]` is outside m"),
+    "symbol": (lambda self: self.v[self.s], r"`v\[s\]`: entries of a symbol are selected by integers"),
     "fraction": (lambda self: self.v[0.5], "selected by integers"),
     "truth": (lambda self: self.v[True], "selected by integers"),
     "none": (lambda self: self.v[None], "selected by integers"),
-    "set": (lambda self: operator.setitem(self.v, 0, 1), "entries of v are not set"),
+    "set": (lambda self: operator.setitem(self.v, 0, 1), "entries of v cannot be assigned"),
     "method": (lambda self: self.v.sum(), "v is an expression and has no `sum`"),
     "sine of casadi": (lambda self: ca.sin(self.s), "`sin` of CasADi is called with an expression"),
     "call": (
@@ -252,16 +252,18 @@ def test_a_prescribed_motion_with_a_kink_is_refused_where_it_is():
     ],
 )
 def test_symbols_of_casadi(use):
-    with pytest.raises(DeclarationError, match=r"(Law|stored_energy).*: `q` is no variable or parameter of this model"):
+    with pytest.raises(
+        DeclarationError, match=r"(Law|stored_energy).*: `q` is not a variable or parameter of this model"
+    ):
         ac.simulate(type("Law", (Values,), use)(), stop_time=1)
 
 
 def test_symbols_of_another_model():
     other = ac.compile(Drag()).tree
-    with pytest.raises(DeclarationError, match=r"test_symbols\.py:\d+: `x` is no variable .* another built\s+model"):
+    with pytest.raises(DeclarationError, match=r"test_symbols\.py:\d+: `x` is not a variable .* another built\s+model"):
         worth(lambda self: other.x)
     result = ac.simulate(Drag(), stop_time=1)
-    with pytest.raises(DeclarationError, match="`x` is no variable or parameter of this model"):
+    with pytest.raises(DeclarationError, match="`x` is not a variable or parameter of this model"):
         result[other.x * 2]
 
 

@@ -217,7 +217,7 @@ class Pulses(Model):
 
 @pytest.mark.parametrize("intervals", [2, 400])
 def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
-    with pytest.warns(ac.AcausalWarning, match=r"turn faster than they are looked at[\s\S]*intervals"):
+    with pytest.warns(ac.AcausalWarning, match=r"change faster than they are checked[\s\S]*intervals"):
         ac.simulate(Pulses(), stop_time=1.0, intervals=intervals, method="idas")
 
 

@@ -60,7 +60,7 @@ def test_a_tolerance_too_loose_is_tightened():
 def test_formulations_of_different_limits_are_told():
     found = make(Lab(), [form("a", 6), form("b", 6, limit=0.02)], Point(), 1e-6, 1e-4)
     assert found.floor == pytest.approx(0.02, rel=0.05)
-    assert "1e-04 was asked for and not reached" in str(found)
+    assert "1e-04 was requested but not reached" in str(found)
 
 
 def test_what_cannot_be_refined_is_told():
