@@ -177,7 +177,7 @@ def _at_start(compiled: CompiledModel) -> AtStart | None:
     from acausal.solve.problem import Problem
     from acausal.solve.start.start import start
 
-    if not compiled.closing.size:
+    if not compiled.constraints.size:
         return None
     try:
         return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)

@@ -198,15 +198,15 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
 def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result:
     run = done.integrator
     compiled, times = run.compiled, plan.times
-    t, x, z, works, modes = run.trace.rows(done.first)
+    t, x, z, works, constants = run.trace.rows(done.first)
     rows = np.searchsorted(t, times[times <= t[-1]])
-    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
+    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], constants[rows], run.consistent)
     found = doubts(compiled, evaluate) + broken_promises(run, evaluate)
     stats = replace(stats, doubts=[*found, *_loosened(run)])
     if energy:
         if run.trace.rough:
             caution(ROUGH)
-        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
+        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], constants[[0, -1]], run.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
         supplied, dissipated = works[-1].tolist()
         stats = replace(

@@ -129,7 +129,7 @@ class Equilibrium:
 
     def _close(self, at: Point) -> Point:
         """Close the loops, and choose the states that follow from others anew."""
-        if not self.problem.compiled.closing.size:
+        if not self.problem.compiled.constraints.size:
             return at
         at = tighten(self.problem, replace(at, constants=self.guess.constants))
         at = replace(at, constants=choose_projection(self.problem, at, spare=False))
@@ -197,7 +197,7 @@ class Equilibrium:
         value, J = here.rates[self.rows], here.A[self.rows]
         if conditions:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
-        if self.problem.compiled.closing.size:
+        if self.problem.compiled.constraints.size:
             off, M = self.problem.constraints(here.point)
             value, J = np.concatenate([value, off]), np.vstack([J, M])
         return value, J

@@ -212,7 +212,7 @@ def study(
     compiled = compile(model, given)
     names = outputs_of(compiled, outputs)
     forms = tuple(formulations or formulations_of(model, given))
-    loops = compiled.closing.size and len(forms) == 1 and not forms[0].refine
+    loops = compiled.constraints.size and len(forms) == 1 and not forms[0].refine
     kinds = constraints or (("states", "projection") if loops else ("auto",))
     grid = Grid(forms, tolerances, max_orders, methods, kinds, switches or {})
     trees = [Instantiation(model, point.settings).root for point in grid.structures(given)]
