@@ -27,8 +27,8 @@ from acausal.cli.scenes import find_scene, scenes
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.simulation.runs import adaptive
 from acausal.simulation.settings import settled
-from acausal.simulation.trials import adaptive
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel

@@ -177,7 +177,7 @@ class Guards:
         """
         r, excess = self.reduced, self._excess[self.watched]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
-        unknowns, equations = (k.tolist() for k in self._dependence.closure(self._dependence.inside(excess)))
+        unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))
         z, own = r.z[unknowns], r.running.alg[equations]
         direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
         return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows

@@ -69,7 +69,7 @@ class Evaluator:
         """Make some algebraic unknowns right, and all that they need."""
         if not wanted:
             return
-        unknowns = self.compiled.dependence.closure(wanted)[0]
+        unknowns = self.compiled.dependence.needed(wanted)[0]
         solved = self.solver(self.x, self._given, self.t, self.constants, wanted)
         self.z = self.z.copy()
         self.z[:, unknowns] = solved[:, unknowns]

@@ -22,7 +22,7 @@ MAY = {
     "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
     "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
 }
-ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "switching": {"measuring", "switching"}}
+ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 WITH_CIRCLES = ("acausal.solve", "acausal.study")
 

@@ -68,7 +68,7 @@ class Consistent:
             Unknowns that must be right, with all that they need; all if not given.
         """
         c = self.compiled
-        unknowns, equations = c.dependence.closure(range(c.nz) if wanted is None else wanted)
+        unknowns, equations = c.dependence.needed(range(c.nz) if wanted is None else wanted)
         if not unknowns.size or not len(t):
             return z
         constants = np.broadcast_to(constants, (len(t), constants.shape[-1]))
