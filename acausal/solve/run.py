@@ -15,17 +15,17 @@ from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
-from acausal.solve.evaluator import Evaluator
 from acausal.solve.events.agenda import APART
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Chattering, Run
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
+from acausal.solve.integrate.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point, Problem
-from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.start.initialize import Start
 from acausal.solve.start.redundancy import is_singular
 from acausal.solve.start.start import go_on, start

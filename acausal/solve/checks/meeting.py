@@ -13,10 +13,10 @@ from itertools import islice
 import numpy as np
 
 from acausal.solve.checks.validity import separations
-from acausal.solve.events.looks import pace
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.integrate.trace import Trace
+from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
 # So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.

@@ -14,9 +14,9 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.flatten.discontinuities import Promise
 from acausal.solve.checks.validity import DEAR, ROWS, Watch, watch
-from acausal.solve.evaluator import Evaluator
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.symbols import scalars
 
 # Part of the largest value of a law that is a step; less may be rounding of its constants.

@@ -15,7 +15,7 @@ from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
-from acausal.solve.evaluator import Evaluator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.problem import Point, Problem
 
 # Most output points that are looked at, and where each look costs a solution of the equations.

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.energy import between_rows
-from acausal.solve.events.hermite import cubic
+from acausal.solve.hermite import cubic
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 

@@ -10,11 +10,11 @@ from acausal.compiler.constants import Constants
 from acausal.solve.events.between import FAITHFUL, between
 from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
-from acausal.solve.events.looks import pace
 from acausal.solve.events.stride import FINE
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
 DEPTH, SUSPECTS, TRIALS = 3, 4, 80

@@ -9,8 +9,8 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Constants
-from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import Setup, rounding, set_up

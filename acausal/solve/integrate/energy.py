@@ -13,10 +13,10 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.solve.events.hermite import cubic
-from acausal.solve.events.looks import GOLDEN
+from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import GOLDEN
 from acausal.solve.problem import Point
 from acausal.solve.start.newton import algebraic
 
