@@ -45,7 +45,7 @@ class FlatClosure:
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that is cut: the connection, its components, and what of its closures said nothing new.
+    """A loop that is cut: the connection, its components, and which of its closures were redundant.
 
     Parameters
     ----------

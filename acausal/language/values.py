@@ -37,7 +37,7 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
             f"or {name}=guess({value!r}) for a guess."
         )
     if isinstance(value, f.InitialValue) and not isinstance(field, f.Variable):
-        raise DeclarationError(f"{where} is no variable: it takes a value, not fixed(...) or guess(...).")
+        raise DeclarationError(f"{where} is not a variable: it takes a value, not fixed(...) or guess(...).")
     return value
 
 

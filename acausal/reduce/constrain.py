@@ -90,7 +90,7 @@ def constrain(
 
 
 def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a symbol, 1 where it counts, 0 where it says nothing new: what works on it is 0 then."""
+    """Give each closure a symbol, 1 where it counts, 0 where it is redundant: the flow that works on it is 0 then."""
     duals = {c.row: c.dual for c in flat.loops.closures}
     counts = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
     for constraint in plan.constrained.constraints:

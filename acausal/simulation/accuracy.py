@@ -44,7 +44,7 @@ def reach(accuracy: float, runs: Runs) -> Result:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     runs : Runs
         Runs of the model.
 
@@ -71,7 +71,7 @@ class Search:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     runs : Runs
         Runs of the model.
     """

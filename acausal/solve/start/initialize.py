@@ -43,7 +43,7 @@ class Start:
     independent: tuple[str, ...] = ()
 
     def found(self, compiled: CompiledModel) -> AtStart:
-        """Return what a report tells of it."""
+        """Return what a report says about it."""
         dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
         return AtStart(tuple(dropped), self.redundancy.singular, self.independent)
 

@@ -128,7 +128,7 @@ class Equilibrium:
         return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
 
     def _close(self, at: Point) -> Point:
-        """Close the loops, and choose the states that follow from others anew."""
+        """Close the loops, and choose again which states follow from others."""
         if not self.problem.compiled.constraints.size:
             return at
         at = tighten(self.problem, replace(at, constants=self.guess.constants))

@@ -56,7 +56,7 @@ def search(
 def cheapest(
     searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[EffectRow]]
 ) -> dict[str, EffectRow]:
-    """Carry out searches side by side and return what each found.
+    """Carry out searches in parallel and return what each found.
 
     Parameters
     ----------

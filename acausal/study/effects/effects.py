@@ -236,7 +236,7 @@ class _Study:
 
 
 def _same(one: Measurement, other: Measurement) -> bool:
-    """Tell whether two variants have the same equations: one effect leaves nothing of the other."""
+    """Return whether two variants have the same equations: one effect leaves nothing of the other."""
     return one.operations == other.operations and all(
         np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
     )

@@ -65,14 +65,14 @@ class EffectRow:
         return max(self.largest, key=lambda name: self.largest[name])
 
     def cheaper(self, other: EffectRow) -> bool:
-        """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
+        """Return whether it takes less time; where that cannot be decided, fewer operations and then fewer steps."""
         if not as_fast(self, other):
             return self.seconds < other.seconds
         return (self.operations, self.steps) < (other.operations, other.steps)
 
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
-    """Tell whether the times of two variants cannot be told apart."""
+    """Return whether the times of two variants cannot be distinguished."""
     return abs(one.seconds - other.seconds) <= NOISE * other.seconds
 
 

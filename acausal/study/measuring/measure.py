@@ -30,7 +30,7 @@ _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
 
 @alone
 def measure(job: Job) -> Measurement:
-    """Compile and run a case; whatever goes wrong with the model is told in the measurement.
+    """Compile and run a case; whatever goes wrong with the model is stored in the measurement.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Run the cases of a study side by side, in processes or on the workers of a cluster."""
+"""Run the cases of a study in parallel, in processes or on the workers of a cluster."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
     Parameters
     ----------
     measure : callable
-        Measures cases side by side.
+        Measures cases in parallel.
     formulations : sequence of Formulation
         Those with the same limit; two of them check each other.
     case : Case
