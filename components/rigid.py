@@ -9,7 +9,7 @@ UNEQUAL = 1e-6  # of that sum: products of inertia that should be the same
 
 
 def wrong_inertia(I: np.ndarray) -> str:
-    """Say what is wrong with the inertia tensor of a body, "" if nothing is.
+    """Return what is wrong with the inertia tensor of a body, "" if nothing is.
 
     I is the inertia of a mass distribution if it is symmetric and trace(I) / 2 E - I, the second moments of the mass, has
     no negative eigenvalue: that is the triangle inequality in principal axes, and no moment is negative then. Of a body

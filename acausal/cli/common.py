@@ -59,7 +59,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 
 @contextmanager
 def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
-    """Turn errors into a message and an exit status; give the stream for a JSON document.
+    """Turn errors into a message and an exit status; yield the stream for a JSON document.
 
     With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
     """
@@ -80,12 +80,12 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
 
 
 class Terminated(KeyboardInterrupt):
-    """The process was asked to end: what was computed is kept, as after an interrupt."""
+    """The process was asked to end; what was computed is kept, as after an interrupt."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Take SIGTERM like an interrupt from the keyboard, once: the second one ends the process at once."""
+    """Treat the first SIGTERM like an interrupt from the keyboard; the second one ends the process at once."""
 
     def terminate(*_: Any) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)

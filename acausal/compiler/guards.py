@@ -246,5 +246,5 @@ class Guards:
         return (True, k), x[k] + (value - target) / slopes[0]
 
     def check(self) -> None:
-        """Raise DeclarationError if something jumps that cannot."""
+        """Raise DeclarationError if something jumps that cannot jump."""
         _ = self._jumps

@@ -1,4 +1,4 @@
-"""Interval arithmetic: between which bounds a function of time lies while time lies between two bounds.
+"""Interval arithmetic: bounds of a function of time while time lies between two bounds.
 
 The instructions of a CasADi function are followed with a lower and an upper bound for every value, for many intervals of
 time at once. Bounds are never too narrow.

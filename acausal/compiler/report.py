@@ -17,7 +17,7 @@ SHOWN = 12
 
 @dataclass(frozen=True)
 class AtStart:
-    """What is known once a start was found.
+    """What is known once a start has been found.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
 
 
 def summary(r: Mapping[str, Any]) -> str:
-    """Return a report as text for people."""
+    """Return a report as text."""
     lines = [
         f"{r['model']}",
         f"  flattened     {r['equations_flat']:6d} equations, {r['unknowns_flat']} unknowns",

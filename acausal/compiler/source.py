@@ -1,4 +1,4 @@
-"""What a compiled model was made from, and how it is made again where a pickle of it is read."""
+"""What a compiled model was made from, and how it is made again when a pickle of it is read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parameters that are 0 and so have left equations that a model needs: tried with other values, where it is incomplete."""
+"""Parameters whose value 0 removes terms that a model needs: where it is incomplete, they are tried with other values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST, SECONDS = 12, 5.0  # parameters that are tried, and how long
 
 
 def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError) -> str:
-    """Return a line that names the parameters whose zeros leave a model incomplete, "" where it is not for them.
+    """Return a line that names the parameters whose zeros leave a model incomplete, "" if they are not the cause.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     ends = clock.perf_counter() + SECONDS
 
     def completes(*tried: str) -> bool | None:
-        """Whether the model has as many equations as it needs, None where it does not take the values."""
+        """Whether the model has as many equations as it needs, None where it rejects the values."""
         try:
             plan_of(flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}}))
         except (UnbalancedModelError, StructurallySingularError):

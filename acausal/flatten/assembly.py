@@ -60,7 +60,7 @@ class _Left:
 
 
 class Assembly:
-    """Simplify what was said and put the FlatModel together.
+    """Simplify the statements of the components and assemble the FlatModel.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Collect the equations of all components, each entry with its origin, and form the derivatives they ask for."""
+"""Collect the equations of all components, each entry with its origin, and form the derivatives they request."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Equations:
 
 
 def collect(components: list[Component], graph: Graph, most: int) -> Equations:
-    """Return the equations of all components, at most so many of each, of connection sets, roots and cuts."""
+    """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
         _run(component, component.equations, found, most)
@@ -79,7 +79,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
 
 
 def collect_initial(components: list[Component], most: int) -> Equations:
-    """Return the initial equations of all components, at most so many of each."""
+    """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
         _run(component, component.initial_equations, found, most)

@@ -190,7 +190,7 @@ class FlatDiscontinuities:
     continuous : tuple of (casadi.SX, Origin)
         Expressions that der() differentiates and that switches change: they must not jump.
     promises : tuple of Promise
-        Laws that are said to be smooth.
+        Laws that are declared smooth.
     """
 
     switches: tuple[ca.SX, ...]

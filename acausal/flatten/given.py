@@ -39,7 +39,7 @@ class Parameters:
 class Given:
     """Gives bound components the values of their structural parameters, parameters and inputs at the top.
 
-    A value is formed when it is asked for: defaults may use each other in any order, but not in a circle.
+    A value is formed when it is needed: defaults may use each other in any order, but not in a circle.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ class Given:
         def call() -> Any:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
-        # A default that another one asked for is placed by that one.
+        # An error in a default that another one needs is located by that one.
         return call() if len(self._open) > 1 else with_place(call, Origin.of(bound, f"default of {name}"))
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:

@@ -38,7 +38,7 @@ class Origin:
 
 
 def line_of(generator: Any) -> str:
-    """Return file and line where a generator stands, "" if it does not tell."""
+    """Return file and line of the current line of a generator, "" if unknown."""
     frame = getattr(generator, "gi_frame", None)
     return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else ""
 
@@ -56,7 +56,7 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
 
 
 def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> None:
-    """Raise DeclarationError if one generator has said more than any component can mean."""
+    """Raise DeclarationError if a generator has yielded more than any component needs."""
     if count >= most:
         raise DeclarationError(
             f"{origin}: {what} has {most:,} entries and continues: a loop such as `while True` does not end. "
@@ -65,7 +65,7 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
 
 
 def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[Any]:
-    """Yield what a generator of a component says, as long as that can be meant."""
+    """Yield from a generator of a component, up to the number that a component may need."""
     generator = iter(said)
     for count, item in enumerate(generator):
         here = Origin(component._path, type(component).__name__, line_of(generator) or component._origin)

@@ -61,7 +61,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(ca.vec(a.expr.sx))}
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
-        # Far more statements than any component can mean, few enough to count them quickly.
+        # Far more statements than any component needs, few enough to count them quickly.
         most = 10_000 + 10 * sum(a.expr.sx.numel() for a in arrays)
         equations = collect(components, graph, most)
         starts = collect_initial(components, most)

@@ -1,4 +1,4 @@
-"""Propagate constants and aliases: what is known without solving anything leaves the system.
+"""Propagate constants and aliases: what is known without solving anything is removed from the system.
 
 An equation with one unknown and a constant coefficient gives a constant; one with two unknowns, both with constant
 coefficients, gives an alias. Derivative chains stay consistent: an unknown and its derivative are never merged, and an

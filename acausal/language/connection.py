@@ -68,7 +68,7 @@ def chain(*items: Any) -> Iterator[Connect]:
         raise ConnectError("chain() joins at least two parts.")
     for place, item in enumerate(items, 1):
         _refuse_no_link(item, place)
-    # At once, not when somebody goes through them: an error then tells the line of the call.
+    # Eagerly, not when the iterator is consumed: an error then names the line of the call.
     return iter([connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)])
 
 

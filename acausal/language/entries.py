@@ -53,7 +53,7 @@ def _asked(shown: str, indices: tuple[Any, ...]) -> str:
 
 
 def _ends(item: Any) -> list[Any]:
-    """What must be whole numbers in an index."""
+    """What must be an integer in an index."""
     return [e for e in (item.start, item.stop, item.step) if e is not None] if isinstance(item, slice) else [item]
 
 

@@ -1,4 +1,4 @@
-"""Functions of expressions; with a field of a class body they wait until the model is built."""
+"""Functions of expressions; with a field of a class body they are deferred until the model is built."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
 
 
 class Pending:
-    """What equations ask for while a model is flattened: derivatives, switching conditions and jumps.
+    """What equations request while a model is flattened: derivatives, switching conditions and jumps.
 
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
     `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` tells where each is stated.
@@ -61,7 +61,7 @@ class Pending:
         return self.switches[-1][0]
 
     def place(self, origin: Any) -> None:
-        """Say where the switches and derivatives come from that have been asked for since the last call."""
+        """Record where the switches and derivatives requested since the last call come from."""
         self.places += [origin] * (len(self.switches) - len(self.places))
         self.sources += [origin] * (len(self.differentiated) - len(self.sources))
         self.promised += [origin] * (len(self.promises) - len(self.promised))
@@ -221,7 +221,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     Parameters
     ----------
     *cases : (value, Condition) pairs, then a value
-        The last argument, without a condition, holds otherwise. Where a condition compares `time` with an expression
+        The last argument, without a condition, is the value otherwise. Where a condition compares `time` with an expression
         of parameters, alone or joined with others, the instant is a break time: the integration stops there exactly.
         Any other condition is watched: the integration stops where it changes, located to about the tolerance.
     smooth : bool

@@ -16,7 +16,7 @@ from acausal.language.values import holds_parts, nearest_field
 
 
 def refuse_value(component: Any, name: str, value: Any) -> str:
-    """Return the message for a field that is set on an instance, and the ways that work.
+    """Return the message for a field that is set on an instance, with the ways that work.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
 
 
 def refuse_attribute(component: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for an attribute that is meant as a part or a field, or that nothing would read.
+    """Raise DeclarationError for an attribute that is intended as a part or a field, or that nothing would read.
 
     Methods of the component itself, its constructor among them, may keep plain data of their own.
     """
@@ -94,7 +94,7 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
 
 
 def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
-    """Raise DeclarationError for a name in a class body that nearly is that of an inherited field, setting or method.
+    """Raise DeclarationError for a name in a class body that resembles an inherited field, setting or method.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) 
 
 
 def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
-    """Names that a value could have been meant for."""
+    """Names that could have been intended for a value."""
     if inspect.isfunction(value):
         bases = [base for base in cls.__mro__[1:] if base.__module__ == "acausal.language.component"]
         return [n for base in bases for n, v in vars(base).items() if inspect.isfunction(v) and n[0] != "_"]

@@ -1,4 +1,4 @@
-"""Expressions on their way to another process: text, in which only the symbols that all processes have are left."""
+"""Expressions on their way to another process: text that contains only the symbols that all processes have."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def symbols(written: str) -> ca.SX:
 
 
 def reduced(value: Expr) -> tuple[Any, ...]:
-    """Return what a pickle of an expression holds; only one of time and numbers means something elsewhere."""
+    """Return what a pickle of an expression holds; only one of time and numbers is meaningful elsewhere."""
     return expression, (text(value.sx), value.unit, value.name)
 
 

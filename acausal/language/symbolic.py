@@ -1,4 +1,4 @@
-"""What a symbol is not: a Python number, or an array of numpy's. numpy's functions that have a twin here are taken as it."""
+"""What a symbol is not: a Python number or a numpy array. numpy's functions with a counterpart here are replaced by it."""
 
 from __future__ import annotations
 

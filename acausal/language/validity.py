@@ -28,7 +28,7 @@ class Requirement:
         return ca.vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
 
     def broken(self, value: np.ndarray) -> str:
-        """Say what is wrong with a value, "" if nothing is."""
+        """Return what is wrong with a value, "" if nothing is."""
         if isinstance(self.subject, Condition):
             holds = value[0] < 0 if self.subject.kind == "<" else value[0] <= 0
             return "" if holds else str(self.problem)

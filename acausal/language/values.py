@@ -1,4 +1,4 @@
-"""Values that are given to fields, by the constructor or in a class body: which ones fit."""
+"""Checks of the values given to fields, by the constructor or in a class body."""
 
 from __future__ import annotations
 
@@ -103,6 +103,6 @@ def _check_part(where: str, value: Any, field: f.Part) -> Any:
 
 
 def _described(cls: Any, word: str) -> list[str]:
-    """Fields whose description has the word: `mass` for `m`."""
+    """Fields whose description contains the word: `mass` for `m`."""
     values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
     return [name for name, field in values.items() if word in field.description.lower().split()]

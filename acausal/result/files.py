@@ -14,7 +14,7 @@ from acausal.errors import ExportError
 
 
 def check_writable(path: str | Path) -> None:
-    """Find out before any work is done whether a file can be written.
+    """Check before any work is done whether a file can be written.
 
     Raises
     ------
@@ -32,7 +32,7 @@ def check_writable(path: str | Path) -> None:
 
 @contextmanager
 def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
-    """Open a file that appears under its name when the block ends well, and leaves the old one otherwise.
+    """Open a file that replaces the old one of its name when the block succeeds, and leaves it otherwise.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
 
 
 def _target(path: str | Path) -> Path:
-    """Return the file that is meant, links followed, or raise ExportError where there can be none."""
+    """Return the intended file, links followed, or raise ExportError where none is possible."""
     if not str(path).strip():
         raise ExportError("cannot write: the name of the file is empty; give one, such as out.csv.")
     target = Path(path).expanduser().resolve()

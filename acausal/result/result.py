@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class Result:
     """Every variable and parameter of a run over time.
 
-    It can be pickled, and is read without the model's classes then, by name alone.
+    It can be pickled; it is then read without the model's classes, by name alone.
 
     Parameters
     ----------

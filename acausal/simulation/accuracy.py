@@ -1,8 +1,8 @@
-"""Accuracy: choose tolerance, method, order limit and number of elements so that every output is as good as asked.
+"""Accuracy: choose tolerance, method, order limit and number of elements so that every output is as accurate as requested.
 
 The error of a run is its difference from a run with a tenth of the tolerance, and from one with twice the elements. The
 run that is returned is the one whose error was estimated, not the better ones beside it, whose errors are unknown.
-The larger of both errors tells what to refine.
+The larger of the two errors decides what to refine.
 """
 
 from __future__ import annotations
@@ -190,7 +190,7 @@ class Search:
         return self._tighter(numerics, max(1, int(missing)))
 
     def _past_failure(self, numerics: Numerics) -> Numerics:
-        """Refine everything, if nothing better than this succeeded and not too much failed already."""
+        """Refine everything, if nothing better has succeeded and not too much has failed."""
         if self.best or len(self.failures) >= FAILURES:
             raise self._refusal("runs with smaller tolerances or more elements fail")
         number = 2 * numerics.number
@@ -215,7 +215,7 @@ class Search:
 
 
 def chosen_text(stats: Mapping[str, Any]) -> str:
-    """Return what was asked, chosen and estimated, a line."""
+    """Return what was requested, chosen and estimated, in one line."""
     chosen = stats["chosen"]
     sizes = "".join(f", {n} {_what(path)}" for path, n in chosen["sizes"].items())
     text = (

@@ -58,7 +58,7 @@ def scale(values: np.ndarray) -> np.ndarray:
 def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, halved: Result | None) -> Estimate:
     """Estimate the errors of a run.
 
-    What the better run lacks itself is added by extrapolation: with the least power of the tolerance, and with the order
+    The remaining error of the better run is added by extrapolation: with the least power of the tolerance, and with the order
     in the number of elements that a third run tells.
 
     Parameters

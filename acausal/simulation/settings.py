@@ -39,7 +39,7 @@ def settled(
     """
     source, values = _source(model, values)
     found = {name: own_setting(source, name, values) if v is None else v for name, v in given.items()}
-    # One of the two is enough, and what is given counts more than what the model says.
+    # One of the two is enough, and an argument takes precedence over the model.
     for one, other in (("tolerance", "accuracy"), ("accuracy", "tolerance")):
         if given.get(one) is not None and given.get(other) is None:
             found.pop(other, None)

@@ -96,7 +96,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class _Done:
-    """What a run did: where it began and went on, what integrated it, its events, and what ended it before its time."""
+    """What a run did: where it began and continued, what integrated it, its events, and what ended it early."""
 
     begun: Start
     at: Point
@@ -155,7 +155,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
 
 
 def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
-    """Break times inside a run; those that are but a few rounding errors apart are one."""
+    """Break times inside a run; those only a few rounding errors apart are one."""
     found: list[float] = []
     for b in sorted(b for b in instants if start < b < stop):
         if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):

@@ -1,4 +1,4 @@
-"""Where a beam is right: what its frames neglect, against its deflection.
+"""Where a beam model is valid: what its frames neglect, compared with its deflection.
 
 The energy of an inextensible beam whose axis has the slope v' = sin(phi) at arc length x, with the axial force N, is
 
@@ -24,7 +24,7 @@ from acausal import as_expr, cos, expect, sin, sqrt
 from components.beams.strain import Bend, gauss
 
 SHARE = 0.01
-SEEN = 2e-4  # of the length: errors of deflections much smaller than that are not seen
+SEEN = 2e-4  # of the length: errors of much smaller deflections are not reported
 HINGE = 0.1  # of the mean bending moment: an end moment well below that is one of a hinge
 
 
@@ -48,7 +48,7 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
         text = f"it slopes too much for second-order frames, whose error is not small compared with its deflection; take {more}"
         yield expect(size, whole, SHARE, text)
         return
-    # Of the two causes, whose errors may cancel each other, the greater one is told.
+    # Of the two causes, whose errors may cancel each other, the greater one is reported.
     ahead = chain.deflection(by_axial) - chain.deflection(by_slope)
     side = ahead / sqrt(ahead * ahead)
     text = (

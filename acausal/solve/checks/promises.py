@@ -1,6 +1,6 @@
-"""Whether laws that are said to be smooth are: the step from case to case at the instants at which a run switches them.
+"""Whether laws that are declared smooth are: the step from case to case at the instants at which a run switches them.
 
-Both cases are evaluated on both sides of a switch. Where they do not meet, the place is looked at closer, on the cubic
+Both cases are evaluated on both sides of a switch. Where they do not meet, the place is examined more closely, on the cubic
 between two outputs, until the law has one value on both sides or hardly any time is left between them.
 """
 
@@ -21,7 +21,7 @@ from acausal.symbols import scalars
 
 # Part of the largest value of a law that is a step; less may be rounding of its constants.
 STEP = 1e-4
-# Switches of one law that are looked at closer, how often, and times at once.
+# Switches of one law that are examined more closely, how often, and times at once.
 SWITCHES, CLOSER, PARTS = 3, 12, 8
 
 
@@ -79,7 +79,7 @@ def _known(compiled: CompiledModel) -> Watch:
 
 
 def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
-    """Say which laws jumped in a run although they are said to be smooth.
+    """Report which laws jumped in a run although they are declared smooth.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, p
 
 
 def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed: float) -> tuple[float, float, bool]:
-    """Time of a switch between an output point and the next, the jump there, and whether it had to be looked at closer."""
+    """Time of a switch between an output point and the next, the jump there, and whether it had to be examined more closely."""
     n, holds = promise.step.numel(), promise.holds
 
     def points(times: np.ndarray, values: np.ndarray) -> list[_Point]:

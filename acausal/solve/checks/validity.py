@@ -1,4 +1,4 @@
-"""Whether a model is right where it is used: what must hold at the start, and what it neglects in a run."""
+"""Whether a model is valid where it is used: what must hold at the start, and what it neglects in a run."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from acausal.language.validity import Expectation, Separation
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.problem import Point, Problem
 
-# Most output points that are looked at, and where each look costs a solution of the equations.
+# Most output points that are checked, in general and where each check costs a solution of the equations.
 ROWS, DEAR = 500, 40
-# Of what is not small: values of the integrator that are less are small.
+# Of the limit: values of the integrator below it need no closer check.
 NEARLY = 0.3
 
 
@@ -75,7 +75,7 @@ def check_start(problem: Problem, at: Point) -> None:
 
 
 def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
-    """Say what components neglected although it was not small; at most ROWS of the points are looked at.
+    """Say what components neglected although it was not small; at most ROWS of the points are checked.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     x, z, t, constants = run.x[rows], run.z[rows], run.t[rows], run.constants[rows]
     values = np.abs(seen.function(x, z, run.solver.p, t, constants))
     if seen.wanted:
-        # The integrator's own values tell at once where nothing is near its limit.
+        # The integrator's own values show at once where nothing is near its limit.
         most = np.max(np.nan_to_num(values), axis=0)
         if not any(
             part > NEARLY * s.share * whole

@@ -1,4 +1,4 @@
-"""What is known of time before it comes: conditions that the clock decides, and instants that discrete variables plan."""
+"""What is known in advance: conditions that the clock decides, and instants that discrete variables plan."""
 
 from __future__ import annotations
 

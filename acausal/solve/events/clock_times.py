@@ -48,7 +48,7 @@ def clock_times(compiled: CompiledModel, p: np.ndarray, start: float, stop: floa
 def _changes(
     function: ca.Function, slope: ca.Function, inclusive: bool, p: np.ndarray, start: float, stop: float
 ) -> tuple[np.ndarray, float]:
-    """Instants at which a function of time passes 0, and the length of intervals that were not looked into."""
+    """Instants at which a function of time passes 0, and the length of intervals that were not examined."""
 
     def holds(t: np.ndarray) -> np.ndarray:
         value = bounds(function, p, t, t)[0][0]

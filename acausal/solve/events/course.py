@@ -158,7 +158,7 @@ class Run:
         )
 
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
-        """Try in another way, or look at less of the time, as the law may no longer be right beyond an event."""
+        """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
         run = self.integrator
         following = next_ways(run.way, refusal, run.settings.rescues(grid, run.loops))
         if not following:
@@ -167,7 +167,7 @@ class Run:
         return at
 
     def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:
-        """Look at less of the time: the law may no longer be right beyond an event."""
+        """Shorten the time: the law may no longer be valid beyond an event."""
         run = self.integrator
         if self.stride.shorten(grid):
             return at

@@ -18,7 +18,7 @@ JUMP = 1e-5  # less is the error with which an event is located
 
 
 class Cycling(Exception):
-    """The conditions of the guards `names` find no rest."""
+    """The conditions of the guards `names` do not settle."""
 
     def __init__(self, guards: list[int]) -> None:
         super().__init__()

@@ -21,7 +21,7 @@ DEPTH, SUSPECTS, TRIALS = 3, 4, 80
 TRIAL_STEPS = 20_000
 # A condition may change within an interval that it could cross so much faster than it moves at the ends.
 REACH = 3.0
-# Times at which one stretch is looked at between its rows.
+# Times at which a stretch is checked between its rows.
 LOOKS = 4000
 
 
@@ -77,7 +77,7 @@ class Locator:
         depth : int
             How often rows between rows were asked for.
         content : bool
-            Whether to do without a look between the rows where there would be too many.
+            Whether to skip the checks between the rows where there would be too many.
 
         Raises
         ------

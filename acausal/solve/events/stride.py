@@ -1,4 +1,4 @@
-"""How much of the time is integrated at once, and how often conditions are looked at in it.
+"""How much time is integrated at once, and how often conditions are checked in it.
 
 After an event the outputs are integrated in blocks of 1, 2, 4, ... intervals: their relative grids, and so the
 integrators, are the same after each event.
@@ -11,11 +11,11 @@ import numpy as np
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import uneven
 
-# Parts of an interval at least, and of one that is looked into.
+# Least number of parts of an interval, and of one that is examined.
 FINE = 8
 # Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
 DENSEST, STEPS_A_ROW = 32, 4
-# The same of all intervals, that there may be at least: few intervals are looked at as often as many.
+# The same of all intervals, that there may be at least: few intervals are checked as often as many.
 ROWS = 400 * DENSEST
 
 
@@ -56,7 +56,7 @@ class Stride:
         return grid[: 1 + 2 ** int(np.log2(min(equal, self.block)))]
 
     def looks(self, grid: np.ndarray) -> np.ndarray:
-        """Return the times at which conditions are looked at in a grid."""
+        """Return the times at which conditions are checked in a grid."""
         n = len(grid) - 1
         pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
         return uneven(grid, 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n))))
@@ -75,7 +75,7 @@ class Stride:
         return False
 
     def look_closer(self) -> bool:
-        """Look more often from now on; False if that is as often as may be."""
+        """Check more often from now on; False if the limit is reached."""
         if self.density >= self.densest:
             return False
         self.density = min(self.densest, 4 * self.density)
@@ -87,7 +87,7 @@ class Stride:
         self.piece *= 2
 
     def shorten(self, grid: np.ndarray) -> bool:
-        """Take fewer intervals than these next; False if it is but one."""
+        """Take fewer intervals next; False if there is only one."""
         if len(grid) <= 2:
             return False
         self.block = max(1, (len(grid) - 1) // 8)
@@ -97,5 +97,5 @@ class Stride:
         """Begin with one interval, after an event that came so many seconds after the point before."""
         self.block = 1
         if since is not None and self.density > DENSEST:
-            # Where there are many looks to an interval, there are many events: look no further than a few.
+            # Where an interval needs many checks, there are many events: go no further than a few intervals.
             self.piece = max(4 * since, self.interval * DENSEST / self.density)

@@ -19,9 +19,9 @@ from acausal.solve.integrate.trace import Stretch, Trace
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loop_states import WORN, choose_projection, worn
 
-# Times in a call at which at least the choice of states is looked at.
+# Least number of times in a call at which the choice of states is checked.
 FINE = 60
-# Looks at the projection after a call cost about the cube of the number of constraints each.
+# Each check of the projection after a call costs about the cube of the number of constraints.
 WORK = 2e7
 # What is integrated in place of a coordinate follows it; beyond this fraction of its size it has lost it.
 APART = 0.1
@@ -61,7 +61,7 @@ class Integrator:
         return bool(self.compiled.constraints.size)
 
     def rounding(self, at: Point) -> np.ndarray:
-        """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
+        """Absolute errors that rounding causes, computed once a run and only where the tolerance is near them."""
         if self._floor is None:
             near = self.settings.tolerance < 1e-8 and self.compiled.nz
             c = self.compiled
@@ -127,7 +127,7 @@ class Integrator:
         return found if isinstance(found, Refusal) else self._settled(found.every(parts), way.tolerance)
 
     def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
-        """Evaluate a call; its rows, unless it failed or went astray."""
+        """Evaluate a call; return its rows, unless it failed or left the solution."""
         c, trace, n = self.compiled, self.trace, len(times) - 1
         started = clock.perf_counter()
         done, said = call.attempt()
@@ -159,7 +159,7 @@ class Integrator:
             self.trace.add(found.every(parts))
 
     def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
-        """What continues from the last row starts on the equations; the other rows settle when somebody reads them."""
+        """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""
         last, vector = slice(-1, None), stretch.constants.vector
         z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
         lost, self.consistent.unsolved = self.consistent.unsolved, []

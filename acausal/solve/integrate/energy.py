@@ -26,10 +26,10 @@ FEWEST, ROWS, MOST = 48, 192, 2**17
 RESOLVED = 8
 # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
 GAIN = 20
-# Points beside the nodes where the power itself is looked at, and what a spline through nodes that are near enough to
+# Points beside the nodes where the power itself is evaluated, and what a spline through nodes that are near enough to
 # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
 PROBES, ALIKE = 24, 1e-2
-# Rows at which the stored energy is looked at.
+# Rows at which the stored energy is evaluated.
 LOOKS = 9
 
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
@@ -45,7 +45,7 @@ def powers(
     compiled : CompiledModel
         The model.
     solver : Consistent
-        Makes what the powers need of z right.
+        Solves for what the powers need of z.
     x, z, t : arrays, shapes (n, nx), (n, nz), (n,)
         States, algebraic unknowns nearly right, and times in s.
     constants : array
@@ -147,7 +147,7 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
 
 
 def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
-    """By how much the stored energy varies: a power that is next to nothing need not be known to its own tolerance."""
+    """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
     x, z, t, constants = rows
     some = np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int))
     return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))

@@ -1,4 +1,4 @@
-"""How a stretch of a run is integrated, and how it is tried next where an integrator refuses."""
+"""How a stretch of a run is integrated, and what is tried next where an integrator refuses."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Way:
     max_steps : int
         Steps after which to give up.
     careful : bool
-        Whether to begin with a short step, and to factorise without relying on pivots of before.
+        Whether to begin with a short step, and to factorise without reusing earlier pivots.
     """
 
     method: str

@@ -13,7 +13,7 @@ from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
 CHUNKS = 25
-# Steps before a chunk or an output counts as hopeless.
+# Steps after which a chunk or an output counts as hopeless.
 HOPELESS = 2_000_000
 HALVINGS = 6
 
@@ -68,7 +68,7 @@ def _creep(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Point
 
 
 def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stretch | Refusal:
-    """Go over one interval where a call over many failed, by everything that there is.
+    """Integrate one interval where a call over many failed, by every means.
 
     That is new choices of states on the way, the other method, and a larger tolerance.
 
@@ -83,7 +83,7 @@ def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stre
     outputs : int
         Number of outputs that share the steps.
     """
-    # Loops that get stuck beside a singular position do so forever.
+    # Loops that get stuck near a singular position do so forever.
     most = LONG if run.loops else HOPELESS // min(outputs, HOPELESS // LONG)
     way = replace(run.way, careful=True, max_steps=most)
     found = _stride(run, at, times, way, HALVINGS)

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.solve.integrate.ladder import Rescues, Way
 
-# Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
+# Steps for all outputs together after which vibrations count as a hindrance; steps after which a run counts as long.
 SHORT, LONG = 40_000, 100_000
 Progress = Callable[[float, int], None]
 

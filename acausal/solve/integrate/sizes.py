@@ -7,12 +7,12 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.solve.problem import Problem
 
-# States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
+# States that reach less than this fraction of their size need another one: errors were ten times those of the tolerance.
 SMALLER = 0.1
 # What reaches less, in SI units and as a fraction of the absolute tolerance, rests but for rounding: a falling body turns
 # by 2e-13 rad/s, which is not worth following. What begins with a value does not rest.
 REST, LOST = 1e-11, 1e-4
-# Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
+# Runs after which sizes are accepted: each improves those of a motion lost in the tolerance.
 PASSES = 5
 
 

@@ -1,4 +1,4 @@
-"""Whether a model is at rest: every derivative that it has vanishes, whatever found the point."""
+"""Whether a model is at rest: all its derivatives vanish, however the point was found."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ STILL = 1e-7
 
 
 def meters(compiled: CompiledModel) -> list[int]:
-    """States on which nothing depends, and whose rates are not differentiated: they count, and hold nothing."""
+    """States on which nothing depends, and whose rates are not differentiated: counters that hold nothing."""
     if "meters" not in compiled.cache:
         r, system = compiled.reduced, compiled.reduced.plan.system
         used = np.array(ca.which_depends(ca.vertcat(r.ode, r.alg, ca.SX(0)), r.x, 1, False), dtype=bool)
@@ -60,7 +60,7 @@ def at_rest(problem: Problem, at: Point) -> bool:
 
 
 def refuse_motion(problem: Problem, at: Point) -> NoReturn:
-    """Raise InitializationError: what moves where everything else has come to rest, or what conditions stand against it."""
+    """Raise InitializationError: what moves where everything else has come to rest, or which conditions prevent it."""
     compiled, nx, nz, t = problem.compiled, problem.nx, problem.nz, at.time
     moving = _moving(problem, at)
     if moving:

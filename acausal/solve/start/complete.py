@@ -16,7 +16,7 @@ from acausal.solve.start.rank import RANK, null_space, pivots, rank, row_space
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
-# Way out of a singular position: its square is the error of what is left out.
+# Distance out of a singular position: its square is the error of what is neglected.
 AWAY = 1e-4
 # Speed of joints in rad/s or m/s that is rest: rates of a singular position are known no better than its coordinates.
 REST = 1e-4
@@ -108,7 +108,7 @@ def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) ->
 
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
-    """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
+    """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
     basis = list(row_space(M))
     used, surplus = [], []
     for k in range(len(C)):
@@ -140,7 +140,7 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
 
 
 def leave_singular(problem: Problem, at: Point) -> Point:
-    """Go on from a singular position along the velocity, so short a way that accelerations do not matter."""
+    """Continue from a singular position along the velocity, so short a distance that accelerations do not matter."""
     x = at.x
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)

@@ -88,7 +88,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
             # Where only forces of a singular position lack a value, the closed loops alone tell how to leave it.
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
-    # The conditions of the initial system hold no longer; the states stay, the rest follows.
+    # The conditions of the initial system no longer hold; the states stay, the rest follows.
     if _flag_matters(compiled):
         at = algebraic(problem, at)
     if not loops:
@@ -195,7 +195,7 @@ def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     done = complete(equations, conditions, nx + nz)
     guessed = list(done.free)
     if any(k >= nx for k in done.free):
-        # Some algebraic unknown is left over instead: let guesses of states take the places of conditions.
+        # Some algebraic unknown is left over instead: let guesses of states replace conditions.
         states = sorted(range(nx), key=lambda k: not _is_guessed(compiled, k))
         done = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
         guessed = [states[k - given] for k in done.used if k >= given]

@@ -60,7 +60,7 @@ def _directions(compiled: CompiledModel, constants: Constants) -> np.ndarray:
 
 
 def _stiffness(problem: Problem, at: Point) -> np.ndarray:
-    """How strongly each coordinate resists, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
+    """How stiff each coordinate is, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
 
     Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """

@@ -1,4 +1,4 @@
-"""Damped Newton iteration on the initial system, and the homotopy for where it alone fails."""
+"""Damped Newton iteration on the initial system, and a homotopy for cases where it fails."""
 
 from __future__ import annotations
 

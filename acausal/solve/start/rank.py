@@ -1,4 +1,4 @@
-"""Ranks, null spaces and pivots of small matrices, each row counted as of length 1."""
+"""Ranks, null spaces and pivots of small matrices, with rows scaled to length 1."""
 
 from __future__ import annotations
 

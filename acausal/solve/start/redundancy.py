@@ -1,4 +1,4 @@
-"""Which constraints of loops count: their ranks, when numbers are known.
+"""Which constraints of loops count, by their ranks when numbers are known.
 
 A constraint is redundant only if its Jacobian lacks rank at consistent positions all around: where the rank rises after
 a small motion, the position is singular, and all constraints stay.
@@ -59,7 +59,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
 
 
 def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
-    """Whether constraints that are independent elsewhere all but depend on each other in a position."""
+    """Whether constraints that are independent elsewhere are nearly dependent in a position."""
     if not problem.compiled.constraints.size:
         return False
     held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]

@@ -70,7 +70,7 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
 
 
 def go_on(problem: Problem, start: Start) -> Point:
-    """Leave a singular position, where the equations do not tell how to continue; any other point stays."""
+    """Leave a singular position, where the equations do not determine how to continue; any other point stays."""
     if not start.redundancy.singular:
         return start.point
     at = leave_singular(problem, start.point)
@@ -79,6 +79,6 @@ def go_on(problem: Problem, start: Start) -> Point:
 
 
 def places_text(compiled: CompiledModel, guards: list[int]) -> str:
-    """Say where guards are stated, a line each."""
+    """List where guards are stated, one per line."""
     origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
     return "\n".join(f"  {origin}" for origin in list(origins)[:5])

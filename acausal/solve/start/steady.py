@@ -136,7 +136,7 @@ class Equilibrium:
         return self.problem.completed(at)
 
     def _newton(self, at: Point) -> Linearized | None:
-        """Search from a point, then bring what is free back to its guess; None where it does not come to rest."""
+        """Search from a point, then return what is free to its guess; None where it does not come to rest."""
         here = self._search(at)
         if here is None or not self._rests(here):
             return None

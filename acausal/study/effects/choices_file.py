@@ -76,7 +76,7 @@ def _read(path: str | Path, scene: str) -> dict[str, Any]:
         raise DeclarationError(
             f"{path} contains no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
         )
-    # Where the user's file lies may change, and from where it is named.
+    # The location of the user's file may change, and the directory from which it is named.
     if PurePath(str(document["scene"])).name != PurePath(scene).name:
         raise DeclarationError(
             f"{path} is for the scene {document['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "

@@ -1,4 +1,4 @@
-"""What studies ask of their arguments before anything is run."""
+"""What studies require of their arguments before anything is run."""
 
 from __future__ import annotations
 

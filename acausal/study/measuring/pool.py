@@ -77,7 +77,7 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
         try:
             yield pool
         except BaseException:
-            # Nobody waits for what still runs.
+            # What still runs is not waited for.
             for process in set(multiprocessing.active_children()) - before:
                 process.terminate()
             raise

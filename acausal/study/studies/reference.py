@@ -1,4 +1,4 @@
-"""The reference of a study: refined until it does not change any more, or read from a file."""
+"""The reference of a study: refined until it no longer changes, or read from a file."""
 
 from __future__ import annotations
 
@@ -178,7 +178,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
 
 
 def _ended(found: Reference | None, why: str) -> Reference:
-    """Say why the refinement ended before it was good enough."""
+    """Report why the refinement ended before it was good enough."""
     if found is None:
         raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
     return replace(found, text=f"{found.text} ({why})") if why else found

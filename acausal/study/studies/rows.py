@@ -1,4 +1,4 @@
-"""Rows of a study: how wrong a case is, what it costs, and what its error comes from."""
+"""Rows of a study: the error of a case, its cost, and the cause of its error."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def _compared(m: Measurement, reference: Reference) -> StudyRow:
 
 
 def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms: Mapping[str, Formulation]) -> str:
-    """Tell what the error comes from: at least half of it goes with what is blamed."""
+    """Return the cause of the error: at least half of it must come from there."""
     half, form = row.error / 2, forms[row.case.formulation]
     exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:

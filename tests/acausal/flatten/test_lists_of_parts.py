@@ -217,7 +217,7 @@ BUILT = ac.compile(Named()).tree
         ),
         (lambda s: iter([connect(s.world.frame_b, BodyShape.frame_a)]), "`frame_a` is read from a class"),
         (lambda s: iter([branch(BodyShape.frame_a, s.tip.frame_b)]), "`frame_a` is read from a class"),
-        (lambda s: chain(s.world, Revolute, s.tip), r"Revolute is a class, not a part .*`revolute = Revolute\(\.\.\.\)`"),
+        (lambda s: chain(s.world, Revolute, s.tip), r"Revolute is a class, not .*`revolute = Revolute\(\.\.\.\)`"),
         (lambda s: iter([root(OTHER.tip.frame_a)]), "`tip.frame_a` belongs to a component"),
         (lambda s: iter([potential_root(s.tip)]), r"potential_root\(\) takes a port, but tip .* is not a port"),
         (lambda s: iter([branch(s.tip.frame_a, 3)]), r"branch\(\) relates two ports, but 3 is not a port"),
