@@ -38,7 +38,7 @@ def effects(
     workers: Annotated[
         int | None, typer.Option(help="Parallel processes; one per core if not given.", metavar="N")
     ] = None,
-    csv: Annotated[str | None, typer.Option(help="Write a row for each trial.", metavar="FILE")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write a row for each variant.", metavar="FILE")] = None,
     markdown: Annotated[str | None, typer.Option(help="Write the tables in Markdown.", metavar="FILE")] = None,
     json: Json = None,
     quiet: Quiet = False,

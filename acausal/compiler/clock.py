@@ -22,7 +22,7 @@ from acausal.symbols import scalars
 
 
 def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
-    """Tell which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
+    """Return which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
 
     The instants of the others are known from parameters, those of curved ones can be found reliably.
 

@@ -171,7 +171,7 @@ class Guards:
 
     @cached_property
     def _motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what tells the rates of these.
+        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what determines the rates of these.
 
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """

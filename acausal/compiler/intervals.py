@@ -57,7 +57,7 @@ def bounds(function: ca.Function, p: np.ndarray, low: np.ndarray, high: np.ndarr
     -------
     bounds : two arrays, shape (n,)
     jumps : array of bool, shape (n,)
-        Where the function may jump, so that its derivative does not tell how it changes.
+        Where the function may jump, so that its derivative does not describe its change.
     """
     whole = np.full(len(low), np.inf)
     result, jumps = (-whole, whole), np.zeros(len(low), dtype=bool)

@@ -65,7 +65,7 @@ class Assembly:
     Parameters
     ----------
     raw : Said
-        What the components said.
+        What the components stated.
     chain : Derivatives
         Symbols of the variables and of their derivatives.
     resolved : callable

@@ -134,7 +134,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     Parameters
     ----------
     pending : Pending
-        What equations asked for.
+        What equations requested.
     discretes : list of Discrete
         Which jumps are those of discrete variables.
     resolve : callable

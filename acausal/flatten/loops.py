@@ -27,7 +27,7 @@ def loops_of(
     Parameters
     ----------
     raw : Said
-        What was said.
+        What the components stated.
     redundant : set of int
         Redundant residuals.
     values : list of Linear

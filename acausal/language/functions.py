@@ -28,7 +28,7 @@ class Pending:
     """What equations request while a model is flattened: derivatives, switching conditions and jumps.
 
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` tells where each is stated.
+    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` says where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
     `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.

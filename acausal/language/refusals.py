@@ -101,7 +101,7 @@ def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) 
     cls : Component class
         The class.
     said : dict of str to object
-        What its body says.
+        What its body contains.
     inherited : dict of str to Field
         The fields of its bases.
     """

@@ -17,7 +17,7 @@ from acausal.language.expression import Expr, as_expr
 
 @dataclass(frozen=True)
 class Requirement:
-    """A condition that must hold and what is wrong where it does not, or what says so of the value of an expression."""
+    """A condition that must hold and what is wrong where it does not, or a function that checks the value of an expression."""
 
     subject: Condition | Expr
     problem: str | Callable[[np.ndarray], str]

@@ -31,7 +31,7 @@ class Projections:
     following : casadi.SX
         Values of the unknowns that follow explicitly from states, without the projection.
     moves : casadi.SX
-        The entry of the choice that tells whether D moves.
+        The entry of the choice that says whether D moves.
     """
 
     constraints: ca.SX

@@ -40,7 +40,7 @@ class Quantity:
     units : tuple of str
         Unit of each entry as declared, "" where it is not known.
     declared : bool
-        Whether the name alone tells the expression.
+        Whether the name alone determines the expression.
     """
 
     name: str

@@ -147,7 +147,7 @@ class Result:
         Parameters
         ----------
         *keys : str, Path or Expr
-            What to look at; the outputs if there is none.
+            What to check; the outputs if there is none.
         """
         return {
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
@@ -178,7 +178,7 @@ class Result:
         *keys : str, Path or Expr
             What to draw; the outputs if there is none.
         path : str or Path, optional
-            Write the picture there; the ending tells the format.
+            Write the picture there; the suffix determines the format.
         show : bool, optional
             True opens the picture in the system's viewer.
 
@@ -247,7 +247,7 @@ def _has_time(tree: Any) -> bool:
 
 
 def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
-    """Tell where a quantity stops being a number."""
+    """Describe where a quantity stops being a number."""
     wrong = ~np.isfinite(array)
     row = int(np.argmax(wrong.reshape(time.size, -1).any(axis=1)))
     name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)

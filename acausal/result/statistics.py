@@ -35,11 +35,11 @@ class Statistics(Mapping[str, Any]):
     doubts : list of str
         What was used outside its range.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
-        In J, if asked for; the last is what the method itself lost.
+        In J, if requested; the last is what the method itself lost.
     consistent_evaluations : int
         Evaluations of the equations for values that were read.
     accuracy, accuracy_reached, error_estimate, error_output, error_tolerance, error_elements, error_estimates
-        What was asked for and estimated, where an accuracy was.
+        What was requested and estimated, if an accuracy was.
     elements_kept, chosen, trials
         What was chosen and tried for it.
     """

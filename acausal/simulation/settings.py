@@ -54,7 +54,7 @@ def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = 
     model : Component
         Not built.
     name : str
-        Argument of `simulate`. A plain attribute, a property or an expression of fields tells it; a field of this name is
+        Argument of `simulate`. A plain attribute, a property or an expression of fields gives it; a field of this name is
         something else, except a stop time or a method.
     values : mapping of str to value, optional
         Values by path that replace those of the model.

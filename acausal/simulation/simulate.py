@@ -57,7 +57,7 @@ def simulate(
     accuracy : float, optional
         Instead of a tolerance: largest error of every output at the output points, as a fraction of its range in the run.
         Tolerance and order limit are chosen by comparing runs, and so is the number of elements or volumes of adaptive
-        beams, whatever the model says. `stats` tells what was chosen, estimated and tried; its counts are those of the
+        beams, whatever the model says. `stats` lists what was chosen, estimated and tried; its counts are those of the
         run that is returned, its compile and solve seconds those of all runs.
     intervals : int
         The result has intervals + 1 equidistant points; 400 by default.

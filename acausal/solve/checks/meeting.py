@@ -25,7 +25,7 @@ NEAR, NOTHING = 1e-6, 1e-4
 REACH = 3.0
 # Parts of an interval; shortest part of the run; rows that are so few, with so many steps between them, that all are suspect.
 PARTS, SHORTEST, FEW, STEPS_A_ROW = 8, 1e-13, 64, 4
-# Meetings without an effect after which no more are looked for, intervals that are looked into, and steps in each.
+# Meetings without an effect after which the search ends, intervals that are examined, and steps in each.
 HARMLESS, LOOKS, STEPS = 3, 2000, 20_000
 
 

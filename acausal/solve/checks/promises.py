@@ -84,7 +84,7 @@ def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
     Parameters
     ----------
     integrator : Integrator
-        Tells model, parameters and tolerance.
+        With model, parameters and tolerance.
     run : Evaluator
         Output points of the run.
     """

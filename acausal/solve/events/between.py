@@ -17,7 +17,7 @@ from acausal.solve.problem import Point
 FAITHFUL = 0.1
 # Steps of an integration where it is not.
 MOST_STEPS = 20_000
-LOOKS = 5  # points of an interval whose defects tell whether its cubic is the motion
+LOOKS = 5  # points of an interval whose defects show whether its cubic is the motion
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def between(
     Parameters
     ----------
     run : Integrator
-        Tells model, parameters and tolerance.
+        With model, parameters and tolerance.
     constants : Constants
         Those of the segment.
     ends, x, z : arrays, shapes (2,), (2, nx), (2, nz)

@@ -75,7 +75,7 @@ class Locator:
         stretch : Stretch
             Rows after it.
         depth : int
-            How often rows between rows were asked for.
+            How often rows between rows were requested.
         content : bool
             Whether to skip the checks between the rows where there would be too many.
 
@@ -178,7 +178,7 @@ class Locator:
         return self.first(begin, accepted(self.run.trial(begin, times, TRIAL_STEPS)), depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
-        """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
+        """Narrow an interval: the cubic determines the next time, a little to the side where no row is near.
 
         Raises
         ------

@@ -95,7 +95,7 @@ class Integrator:
     def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True) -> Stretch | Refusal:
         """Integrate from a point, at times[0], through all other times in one call.
 
-        Works are 0 where they are not asked for.
+        Works are 0 unless requested.
         """
         c = self.compiled
         if not c.nx:
@@ -172,7 +172,7 @@ class Integrator:
         return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
 
     def report(self, time: float) -> None:
-        """Tell the progress."""
+        """Report the progress."""
         if self.settings.progress:
             start, stop = self.span
             self.settings.progress((time - start) / (stop - start), self.trace.steps)

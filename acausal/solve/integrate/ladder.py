@@ -73,7 +73,7 @@ class Refusal:
 
 
 class Failure(Exception):
-    """The integrator gave up; `time` is where, `reason` what it said."""
+    """The integrator gave up; `time` is where, `reason` what it reported."""
 
     def __init__(self, time: float, reason: str) -> None:
         super().__init__(reason)
@@ -95,7 +95,7 @@ def accepted(found: Found | Refusal) -> Found:
 
 
 def read(said: str, begin: float, end: float) -> Refusal:
-    """Read a refusal from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
+    """Read a refusal from the message of IDAS, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Rescues:
     damps : bool
         Whether vibrations that the outputs cannot show may be damped.
     tolerance : float
-        The tolerance that was asked for.
+        The requested tolerance.
     """
 
     methods: tuple[str, ...]

@@ -111,7 +111,7 @@ class Equilibrium:
         return bool(np.all(np.abs(self._apart(found)) <= 1e-6 * self.scale))
 
     def _nearly(self, relaxed: Point) -> Point:
-        """Where the rates are least, whatever the initial conditions; those that stay tell what moves."""
+        """Where the rates are least, whatever the initial conditions; those that remain show what moves."""
         found = [self._search(at, conditions=False) for at in (self.guess, relaxed)]
         resting = [here for here in found if here is not None]
         resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))

@@ -113,7 +113,7 @@ class Journal:
 
 
 def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:
-    """Return what tells one study from another: engine, model with its sources, and options of all cases.
+    """Return what distinguishes one study from another: engine, model with its sources, and options of all cases.
 
     Parameters
     ----------

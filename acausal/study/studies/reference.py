@@ -31,7 +31,7 @@ class Reference:
     agreement : mapping of str to mapping of str to float
         What it was compared with: the largest deviation of each output, as a fraction of its range.
     asked : float
-        The deviation that was asked for.
+        The requested deviation.
     text : str
         Where it comes from.
     case : Case or None
@@ -149,7 +149,7 @@ class _State:
 
 
 def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
-    """Compare with coarser elements, another formulation and a looser tolerance; tell what to refine, or what failed."""
+    """Compare with coarser elements, another formulation and a looser tolerance; return what to refine, or what failed."""
     case, n = replace(start, tolerance=state.tolerance), len(state.forms)
     coarse = [_at(case, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
     fine = [_at(case, form, form.steps - 1 + state.level) for form in state.forms]

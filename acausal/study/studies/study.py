@@ -118,7 +118,7 @@ class Study:
         Parameters
         ----------
         path : str or Path, optional
-            Write the picture there; the ending tells the format.
+            Write the picture there; the suffix determines the format.
         output : str, optional
             Whose error; the largest of all outputs if not given.
         """
@@ -164,7 +164,7 @@ def study(
     outputs : sequence of str
         Paths of what is compared, with * and ?; the model's outputs if empty.
     formulations : sequence of Formulation, optional
-        Ways of discretising the model; those that it declares or that its fields tell if not given.
+        Ways of discretising the model; those that it declares or that follow from its fields if not given.
     tolerances, max_orders, methods : sequence
         Tolerances, limits of the order and methods, as in `simulate`.
     constraints : sequence of str, optional

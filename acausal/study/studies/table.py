@@ -54,7 +54,7 @@ def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str
     rows : sequence of StudyRow
         The rows.
     reference : Reference
-        Tells which errors are too small to be known.
+        Determines which errors are too small to be known.
     switches : sequence of str
         Paths that were varied.
     """
