@@ -7,22 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.events.between import FAITHFUL, between
+from acausal.policy import POLICY
+from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
-from acausal.solve.events.stride import FINE
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
-DEPTH, SUSPECTS, TRIALS = 3, 4, 80
-TRIAL_STEPS = 20_000
-# A condition may change within an interval that it could cross so much faster than it moves at the ends.
-REACH = 3.0
-# Times at which one stretch is looked at between its rows.
-LOOKS = 4000
+LOCATE = POLICY.locate
+LOOKS = POLICY.looks
 
 
 @dataclass(frozen=True)
@@ -63,7 +59,7 @@ class Locator:
 
     def __init__(self, run: Integrator, instants: Instants) -> None:
         self.run, self.instants = run, instants
-        self.shortest = 1e-12 * instants.span
+        self.shortest = LOCATE.shortest * instants.span
 
     def first(self, at: Point, stretch: Stretch, depth: int = 0, content: bool = False) -> Crossing | None:
         """Return the first change after `at` along a stretch that begins there.
@@ -103,8 +99,8 @@ class Locator:
         least, error = dips(sides)
         margin = least - level[:-1]
         travel = pace(sides.times, sides.rate)
-        most = max(SUSPECTS, len(out) // FINE) if depth == 0 or content else len(out)
-        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * travel
+        most = max(LOCATE.suspects, len(out) // LOOKS.fine) if depth == 0 or content else len(out)
+        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= LOCATE.reach * travel
         round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
         turning = _near(rows[: end + 1], level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
@@ -119,7 +115,7 @@ class Locator:
                 raise TooCoarse
             suspects = suspects[:0]
         peak = np.maximum.accumulate(sides.value, axis=0)
-        for k in suspects if depth < DEPTH else []:
+        for k in suspects if depth < LOCATE.depth else []:
             inner = self._inside(at, rows[k], rows[k + 1], depth)
             if inner:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
@@ -152,11 +148,11 @@ class Locator:
         looks = 0
         while todo:
             k, a, b, least = todo.pop()
-            if found[k] or b.time - a.time <= FINE * self.shortest:
+            if found[k] or b.time - a.time <= LOOKS.fine * self.shortest:
                 continue
-            looks += FINE
-            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, FINE + 1)[1:-1])
-            if inner is None or looks > LOOKS or any(np.any(r.value < least) for r in inner):
+            looks += LOOKS.fine
+            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
+            if inner is None or looks > LOCATE.looks or any(np.any(r.value < least) for r in inner):
                 found[k] = True
                 continue
             parts = [a, *inner, b]
@@ -167,15 +163,15 @@ class Locator:
         """Rows between two others; None where the cubic does not follow the motion."""
         ends = np.array([a.time, b.time])
         found = between(self.run, a.constants, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
-        if np.any(found.defect > FAITHFUL):
+        if np.any(found.defect > POLICY.between.faithful):
             return None
         return self._rows(at, found.times, found.x, found.z, a.constants)
 
     def _inside(self, at: Point, a: Sample, b: Sample, depth: int) -> Crossing | None:
         """Look closer between two rows."""
-        times = np.linspace(a.time, b.time, FINE + 1)
+        times = np.linspace(a.time, b.time, LOOKS.fine + 1)
         begin = Point(a.time, a.x, a.z, at.constants, at.truth)
-        return self.first(begin, accepted(self.run.trial(begin, times, TRIAL_STEPS)), depth + 1)
+        return self.first(begin, accepted(self.run.trial(begin, times, LOCATE.trial_steps)), depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
@@ -190,7 +186,7 @@ class Locator:
         guess, last, width = b.time, b.time, [np.inf, np.inf]
         # A time that could not be reached: perhaps the law has no value beyond the change.
         wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
-        for _ in range(TRIALS):
+        for _ in range(LOCATE.trials):
             span = min(b.time, wall) - a.time
             if span <= shortest:
                 break
@@ -230,7 +226,7 @@ class Locator:
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), TRIAL_STEPS)
+        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), LOCATE.trial_steps)
         return stretch if isinstance(stretch, Refusal) else self.row(at, stretch.end(at))
 
 

@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.simulation.estimate import scale
 from acausal.study.measuring.case import Measurement
 from acausal.study.measuring.deviation import deviations
 
 # What a cheapest set is for, beside one output.
 ALL = "all outputs"
-# Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
-NOISE = 0.1
 
 
 @dataclass(frozen=True)
@@ -73,7 +72,7 @@ class EffectRow:
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
     """Tell whether the times of two variants cannot be told apart."""
-    return abs(one.seconds - other.seconds) <= NOISE * other.seconds
+    return abs(one.seconds - other.seconds) <= POLICY.study.noise * other.seconds
 
 
 @dataclass(frozen=True)
