@@ -185,7 +185,7 @@ class Run:
                 failure = later
                 continue
             return self._passed(at, accepted(stretch), crossing)
-        here = self.locator.row(at, at)
+        here = self.locator.sample(at, at)
         due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
         if not due.any():
             raise failure

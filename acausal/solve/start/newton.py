@@ -77,9 +77,9 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         step = -solve(value)
         damping = 1.0
         while True:
-            trial = y.copy()
-            trial[free] += damping * step
-            value = residual(trial)
+            tried = y.copy()
+            tried[free] += damping * step
+            value = residual(tried)
             if np.all(np.isfinite(value)):
                 simplified = solve(value)
                 if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
@@ -90,7 +90,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
                 if _is_rounding(here, J[rows], y):
                     return at.with_y(y)
                 raise lost(here)
-        y = trial
+        y = tried
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= NEWTON.converged:
             y[free] -= simplified if change > NEWTON.rounding else 0.0

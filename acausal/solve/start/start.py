@@ -35,7 +35,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
-    head = problem.compiled.guards.guess(p, later)[0].copy()
+    head = problem.compiled.guards.estimate(p, later)[0].copy()
     for _ in range(POLICY.switches.rounds):
         begun = initialize(problem, time, head, initial)
         at = begun.point
