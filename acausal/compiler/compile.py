@@ -67,7 +67,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         compiled.values,
         compiled.start,
         compiled.guards.breaks,
-        compiled.guards.guess,
+        compiled.guards.estimate,
         compiled.hoist,
         compiled.constraints,
     )

@@ -56,7 +56,7 @@ class Constraints:
         coordinates = r.resolve(r.projections.coordinates)
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
-        self._guessed = np.array([place for place, _ in found], dtype=int)
+        self._follows = np.array([place for place, _ in found], dtype=int)
         following = ca.vertcat(ca.SX(0, 1), *[r.running.following[k] for _, k in found])
         self._following = Call(ca.Function("following", arguments, [ca.densify(following)]))
         same = [
@@ -103,9 +103,9 @@ class Constraints:
             projected[self._places] = self._coordinates(x, z, p, t, constants)[0]
         return projected
 
-    def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
+    def complete(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""
         z = z.copy()
-        z[self._guessed] = self._following(x, p, t, constants)[0]
+        z[self._follows] = self._following(x, p, t, constants)[0]
         z[self._kept[0]] = x[self._kept[1]]
         return z

@@ -118,7 +118,7 @@ class Guards:
         return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
 
     @cached_property
-    def guess(self) -> Call:
+    def estimate(self) -> Call:
         """Function of parameters and time: switches and discrete variables, exact where only time decides."""
         r = self.reduced
         head = self._head()
@@ -129,7 +129,7 @@ class Guards:
                 known[k] = head[k]
         head = ca.substitute([head], [r.constants], [known])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
-        return Call(ca.Function("guess", [r.p, time.sx], [ca.densify(head)]))
+        return Call(ca.Function("estimate", [r.p, time.sx], [ca.densify(head)]))
 
     @cached_property
     def start(self) -> Call:

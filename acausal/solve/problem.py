@@ -96,7 +96,7 @@ class Problem:
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""
-        z = self.compiled.constraints.guess(at.x, at.z, self.p, at.time, at.constants.vector)
+        z = self.compiled.constraints.complete(at.x, at.z, self.p, at.time, at.constants.vector)
         z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 

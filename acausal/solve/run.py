@@ -10,12 +10,12 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError, caution
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
-from acausal.solve.events.agenda import APART
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Chattering, Run
 from acausal.solve.integrate.attempt import Integrator
@@ -23,7 +23,7 @@ from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
-from acausal.solve.integrate.sizes import PASSES, absolute_sizes, smaller_sizes
+from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.initialize import Start
@@ -127,7 +127,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     fastest = float(np.max(np.abs(rates), initial=0.0))
     fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
     nominal, counts = problem.nominal, Trace()
-    for _ in range(PASSES):
+    for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, Settings(nominal, *fixed), (task.start_time, task.stop_time), counts)
         done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
@@ -158,7 +158,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     """Break times inside a run; those only a few rounding errors apart are one."""
     found: list[float] = []
     for b in sorted(b for b in instants if start < b < stop):
-        if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):
+        if b - (found or [start])[-1] > POLICY.agenda.apart * abs(b) and stop - b > POLICY.agenda.apart * abs(stop):
             found.append(b)
     return found
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError, caution
+from acausal.policy import POLICY
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
 from acausal.solve.events.instant import Cycling, Instants
@@ -18,12 +19,11 @@ from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Refusal, accepted, next_ways
 from acausal.solve.integrate.segment import passage, segment
-from acausal.solve.integrate.settings import LONG
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 from acausal.solve.start.start import places_text
 
-MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
+INSTANTS = POLICY.instants
 
 
 class Chattering(Exception):
@@ -49,7 +49,7 @@ class Run:
         self.integrator, self.times = integrator, times
         # A rounding error apart from an output, a break is on it.
         near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
-        self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
+        self.breaks = [n if abs(n - b) <= POLICY.agenda.same * abs(b) else b for n, b in zip(near, breaks, strict=True)]
         self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in set(declared)}
         problem = integrator.problem
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
@@ -58,7 +58,7 @@ class Run:
         self.locator = Locator(integrator, self.instants)
         self.agenda = Agenda(self.guards, problem.p, times)
         self.events: list[float] = []
-        self.recent: deque[float] = deque(maxlen=MOST)
+        self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.stride = Stride(times)
         self.weak, self.hasty = 0, False
         self.first: Point | None = None
@@ -130,7 +130,9 @@ class Run:
     def _advance(self, at: Point, end: float) -> Point:
         """Integrate one stretch and go to its end, or to the first event in it."""
         grid = self.stride.grid(at.time, end)
-        way = replace(self.integrator.way, max_steps=max(1000, LONG // (len(grid) - 1)))
+        way = replace(
+            self.integrator.way, max_steps=max(POLICY.rescue.fewest_long, POLICY.rescue.long // (len(grid) - 1))
+        )
         stretch = self.integrator.attempt(at, self.stride.looks(grid), way)
         if isinstance(stretch, Refusal):
             return self._otherwise(at, grid, stretch)
@@ -175,7 +177,7 @@ class Run:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            way = replace(run.way, max_steps=LONG, careful=True)
+            way = replace(run.way, max_steps=POLICY.rescue.long, careful=True)
             stretch = run.attempt(at, times, way) if k else passage(run, at, times, 1)
             try:
                 crossing = self.locator.first(at, accepted(stretch), depth=1)
@@ -183,8 +185,8 @@ class Run:
                 failure = later
                 continue
             return self._passed(at, accepted(stretch), crossing)
-        here = self.locator.row(at, at)
-        due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
+        here = self.locator.sample(at, at)
+        due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
         if not due.any():
             raise failure
         return self._happen(at, event=True, due=due)
@@ -258,10 +260,10 @@ class Run:
         return float(problem.compiled.stored(at.x, at.z, problem.p, at.time, at.constants.vector)[0][0])
 
     def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
-        crowded = len(self.recent) == MOST and time - self.recent[0] <= WINDOW * self.instants.span
+        crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span
         self.recent.append(time)
-        if crowded or self.weak >= MOST:
-            raise Chattering(self._text(time, guards, f"changed {MOST} times with hardly any motion between"))
+        if crowded or self.weak >= INSTANTS.most:
+            raise Chattering(self._text(time, guards, f"changed {INSTANTS.most} times with hardly any motion between"))
 
     def _text(self, time: float, guards: list[int], what: str) -> str:
         return (

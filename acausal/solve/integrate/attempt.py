@@ -9,22 +9,16 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.energy import RESOLVED, ROWS, everywhere, refined
+from acausal.solve.integrate.energy import everywhere, refined
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import Setup, rounding, set_up
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Stretch, Trace
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.loop_states import WORN, choose_projection, worn
-
-# Least number of times in a call at which the choice of states is checked.
-FINE = 60
-# Each check of the projection after a call costs about the cube of the number of constraints.
-WORK = 2e7
-# What is integrated in place of a coordinate follows it; beyond this fraction of its size it has lost it.
-APART = 0.1
+from acausal.solve.start.loop_states import choose_projection, worn
 
 
 class Integrator:
@@ -63,7 +57,7 @@ class Integrator:
     def rounding(self, at: Point) -> np.ndarray:
         """Absolute errors that rounding causes, computed once a run and only where the tolerance is near them."""
         if self._floor is None:
-            near = self.settings.tolerance < 1e-8 and self.compiled.nz
+            near = self.settings.tolerance < POLICY.calls.near_rounding and self.compiled.nz
             c = self.compiled
             self._floor = rounding(self.problem, at) if near else np.zeros(c.nx + c.nz)
         return self._floor
@@ -82,9 +76,9 @@ class Integrator:
         """Whether the chosen states became unfit on the way."""
         if not self.loops or constants.moves:
             return False
-        looks = int(np.clip(WORK / self.compiled.constraints.size**3, 8, 100))
+        looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
-        return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
+        return bool(np.any(worn(self.problem, x[some], times[some], constants) < POLICY.loops.worn))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
         """Integrate in the current way, carefully where that fails; without works."""
@@ -101,10 +95,10 @@ class Integrator:
         if not c.nx:
             return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
         at = self._choose(at, way.moves)
-        parts = -(-FINE // (len(times) - 1)) if self.loops and not way.moves else 1
+        parts = -(-POLICY.calls.fine // (len(times) - 1)) if self.loops and not way.moves else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
-            more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
+            more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
             parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span = times[-1] - times[0]
@@ -138,7 +132,7 @@ class Integrator:
         states, algebraics, energy = setup.rows(call)
         if self._is_worn(times[1:], states, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
-        few = RESOLVED if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
+        few = POLICY.energy.resolved if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
         if energy is not None and not c.powers.is_zero() and steps < n * few:
             rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
             given = np.vstack([np.zeros((1, 2)), energy])
@@ -165,7 +159,7 @@ class Integrator:
         lost, self.consistent.unsolved = self.consistent.unsolved, []
         end = Point(float(stretch.times[-1]), stretch.x[-1], z[-1], stretch.constants)
         q = self.problem.projected(end).x
-        if not np.all(np.abs(q - end.x) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
+        if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time, Kind.APART.value)
         if lost and not self.consistent.holds(end.x, end.z, lost[0], vector, tolerance):
             return Refusal(Kind.UNSOLVABLE, end.time, f"{Kind.UNSOLVABLE.value} there")

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TypeVar
 
-# Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a singular
-# position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
-PATIENT = 20_000
-LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
+from acausal.policy import POLICY
+
+RESCUE = POLICY.rescue
 
 
 @dataclass(frozen=True)
@@ -157,9 +156,9 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
         What may be changed.
     """
     if way.careful:
-        looser = (min(factor * rescues.tolerance, max(LOOSEST, rescues.tolerance)) for factor in LOOSER)
+        looser = (min(factor * rescues.tolerance, max(RESCUE.loosest, rescues.tolerance)) for factor in RESCUE.looser)
         return tuple(
-            replace(way, method=method, tolerance=tolerance, max_steps=PATIENT)
+            replace(way, method=method, tolerance=tolerance, max_steps=RESCUE.patient)
             for tolerance in dict.fromkeys(looser)
             for method in reversed(rescues.methods)
         )

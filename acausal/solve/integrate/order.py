@@ -12,15 +12,11 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.tangent import state_matrix, tangent
 
-FAST = 30.0
-# States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
-DENSE, LOOPED = 64, 400
-SLOW = 6
-POWERS = 4
-WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
+ORDER = POLICY.order
 
 
 def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
@@ -37,7 +33,7 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
     J = problem.local(at).jacobian[: nx + nz]
-    if nx <= (LOOPED if problem.compiled.constraints.size else DENSE):
+    if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
         N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()
@@ -47,7 +43,7 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     def rate(v: np.ndarray) -> np.ndarray:
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
-    shift = 1e-9 * max(abs(J.data).max(), 1.0)
+    shift = ORDER.shift * max(abs(J.data).max(), 1.0)
     diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
@@ -64,7 +60,7 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     Nothing where the vectors vanish, as those of bodies that no force holds: all eigenvalues are 0 there.
     """
     v = np.cos(np.arange(n))
-    for _ in range(POWERS):
+    for _ in range(ORDER.powers):
         v = apply(v)
         size = float(np.linalg.norm(v))
         if not 0 < size < np.inf:
@@ -89,10 +85,10 @@ def order_limit(values: np.ndarray, duration: float) -> int:
         Length of the run in s.
     """
     size = np.abs(values)
-    slow = np.sort(size)[:SLOW] if size.size > 4 else np.sort(size)[:2]
-    moving = slow[slow > 0.1 / duration]
+    slow = np.sort(size)[: ORDER.slow] if size.size > 4 else np.sort(size)[:2]
+    moving = slow[slow > ORDER.moving / duration]
     # Where all slow ones rest, the motion is at least one turn of the run.
     motion = moving.min() if moving.size else 2 * np.pi / duration
-    fast = values[(size > FAST * motion) & (np.imag(values) != 0) & (size * duration > FAST)]
+    fast = values[(size > ORDER.fast * motion) & (np.imag(values) != 0) & (size * duration > ORDER.fast)]
     angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
-    return next((order for order, wedge in WEDGE.items() if angle < wedge), 2)
+    return next((order for order, wedge in ORDER.wedge if angle < wedge), 2)

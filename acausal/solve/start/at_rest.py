@@ -10,12 +10,12 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.newton import CONSISTENT, TERMS
 from acausal.solve.start.words import equation_text
 from acausal.symbols import scalars
 
-STILL = 1e-7
+NEWTON = POLICY.newton
 
 
 def meters(compiled: CompiledModel) -> list[int]:
@@ -52,10 +52,10 @@ def at_rest(problem: Problem, at: Point) -> bool:
     nx = problem.nx
     if _moving(problem, at):
         return False
-    if problem.compiled.constraints.size and np.max(np.abs(problem.constraints(at)[0])) > CONSISTENT:
+    if problem.compiled.constraints.size and np.max(np.abs(problem.constraints(at)[0])) > NEWTON.consistent:
         return False
     local = problem.local(at)
-    allowed = CONSISTENT + _rounding(local.jacobian, at.y)
+    allowed = NEWTON.consistent + _rounding(local.jacobian, at.y)
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
 
 
@@ -72,8 +72,8 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
         )
         raise InitializationError("\n".join(lines))
     local = problem.local(at)
-    value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, at.y)
-    lines = [f"at t = {t:g} s there is an equilibrium, but the initial conditions do not hold in it:"]
+    value, allowed = local.value, NEWTON.consistent + _rounding(local.jacobian, at.y)
+    lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
         condition = compiled.reduced.flat.equations.initial[k - nx - nz]
@@ -90,7 +90,7 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
     rounding = np.zeros(shape[0])
     np.add.at(rounding, rows, np.abs(entries * at.y[columns]))
-    allowed = STILL + TERMS * np.finfo(float).eps * rounding
+    allowed = POLICY.rest.still + NEWTON.terms * np.finfo(float).eps * rounding
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]
     return [(names[k], float(value[k])) for k in order]
@@ -117,4 +117,4 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
 
 def _rounding(J, y: np.ndarray) -> np.ndarray:
     """Rounding of the terms of every row."""
-    return TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y))
+    return NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))

@@ -12,10 +12,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.complete import closed_guess, rows_and_knowns
 from acausal.solve.start.loop_states import choose_projection, independent
-from acausal.solve.start.newton import CONSISTENT, InitialSystem, algebraic, follow, newton
+from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton
 from acausal.solve.start.redundancy import Redundancy
 from acausal.solve.start.steady import Equilibrium
 from acausal.solve.start.words import contradiction_text, missing_text
@@ -255,7 +256,11 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
         at = found
     if system.surplus.size:
         value = problem.values(at, 1.0)[problem.nx :]
-        wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(at.y), initial=0))]
+        wrong = [
+            k
+            for k in system.surplus
+            if abs(value[k]) > POLICY.newton.consistent * (1 + np.max(np.abs(at.y), initial=0))
+        ]
         if wrong:
             raise InitializationError(contradiction_text(problem.compiled, value, wrong))
     return at

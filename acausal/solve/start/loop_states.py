@@ -9,12 +9,11 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loops import levels
 from acausal.solve.start.rank import pivots, scaled
 from acausal.solve.start.tangent import state_matrix
-
-WORN, SPARED = 0.05, 0.3
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
@@ -105,7 +104,7 @@ def _spared(J: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """
     for exponent in range(1, 13):
         weights = 1 / (1 + stiffness / 10.0**exponent)
-        if float(_transversality(J, J * weights)) >= SPARED:
+        if float(_transversality(J, J * weights)) >= POLICY.loops.spared:
             return weights
     return np.ones(len(stiffness))
 

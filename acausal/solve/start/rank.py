@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-RANK = 1e-9
+from acausal.policy import POLICY
 
 
 def scaled(rows: np.ndarray) -> np.ndarray:
@@ -16,7 +16,7 @@ def scaled(rows: np.ndarray) -> np.ndarray:
     return rows / np.where(size > 0, size, 1.0)
 
 
-def rank(rows: np.ndarray, tolerance: float = RANK) -> int:
+def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
     """Number of independent rows."""
     return (
         int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0

@@ -10,15 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loops import close
 from acausal.solve.start.rank import null_space, pivots, rank, scaled
 
-MOTION = 1e-2
-# Positions where ranks are lost are known only as well as the root of how well loops close.
-NEARLY = 1e-5
-# Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
-BESIDE = 1e-3
+RANKS = POLICY.ranks
 
 
 @dataclass(frozen=True)
@@ -38,14 +35,14 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         return scaled(problem.constraints(at)[1][rows])
 
     here = jacobian(at)
-    if rank(here, NEARLY) == len(rows):
+    if rank(here, RANKS.nearly) == len(rows):
         return Redundancy()
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
     for seed in range(3):
         moved = _moved(problem, at, here, free, seed)
         there = jacobian(moved) if moved is not None else here
-        if rank(there, NEARLY) > rank(best, NEARLY):
+        if rank(there, RANKS.nearly) > rank(best, RANKS.nearly):
             best, singular = there, True
     if rank(best) == len(rows):
         return Redundancy(singular=singular)
@@ -53,7 +50,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     weight = np.ones(len(rows))
     closures = compiled.reduced.flat.loops.closures
     droppable = {c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()}
-    weight[[k for k in range(len(rows)) if k not in droppable]] = 1e3
+    weight[[k for k in range(len(rows)) if k not in droppable]] = RANKS.kept
     order = pivots((weight[:, None] * best).T)
     return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
 
@@ -63,7 +60,7 @@ def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     if not problem.compiled.constraints.size:
         return False
     held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
-    return rank(problem.constraints(at)[1][held], BESIDE) < len(held)
+    return rank(problem.constraints(at)[1][held], RANKS.beside) < len(held)
 
 
 def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: int) -> Point | None:
@@ -73,6 +70,6 @@ def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: i
         return None
     direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
     x = at.x.copy()
-    x[free] += MOTION * direction / np.linalg.norm(direction)
+    x[free] += RANKS.motion * direction / np.linalg.norm(direction)
     moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
-    return moved if mismatch < 1e-10 else None
+    return moved if mismatch < RANKS.moved else None

@@ -9,13 +9,12 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import algebraic
-
-ROUNDS = 20
 
 
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
@@ -36,8 +35,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
-    head = problem.compiled.guards.guess(p, later)[0].copy()
-    for _ in range(ROUNDS):
+    head = problem.compiled.guards.estimate(p, later)[0].copy()
+    for _ in range(POLICY.switches.rounds):
         begun = initialize(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
@@ -51,7 +50,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     raise InitializationError(
-        f"no setting of the switches fits the values at t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        f"no switches fit the values at the start, t = {time:g} s; after {POLICY.switches.rounds} rounds these "
+        "conditions still change:\n"
         + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )

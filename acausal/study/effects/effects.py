@@ -12,6 +12,7 @@ import numpy as np
 from acausal.compiler import compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
+from acausal.policy import POLICY
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.listing import Effect, fullest, same
 from acausal.study.effects.result import Effects
@@ -22,10 +23,6 @@ from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
 from acausal.study.measuring.shipping import pack
-
-# An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
-# changes more than this part of a range: what is left without it is another scene.
-MATTERS, OTHER = 0.1, 0.4
 
 
 def effects(
@@ -198,7 +195,9 @@ class _Study:
         counts = [
             r
             for r in rows
-            if not r.error and r.change() < OTHER and (r.change() > MATTERS * self.accuracy or r.cheaper(self.origin))
+            if not r.error
+            and r.change() < POLICY.study.other
+            and (r.change() > POLICY.study.matters * self.accuracy or r.cheaper(self.origin))
         ]
         ways = [
             (a, b)

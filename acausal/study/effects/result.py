@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
 from acausal.study.effects.listing import Effect, same
@@ -15,8 +16,6 @@ from acausal.study.effects.rows import ALL, EffectRow, Interaction, as_fast
 from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 
 WIDTH = 120
-# Interactions below this part of the accuracy are not worth a line.
-WORTH = 0.1
 ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
 
 
@@ -181,7 +180,7 @@ class Effects:
     def _worth(self) -> list[tuple[Interaction, str]]:
         """Interactions above the errors of the integration and a part of the accuracy, and the output where it is most so."""
         errors = self.floor.largest
-        least = {name: max(WORTH * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
+        least = {name: max(POLICY.study.worth * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
         worth = []
         for i in self.interactions:
             where = max(i.size, key=lambda name: i.size[name] / least[name], default="")

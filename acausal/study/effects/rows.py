@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.simulation.estimate import scale
 from acausal.study.measuring.case import Measurement
 from acausal.study.measuring.deviation import deviations
 
 # What a cheapest set is for, beside one output.
 ALL = "all outputs"
-# Ratio of solve times that cannot be distinguished from 1: medians of a few runs scatter that much.
-NOISE = 0.1
 
 
 @dataclass(frozen=True)
@@ -72,8 +71,8 @@ class EffectRow:
 
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
-    """Return whether the times of two variants cannot be distinguished."""
-    return abs(one.seconds - other.seconds) <= NOISE * other.seconds
+    """Tell whether the times of two variants cannot be told apart."""
+    return abs(one.seconds - other.seconds) <= POLICY.study.noise * other.seconds
 
 
 @dataclass(frozen=True)

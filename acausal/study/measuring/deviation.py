@@ -8,9 +8,6 @@ import numpy as np
 
 from acausal.simulation.estimate import scale
 
-# Times the range of an output: beyond it, a solution has nothing to do with the reference.
-RUNAWAY = 10.0
-
 
 def deviations(
     values: Mapping[str, np.ndarray],

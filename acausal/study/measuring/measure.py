@@ -14,15 +14,13 @@ import numpy as np
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import AcausalError, AcausalWarning
 from acausal.locks import alone
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation import simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
 from acausal.study.measuring.shipping import unpack
 
-# Seconds after which a run is not repeated: long runs are measured well enough. Runs that are repeated fill the
-# lesser time, because the times of short ones scatter most.
-ENOUGH, LITTLE = 3.0, 0.2
 KEPT = 2
 # Compiled models of this process, the last used last.
 _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
@@ -55,7 +53,9 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
     built = compiled.seconds.pop("integrators", 0.0)
     result, took = _run(job, compiled, show)
     stats, seconds = result.stats, [took]
-    while sum(seconds) < (ENOUGH if len(seconds) < job.repeats else LITTLE * (job.repeats > 1)):
+    while sum(seconds) < (
+        POLICY.study.enough if len(seconds) < job.repeats else POLICY.study.little * (job.repeats > 1)
+    ):
         seconds.append(_run(job, compiled, show)[1])
     compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
     found = Measurement(

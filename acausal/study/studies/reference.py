@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
+from acausal.policy import POLICY
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
 
-# Refinements that are tried, and the least tolerance of a reference.
-ROUNDS, LEAST = 6, 1e-12
+STUDY = POLICY.study
+
 Measure = Callable[[Iterable[Case]], Sequence[Measurement]]
 
 
@@ -83,7 +84,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
     asked : float
         Deviation to be reached, as a fraction of the range.
     """
-    start = replace(case, tolerance=max(LEAST, least / 10))
+    start = replace(case, tolerance=max(STUDY.least, least / 10))
     if not any(form.refine for form in formulations):
         return _tightened(measure, _at(start, formulations[0], 0), asked)
     return _refined(measure, [form for form in formulations if form.refine], start, asked)
@@ -130,13 +131,13 @@ def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Referen
 def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
     """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
     state, best = _State(tuple(forms), start.tolerance), None
-    for _ in range(ROUNDS):
+    for _ in range(STUDY.rounds):
         now, state, why = _look(measure, state, start, asked)
         if now is not None and (best is None or now.floor < best.floor):
             best = now
         if why or (best is not None and best.floor <= asked):
             return _ended(best, why)
-    return _ended(best, f"{ROUNDS} refinements were tried")
+    return _ended(best, f"{STUDY.rounds} refinements were tried")
 
 
 @dataclass(frozen=True)
@@ -170,7 +171,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     tolerance = max(agreement["looser tolerance"].values())
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
-    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= LEAST
+    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= STUDY.least
     after = (
         _State(forms, state.tolerance / 10, state.level) if tighten else _State(forms, state.tolerance, state.level + 1)
     )
@@ -188,13 +189,13 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
     """Tighten the tolerance of a model without elements, and check by another way of integration."""
     found, best, looser = None, measure([case])[0], measure([replace(case, tolerance=10 * case.tolerance)])[0]
     why = ""
-    for _ in range(ROUNDS):
+    for _ in range(STUDY.rounds):
         if best.error or looser.error:
             why = _failed([best, looser])
             break
         found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
         tolerance = best.case.tolerance / 10
-        if found.floor <= asked or tolerance < LEAST:
+        if found.floor <= asked or tolerance < STUDY.least:
             break
         looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]
     return _checked(measure, _ended(found, why), looser if best.error else best)

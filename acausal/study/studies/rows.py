@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.study.measuring.case import Case, Measurement
-from acausal.study.measuring.deviation import RUNAWAY, deviations, worst
+from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
 from acausal.study.studies.reference import Reference
 
+STUDY = POLICY.study
+
 # What limits the accuracy of a case.
 TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"
-# The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes with
-# the power 2/3 of the tolerance, that of elements at least with the square of their size.
-TOLERANCE_POWER, ELEMENTS_SHARE = 2 / 3, 1 / 3
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def _compared(m: Measurement, reference: Reference) -> StudyRow:
     if m.error:
         return StudyRow(m, {}, remark=m.error)
     row = StudyRow(m, deviations(m.values, reference.values))
-    if row.error > RUNAWAY:
+    if row.error > STUDY.runaway:
         return replace(row, remark=f"it diverged: {row.error:.1g} times the range away from the reference")
     return row
 
@@ -158,7 +158,9 @@ def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Referen
         return 0.0
     if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** TOLERANCE_POWER
+    return (
+        _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** STUDY.tolerance_power
+    )
 
 
 def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:
@@ -174,7 +176,7 @@ def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, 
         return 0.0
     if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return _between(row, series[1], reference) * ELEMENTS_SHARE
+    return _between(row, series[1], reference) * STUDY.elements_share
 
 
 def _between(one: StudyRow, other: StudyRow, reference: Reference) -> float:
