@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Accuracy:
     """Search for a tolerance, an order, a method and numbers of elements."""
 
-    # Tolerances tried first, in parts of the accuracy; the loosest and the smallest.
+    # Tolerances tried first, as fractions of the accuracy; the loosest and the smallest.
     first: float = 1e-2
     loosest: float = 1e-3
     smallest: float = 1e-12
@@ -20,7 +20,7 @@ class Accuracy:
     more: float = 1.2
     tenths: int = 3
     # A step of the one-step method is worth several; growth of the work by a tenth of the tolerance; runs that it takes
-    # to begin anew with another method.
+    # to begin again with another method.
     one_step: int = 10
     growth: int = 3
     anew: int = 3
@@ -33,7 +33,7 @@ class Accuracy:
 class Estimate:
     """Error of a run from finer ones."""
 
-    # An output that moves by no more than this, in parts of its size or of 1, rests.
+    # An output that moves by no more than this fraction of its size or of 1 is at rest.
     rounding: float = 1e-13
     # The error falls at least with the power 2/3 of the tolerance, that of order 2, or with the order 2 of the elements.
     by_tolerance: float = 2 / 3
@@ -47,9 +47,9 @@ class Study:
 
     # Times the range of an output: beyond it, a solution has nothing to do with the reference.
     runaway: float = 10.0
-    # Seconds after which the alarm rings again, should it have come where nothing can be interrupted.
+    # Seconds after which the alarm repeats, in case it came where nothing can be interrupted.
     again: float = 1.0
-    # Seconds after which a run is not repeated: what takes long is measured well enough. Runs that are repeated fill the
+    # Seconds after which a run is not repeated: long runs are measured well enough. Runs that are repeated fill the
     # lesser time, because the times of short ones scatter most.
     enough: float = 3.0
     little: float = 0.2
@@ -66,5 +66,5 @@ class Study:
     other: float = 0.4
     # Interactions below this part of the accuracy are not worth a line.
     worth: float = 0.1
-    # Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
+    # Ratio of solve times that cannot be distinguished from 1: medians of a few runs scatter that much.
     noise: float = 0.1

@@ -1,4 +1,4 @@
-"""Thresholds of what is looked at after a run: promises, validity, points that meet."""
+"""Thresholds of what is checked after a run: promises, validity, points that meet."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Meeting:
     """Points between which a force acts, and that meet."""
 
-    # So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest
+    # Nearer than this fraction of their greatest distance points meet; what acts there less than so much of its greatest
     # is 0.
     near: float = 1e-6
     nothing: float = 1e-4
@@ -21,7 +21,7 @@ class Meeting:
     # Rows that are so few, with so many steps between them, that all are suspect.
     few: int = 64
     steps_a_row: int = 4
-    # Meetings without an effect after which no more are looked for, intervals that are looked into, and steps in each.
+    # Meetings without an effect after which the search ends, intervals that are examined, and steps in each.
     harmless: int = 3
     looks: int = 2000
     steps: int = 20_000
@@ -33,7 +33,7 @@ class Promises:
 
     # Part of the largest value of a law that is a step; less may be rounding of its constants.
     step: float = 1e-4
-    # Switches of one law that are looked at closer, how often, and times at once.
+    # Switches of one law that are examined more closely, how often, and times at once.
     switches: int = 3
     closer: int = 12
     parts: int = 8
@@ -43,7 +43,7 @@ class Promises:
 class Validity:
     """Ranges in which components hold."""
 
-    # Most output points that are looked at, and where each look costs a solution of the equations.
+    # Most output points that are checked, in general and where each check costs a solution of the equations.
     rows: int = 500
     dear: int = 40
     # Of what is not small: values of the integrator that are less are small.

@@ -1,4 +1,4 @@
-"""Thresholds of events: what is looked at, how closely, and what counts as one instant."""
+"""Thresholds of events: what is checked, how closely, and what counts as one instant."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Clock:
 
 @dataclass(frozen=True)
 class Looks:
-    """Rows between outputs at which conditions are looked at."""
+    """Rows between outputs at which conditions are checked."""
 
     # Parts of an interval at least.
     fine: int = 8
@@ -61,7 +61,7 @@ class Looks:
     # nothing turns back.
     densest: int = 32
     steps_a_row: int = 4
-    # The same in all intervals, that there may be at least: few are looked at as often as many.
+    # The same in all intervals, that there may be at least: few are checked as often as many.
     rows: int = 12_800
     # Difference of output intervals, over them, that is rounding.
     equal: float = 1e-9
@@ -78,7 +78,7 @@ class Locate:
     trial_steps: int = 20_000
     # A condition may change within an interval that it could cross so much faster than it moves at the ends.
     reach: float = 3.0
-    # Times at which one stretch is looked at between its rows.
+    # Times at which a stretch is checked between its rows.
     looks: int = 4000
     # Of the run: no two times of a stretch are nearer.
     shortest: float = 1e-12

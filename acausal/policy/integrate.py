@@ -53,7 +53,7 @@ class Rescue:
 class Calls:
     """One call of an integrator."""
 
-    # Times in a call at which at least the choice of states is looked at.
+    # Least number of times in a call at which the choice of states is checked.
     fine: int = 60
     # Looks at the projection after a call cost about the cube of the number of constraints each: their sum, and bounds.
     work: float = 2e7
@@ -62,11 +62,11 @@ class Calls:
     # leave; tolerances below the second come near it.
     rounding: float = 1e-14
     near_rounding: float = 1e-8
-    # What the Newton iteration may leave, in parts of the tolerance: errors of a loose one excite lightly damped
+    # What the Newton iteration may leave, as a fraction of the tolerance: errors of a loose one excite lightly damped
     # vibrations, which then cost steps; near a singular position of a loop they are enlarged.
     newton: float = 0.05
     newton_in_loops: float = 0.005
-    # First step of the one-step method, in parts of the call.
+    # First step of the one-step method, as a fraction of the call.
     first: float = 1e-2
     # States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272,
     # 2552, 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and
@@ -84,7 +84,7 @@ class Consistent:
     once: float = 1.0
     # Of the largest unknown: what is smaller may be rounding, which never settles.
     noise: float = 1e-9
-    # Times at which sizes of terms are taken, and times in a call from which on that is done anew: it costs little then.
+    # Times at which sizes of terms are taken, and times in a call from which on that is repeated: it costs little then.
     looks: int = 4
     many: int = 200
 
@@ -101,11 +101,11 @@ class Energy:
     resolved: int = 8
     # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
     gain: int = 20
-    # Points beside the nodes where the power itself is looked at, and what a spline through nodes that are near enough to
+    # Points beside the nodes where the power itself is evaluated, and what a spline through nodes that are near enough to
     # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
     probes: int = 24
     alike: float = 1e-2
-    # Rows at which the stored energy is looked at.
+    # Rows at which the stored energy is evaluated.
     looks: int = 9
 
 
@@ -115,9 +115,9 @@ class Sizes:
 
     # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
     smaller: float = 0.1
-    # What reaches less, in nominal values and in parts of the absolute tolerance, rests but for rounding: a falling free
-    # body turns by 2e-13 rad/s, and nobody wants to follow that. What begins with a value does not rest.
+    # What reaches less, in nominal values and as a fraction of the absolute tolerance, rests but for rounding: a falling free
+    # body turns by 2e-13 rad/s, which is not worth following. What begins with a value does not rest.
     rest: float = 1e-11
     lost: float = 1e-4
-    # Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
+    # Runs after which sizes are accepted: each improves those of a motion lost in the tolerance.
     passes: int = 5

@@ -37,7 +37,7 @@ class Ranks:
     beside: float = 1e-3
     # Part of a condition that is independent of the ones before: the root of rounding, with some room.
     independent: float = 1e-7
-    # Small motions after which a rank is looked at again, in nominal values; long enough to see a rank that rises with
+    # Small motions after which a rank is computed again, in nominal values; long enough to see a rank that rises with
     # the square of them, short enough to stay in a mechanism of flat links (n-four-bar).
     motion: float = 1e-2
     shake: float = 1e-3
@@ -73,7 +73,7 @@ class Loops:
     away: float = 1e-4
     # Speed of joints, in nominal values, that is rest: rates of a singular position are known no better than that.
     rest: float = 1e-4
-    # What a coordinate is integrated by follows it; so far off, in parts of its size, it has lost it.
+    # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.
     apart: float = 0.1
     # Returns of what is integrated to what the constraints allow in a run, e-fold each (Baumgarte 1972): slow against
     # the motion, and enough for errors of a run not to add up.

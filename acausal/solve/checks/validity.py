@@ -73,7 +73,7 @@ def check_start(problem: Problem, at: Point) -> None:
 
 
 def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
-    """Say what components neglected although it was not small; at most VALIDITY.rows of the points are looked at.
+    """Say what components neglected although it was not small; at most VALIDITY.rows of the points are checked.
 
     Parameters
     ----------

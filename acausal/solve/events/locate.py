@@ -71,7 +71,7 @@ class Locator:
         stretch : Stretch
             Rows after it.
         depth : int
-            How often samples between samples were asked for.
+            How often samples between samples were requested.
         content : bool
             Whether to do without a look between the samples where there would be too many.
 

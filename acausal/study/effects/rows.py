@@ -71,7 +71,7 @@ class EffectRow:
 
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
-    """Tell whether the times of two variants cannot be told apart."""
+    """Return whether the times of two variants cannot be distinguished."""
     return abs(one.seconds - other.seconds) <= POLICY.study.noise * other.seconds
 
 
