@@ -54,8 +54,8 @@ def study(
     stop_time: StopTime = None,
     intervals: Annotated[int, typer.Option(help="Every run has N + 1 points.", metavar="N")] = 400,
     initial: Initial = None,
-    repeats: Annotated[int, typer.Option(help="Runs per point; their median counts.", metavar="N")] = 3,
-    limit: Annotated[float, typer.Option(help="Seconds after which a point is stopped.", metavar="S")] = 60.0,
+    repeats: Annotated[int, typer.Option(help="Runs per case; their median counts.", metavar="N")] = 3,
+    limit: Annotated[float, typer.Option(help="Seconds after which a case is stopped.", metavar="S")] = 60.0,
     workers: Annotated[
         int | None, typer.Option(help="Parallel processes; one per core if not given.", metavar="N")
     ] = None,
@@ -65,7 +65,7 @@ def study(
     ] = None,
     csv: Annotated[
         str | None,
-        typer.Option(help="Write every figure of every point; an interrupted study continues.", metavar="FILE"),
+        typer.Option(help="Write every figure of every case; an interrupted study continues.", metavar="FILE"),
     ] = None,
     markdown: Annotated[str | None, typer.Option(help="Write the table in Markdown.", metavar="FILE")] = None,
     plot: Annotated[str | None, typer.Option(help="Plot error over time.", metavar="FILE.png")] = None,
@@ -109,7 +109,7 @@ def study(
                     **numbers,
                 )
         except KeyboardInterrupt:
-            kept = f"finished points are kept in {journal}: the same command continues from there"
+            kept = f"finished cases are kept in {journal}: the same command continues from there"
             typer.echo(
                 kept if journal else "nothing is kept; with --csv FILE a study can continue where it stopped", err=True
             )

@@ -90,7 +90,7 @@ class Journal:
         ]
         if other:
             raise DeclarationError(
-                f"{self.path} holds points of another study (other {', '.join(other)}). "
+                f"{self.path} holds cases of another study (other {', '.join(other)}). "
                 "Remove it to start again, or give the table another name."
             )
         # The last line may be cut where the session was killed.

@@ -222,7 +222,7 @@ def study(
     kept = Journal(journal, identity(model, trees, **common))
     with executor_of(executor, workers) as pool:
         session = Session(job, pool, kept, progress)
-        measured = session.measure(grid.cases(given), "points")
+        measured = session.measure(grid.cases(given), "cases")
         if known is None:
             exact = [form for form in forms if form.exact] or list(forms[:1])
             base = _base(compiled, grid, given)
