@@ -283,7 +283,7 @@ def test_model_without_outputs():
 def test_command():
     run = CliRunner().invoke(app, ["simulate", "simple-pendulum", "--accuracy", "1e-3"])
     assert run.exit_code == 0, run.output
-    assert "accuracy 0.001 asked: tolerance 1e-05, order at most 5; estimated error" in run.output
+    assert "accuracy 0.001 requested: tolerance 1e-05, order at most 5; estimated error" in run.output
     asked = ["simulate", "spin-up", "--set", "beam.adaptive=True", "--accuracy", "0.1", "--json", "-", "--quiet"]
     run = CliRunner().invoke(app, [*asked, "--variables", "beam.volume[4].q"])
     assert run.exit_code == 0, run.output
