@@ -207,7 +207,7 @@ class CompiledModel:
     def layout(self) -> Layout:
         """How many constants a segment has."""
         guards, constraints = self.guards, self.constraints
-        moves = self.reduced.constants.numel() > guards.n_switches + guards.n_discretes
+        moves = self.reduced.projections.choice.numel() > 0
         return Layout(
             guards.n_switches, guards.n_discretes, len(constraints.closures), int(moves), constraints.entries.shape[1]
         )

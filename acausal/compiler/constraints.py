@@ -26,6 +26,8 @@ class Constraints:
         Position of the multiplier of each residual among the algebraic unknowns.
     closures : list of int
         Constraint of each closure.
+    kinds : array of int
+        Residuals that are entries of one equation, or the same time derivative of it, have one number.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
     """
@@ -41,6 +43,9 @@ class Constraints:
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
+        said = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
+        kinds = [(said.get(k, -1 - k), level) for k, rows in enumerate(self.rows) for level in range(len(rows))]
+        self.kinds = np.unique(np.array(kinds).reshape(-1, 2), axis=0, return_inverse=True)[1].ravel()
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)

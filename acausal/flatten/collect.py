@@ -34,6 +34,7 @@ class Closure:
     row: int
     dual: ca.SX
     cut: Cut
+    statement: int
 
 
 @dataclass
@@ -98,10 +99,11 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
             vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
     for statement, dual in bounded(sent.residual(b), a, "residual()"):
+        number = len(found.sides)
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
         for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
-            found.closures.append(Closure(row + k, entry, cut))
+            found.closures.append(Closure(row + k, entry, cut, number))
 
 
 def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:

@@ -36,11 +36,14 @@ class FlatClosure:
         Flow that works on it, undetermined where the residual is redundant.
     loop : int
         Number of its loop.
+    statement : int
+        Number of the equation of arrays that it is an entry of: these have one unit.
     """
 
     row: int
     dual: ca.SX
     loop: int
+    statement: int
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _undeclared(symbol: ca.SX) -> str:
 def _known(raw: Said) -> set[int]:
     """Hashes of all symbols that a model may use."""
     pending = raw.pending
-    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx]
+    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
     return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
 

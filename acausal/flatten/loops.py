@@ -44,7 +44,7 @@ def loops_of(
     cuts = raw.graph.cuts
     number = {id(cut): k for k, cut in enumerate(cuts)}
     closures = tuple(
-        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)])
+        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)], c.statement)
         for c in raw.equations.closures
         if c.row in place
     )

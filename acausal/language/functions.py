@@ -22,6 +22,8 @@ _SECOND = parse("s")
 # Without a unit, so that sin(time) is right for users who mean rad/s times time.
 time = Expr(ca.SX.sym("time"), None, "time")
 initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
+# How fast states return to an invariant that they must keep (Baumgarte 1972): ten times in a run.
+feedback = Expr(ca.SX.sym("feedback"), DIMENSIONLESS / _SECOND, "feedback")
 
 
 class Pending:

@@ -67,7 +67,7 @@ class Loops:
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05
     spared: float = 0.3
-    # Decades below the largest stiffness from which on a coordinate may count as stiff.
+    # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
     decades: int = 12
     # Way out of a singular position in nominal values: its square is the error of what is left out.
     away: float = 1e-4
@@ -91,8 +91,7 @@ class Rest:
     relaxation: int = 400
     # Largest change of a state in a step, in nominal values: a fifth of a radian and more keeps to a branch.
     far: float = 0.3
-    # Steps of the relaxation, in the time in which the fastest rate at its start acts: the first, their growth, the last,
-    # and the shortest.
+    # Steps of the relaxation over the time of the feedback: the first, their growth, the last, and the shortest.
     first: float = 1e-3
     growth: float = 1.5
     last: float = 1e8

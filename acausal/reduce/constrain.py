@@ -8,10 +8,9 @@ import casadi as ca
 
 from acausal.errors import StructurallySingularError
 from acausal.flatten import FlatModel
+from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
-
-FEEDBACK = 1.0  # in 1/s: how fast the integrated coordinates return to the constraints
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ def constrain(
         x, rate, state, state_rate = (elements[v] for v in (p.coordinate, p.rate, p.state, p.state_rate))
         shift = sum((d * elements[m] for d, m in zip(own, p.multipliers, strict=True)), ca.SX(0))
         residuals.append(x - state - shift)
-        residuals.append(state_rate - rate - FEEDBACK * (x - state))
+        residuals.append(state_rate - rate - feedback.sx * (x - state))
         one = ca.SX(1)
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})

@@ -64,7 +64,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
         If the integration fails; its `result` holds what was computed.
     """
     built, started = compiled.seconds.get("integrators", 0.0), clock.perf_counter()
-    problem = Problem(compiled, p)
+    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
     plan = _plan(problem, task)
     begun = start(problem, task.start_time, plan.inside, task.initial)
     check_start(problem, begun.point)

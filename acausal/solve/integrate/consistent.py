@@ -13,7 +13,7 @@ from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.newton import algebraic
+from acausal.solve.start.newton import algebraic, terms
 
 CONSISTENT = POLICY.consistent
 
@@ -96,8 +96,8 @@ class Consistent:
         c = self.compiled
         local = c.at(x, z, self.p, t, constants, 0.0)
         rows = c.nx + (np.arange(c.nz) if equations is None else equations)
-        terms = np.abs(local.jacobian[rows, : c.nx + c.nz]) @ np.abs(np.concatenate([x, z]))
-        return bool(np.all(np.abs(local.value[rows]) <= tolerance * (1 + terms)))
+        sizes = terms(local.jacobian[rows, : c.nx + c.nz], np.concatenate([x, z]), c.nominal)
+        return bool(np.all(np.abs(local.value[rows]) <= tolerance * sizes))
 
     def _sizes(
         self,
@@ -123,7 +123,8 @@ class Consistent:
                 size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
             self._natural[key] = size
         size = np.maximum(self._natural[key], np.max(np.abs(z), axis=0))
-        return np.maximum(size, CONSISTENT.noise * np.max(size)) if size.any() else np.ones(len(size))
+        nominal = c.nominal[c.nx :]
+        return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
     def _settle(
         self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray

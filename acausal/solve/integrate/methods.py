@@ -123,5 +123,6 @@ def rounding(problem: Problem, at: Point) -> np.ndarray:
         reach = np.abs(np.linalg.inv(g[:, nx:])) @ sizes
     except np.linalg.LinAlgError:
         reach = np.zeros(problem.nz)
-    floor = 10.0 ** np.ceil(np.log10(np.maximum(CALLS.rounding * reach, 1e-300)))
+    nominal = problem.nominal[nx:]
+    floor = nominal * 10.0 ** np.ceil(np.log10(np.maximum(CALLS.rounding * reach / nominal, 1e-300)))
     return np.concatenate([np.zeros(nx), np.where(np.isfinite(floor), floor, 0.0)])

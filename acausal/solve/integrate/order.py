@@ -43,7 +43,8 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     def rate(v: np.ndarray) -> np.ndarray:
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
-    shift = ORDER.shift * max(abs(J.data).max(), 1.0)
+    fast = _dominant(rate, nx)
+    shift = ORDER.shift * float(np.max(np.abs(fast), initial=problem.feedback))
     diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
@@ -51,7 +52,7 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
         return outer(np.r_[v, np.zeros(nz)])[:nx]
 
     slow = _dominant(inverse, nx)
-    return np.concatenate([shift + 1 / slow[slow != 0], _dominant(rate, nx)])
+    return np.concatenate([shift + 1 / slow[slow != 0], fast])
 
 
 def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:

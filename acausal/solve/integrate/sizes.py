@@ -41,7 +41,9 @@ def smaller_sizes(
         most = float(np.max(reach[members]))
         begins = float(np.max(np.abs(x[0, members])))
         lost = SIZES.lost * tolerance * float(np.max(nominal[members]))
-        if most > SIZES.rest and (most > lost or begins > SIZES.smaller * most):
+        if most > SIZES.rest * float(np.max(problem.nominal[members])) and (
+            most > lost or begins > SIZES.smaller * most
+        ):
             fitting[members] = np.minimum(nominal[members], most)
     for coordinate, rate in problem.rates:
         if not sizes[rate][1]:

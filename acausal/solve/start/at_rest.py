@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
@@ -52,10 +53,10 @@ def at_rest(problem: Problem, at: Point) -> bool:
     nx = problem.nx
     if _moving(problem, at):
         return False
-    if problem.compiled.constraints.size and np.max(np.abs(problem.constraints(at)[0])) > NEWTON.consistent:
+    if problem.compiled.constraints.size and np.max(np.abs(problem.gaps(at))) > NEWTON.consistent:
         return False
     local = problem.local(at)
-    allowed = NEWTON.consistent + _rounding(local.jacobian, at.y)
+    allowed = _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
 
 
@@ -72,7 +73,7 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
         )
         raise InitializationError("\n".join(lines))
     local = problem.local(at)
-    value, allowed = local.value, NEWTON.consistent + _rounding(local.jacobian, at.y)
+    value, allowed = local.value, _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
@@ -88,9 +89,8 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     """Derivatives that do not vanish, the largest first."""
     names, call, (rows, columns, shape) = _derivatives(problem.compiled)
     value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
-    rounding = np.zeros(shape[0])
-    np.add.at(rounding, rows, np.abs(entries * at.y[columns]))
-    allowed = POLICY.rest.still + NEWTON.terms * np.finfo(float).eps * rounding
+    J = scipy.sparse.csr_matrix((entries, (rows, columns)), shape=shape)
+    allowed = _allowed(J, at.y, problem.nominal, POLICY.rest.still)
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]
     return [(names[k], float(value[k])) for k in order]
@@ -115,6 +115,7 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     return compiled.cache["derivatives"]
 
 
-def _rounding(J, y: np.ndarray) -> np.ndarray:
-    """Rounding of the terms of every row."""
-    return NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))
+def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:
+    """What each row may be: a part of what nominal values make of it, of 1 if it holds constants only, and rounding."""
+    most = abs(J) @ nominal
+    return part * np.where(most > 0, most, 1.0) + NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))

@@ -13,7 +13,7 @@ from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
-from acausal.solve.start.rank import null_space, pivots, rank, row_space
+from acausal.solve.start.rank import least_norm, null_space, pivots, rank, row_space
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
@@ -95,14 +95,14 @@ def rows_and_knowns(
 def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
-    M = problem.constraints(at)[1][:, free]
+    M, size = problem.gradients(at)[:, free], problem.nominal[free]
     J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     try:
         dz = -scipy.sparse.linalg.splu(inner).solve(right) if nz else right
     except RuntimeError:
-        dz = -np.linalg.lstsq(inner.toarray(), right, rcond=POLICY.ranks.rank)[0]
-    return M, J[rows][:, free].toarray() + J[rows][:, nx:] @ dz
+        dz = -least_norm(inner.toarray(), problem.nominal[nx:], POLICY.ranks.rank)(right)
+    return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size
 
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
@@ -143,13 +143,13 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
-    speed = float(np.max(np.abs(x[rates]), initial=0.0))
-    if not speed > LOOPS.rest:
+    nominal = problem.nominal
+    if not np.any(np.abs(x[rates]) > LOOPS.rest * nominal[rates]):
         raise InitializationError(
             f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops go on. "
             "Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
-    later = LOOPS.away / speed
+    later = LOOPS.away / float(np.max(np.abs(x[rates]) / nominal[coordinates]))
     moved = x.copy()
     moved[coordinates] += later * x[rates]
     return close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]

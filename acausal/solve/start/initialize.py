@@ -101,7 +101,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
     """Start values of all unknowns."""
     y = problem.compiled.start(problem.p, time)[0].copy()
-    return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.constants(head))
+    return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.begin(head, problem.feedback))
 
 
 def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
@@ -226,7 +226,7 @@ def _rows(problem: Problem, at: Point) -> list[list[int]]:
     """
     J: Any = problem.local(at, 1.0).jacobian.tocoo()
     rows: list[list[int]] = [[] for _ in range(J.shape[0])]
-    for k in np.argsort(-np.abs(np.nan_to_num(J.data)), kind="stable"):
+    for k in np.argsort(-np.abs(np.nan_to_num(J.data)) * problem.nominal[J.col], kind="stable"):
         rows[J.row[k]].append(int(J.col[k]))
     return rows
 
@@ -255,12 +255,10 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
             raise
         at = found
     if system.surplus.size:
-        value = problem.values(at, 1.0)[problem.nx :]
-        wrong = [
-            k
-            for k in system.surplus
-            if abs(value[k]) > POLICY.newton.consistent * (1 + np.max(np.abs(at.y), initial=0))
-        ]
+        local = problem.local(at, 1.0)
+        allowed = POLICY.newton.consistent * (abs(local.jacobian) @ (np.abs(at.y) + problem.nominal))[problem.nx :]
+        value = local.value[problem.nx :]
+        wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:
             raise InitializationError(contradiction_text(problem.compiled, value, wrong))
     return at

@@ -50,13 +50,13 @@ def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False
     at : Point
         With the states.
     mismatch : float
-        Largest residual.
+        Largest residual, over its size.
     """
     mismatch = 0.0
     for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
         at, left = _solve(problem, at, rows, free)
-        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x))):
+        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
             # Near a singular position rates are known only as well as the root of the positions.
             at, left = _solve(problem, at, rows, columns)
         mismatch = max(mismatch, left)
@@ -73,11 +73,12 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
-    """Residuals of some rows and their Jacobian, as a function of some states."""
+    """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
+    size = problem.sizes(at)[rows]
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         value, J = problem.constraints(_with(at, free, u))
-        return value[rows], J[rows][:, free]
+        return value[rows] / size, J[rows][:, free] / size[:, None]
 
     return evaluate
 
@@ -112,7 +113,7 @@ def tighten(problem: Problem, at: Point) -> Point:
     for rows, free in levels(problem.compiled):
         polished = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
         tight = _with(tight, free, polished)
-    closed = np.max(np.abs(problem.constraints(tight)[0]), initial=0.0) <= LOOPS.closed
+    closed = np.max(np.abs(problem.gaps(tight)), initial=0.0) <= LOOPS.closed
     return tight if closed else close(problem, at, np.empty(0, int))[0]
 
 
@@ -131,26 +132,27 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     """Raise InitializationError with the mismatch of every loop that does not close."""
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
-    value, _ = problem.constraints(at)
+    value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
     lines = []
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
-        apart = [float(np.max(np.abs(value[rows]), initial=0.0)) if rows else 0.0 for rows in levels_of]
+        apart = [float(np.max(value[rows], initial=0.0)) if rows else 0.0 for rows in levels_of]
+        wide = [bool(np.any(gap[rows] > LOOPS.closed)) if rows else False for rows in levels_of]
         how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
-        for text, worst in zip(how, apart, strict=True):
-            if worst > LOOPS.closed:
+        for text, open_ in zip(how, wide, strict=True):
+            if open_:
                 through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
                 lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
-        if k not in c.closures and np.max(np.abs(value[list(rows)])) > LOOPS.closed:
-            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
+        if k not in c.closures and np.max(gap[list(rows)]) > LOOPS.closed:
+            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if given:
         lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
-    if lines and np.max(np.abs(value)) > LOOPS.closed:
+    if lines and np.max(gap) > LOOPS.closed:
         raise InitializationError(
             f"these loops cannot close at t = {at.time:g} s, whatever their joints do:\n"
             + "\n".join(lines)

@@ -32,7 +32,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     rows = [r[0] for r in c.rows]
 
     def jacobian(at: Point) -> np.ndarray:
-        return scaled(problem.constraints(at)[1][rows])
+        return scaled(problem.gradients(at)[rows])
 
     here = jacobian(at)
     if rank(here, RANKS.nearly) == len(rows):
@@ -60,7 +60,7 @@ def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     if not problem.compiled.constraints.size:
         return False
     held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
-    return rank(problem.constraints(at)[1][held], RANKS.beside) < len(held)
+    return rank(problem.gradients(at)[held], RANKS.beside) < len(held)
 
 
 def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: int) -> Point | None:
@@ -70,6 +70,6 @@ def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: i
         return None
     direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
     x = at.x.copy()
-    x[free] += RANKS.motion * direction / np.linalg.norm(direction)
+    x[free] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[: problem.nx][free]
     moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
     return moved if mismatch < RANKS.moved else None

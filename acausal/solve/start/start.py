@@ -45,7 +45,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             np.arange(guards.n_switches + guards.n_discretes), [k for k in guards.timed if k < guards.n_switches]
         )
         new[own] = found[own]
-        if np.allclose(new, head, rtol=1e-9, atol=1e-12):
+        if np.allclose(new, head, rtol=POLICY.switches.same, atol=0.0):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))

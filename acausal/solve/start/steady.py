@@ -8,6 +8,7 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy
@@ -19,7 +20,7 @@ from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motio
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
 from acausal.solve.start.newton import algebraic
-from acausal.solve.start.rank import scaled
+from acausal.solve.start.rank import least_norm, scaled
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
@@ -110,9 +111,15 @@ class Equilibrium:
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         J = local.jacobian.tocsc()
-        dz = _solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
+        dz = self._solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
         A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
         return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
+
+    def _solve(self, matrix: Any, right: np.ndarray) -> np.ndarray:
+        try:
+            return scipy.sparse.linalg.splu(matrix).solve(right)
+        except RuntimeError:
+            return least_norm(matrix.toarray(), self.problem.nominal[self.nx :], POLICY.ranks.rank)(right)
 
     def _close(self, at: Point) -> Point:
         """Close the loops, and choose again which states follow from others."""
@@ -169,7 +176,7 @@ class Equilibrium:
         self, here: Linearized, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool
     ) -> Linearized | None:
         """Shorten a step until the residuals do not grow; None if they always do."""
-        size = np.linalg.norm(J, axis=1)
+        size = np.linalg.norm(J * self.scale, axis=1)
         weight = 1 / np.where(size > 0, size, 1.0)
         for shorter in range(REST.halvings):
             try:
@@ -211,7 +218,7 @@ class Equilibrium:
 
     def _relax(self, at: Point, growth: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
-        h, nx = REST.first, self.nx
+        h, nx, feedback = REST.first / self.problem.feedback, self.nx, self.problem.feedback
         try:
             here = self._at(self._close(at))
         except InitializationError:
@@ -225,7 +232,7 @@ class Equilibrium:
                 step = np.full(nx, np.nan)
             if not np.all(np.isfinite(step)) or self._far(step) > REST.far:
                 h /= 2
-                if h < REST.shortest:
+                if h * feedback < REST.shortest:
                     break
                 continue
             moved = _moved(here.point, step)
@@ -235,23 +242,29 @@ class Equilibrium:
                 h /= 4
                 continue
             h *= growth
-            if h > REST.last or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < REST.converged:
+            if (
+                h * feedback > REST.last
+                or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < REST.converged
+            ):
                 break
         return here.point
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
         N, chosen = tangent(self.problem, here.point)
-        A = (here.A @ N)[chosen]
+        size = self.scale[chosen]
+        A = (here.A @ N)[chosen] * size / size[:, None]
         if not A.size:
             return 0.0, np.zeros(self.nx)
         values, vectors = np.linalg.eig(A)
         # Double zeros, of what is free to move, split by the root of rounding.
-        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))))
+        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))) * self.problem.feedback)
         real = np.where(np.real(values) > np.maximum(floor, REST.grows * np.abs(values)), np.real(values), 0.0)
         k = int(np.argmax(real))
-        direction = N @ np.real(vectors[:, k])
-        return float(real[k]), REST.push * direction / (self._far(direction) or float(np.max(np.abs(direction))))
+        direction = N @ (size * np.real(vectors[:, k]))
+        return float(real[k]), REST.push * direction / (
+            self._far(direction) or float(np.max(np.abs(direction / self.scale)))
+        )
 
 
 def _moved(at: Point, step: np.ndarray) -> Point:
@@ -261,10 +274,3 @@ def _moved(at: Point, step: np.ndarray) -> Point:
 def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
     """Part of a way in the space that rows span."""
     return rows.T @ np.linalg.lstsq(rows.T, way, rcond=POLICY.ranks.rank)[0] if len(rows) else np.zeros_like(way)
-
-
-def _solve(matrix, right: np.ndarray) -> np.ndarray:
-    try:
-        return scipy.sparse.linalg.splu(matrix).solve(right)
-    except RuntimeError:
-        return np.linalg.lstsq(matrix.toarray(), right, rcond=POLICY.ranks.rank)[0]
