@@ -124,7 +124,7 @@ class CompiledModel:
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         nominal = np.concatenate([own.nominal, np.ones(plan.system.n_variables - len(own.nominal))])
         for p in plan.constrained.projections:
-            nominal[p.state] = nominal[p.coordinate]
+            nominal[p.state], nominal[p.state_rate] = nominal[p.coordinate], nominal[p.rate]
         return nominal[[*plan.states, *plan.algebraic]]
 
     @cached_property
@@ -231,7 +231,7 @@ class CompiledModel:
             started = clock.perf_counter()
             dae = self._dae(energy, moves)
             if plugin != "idas":
-                dae = in_sizes(dae)
+                dae = in_sizes(dae, self.nominal[self.nx :])
             function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)
             self.seconds["integrators"] = self.seconds.get("integrators", 0.0) + clock.perf_counter() - started

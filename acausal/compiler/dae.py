@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import casadi as ca
+import numpy as np
 
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
@@ -37,10 +38,10 @@ def make_dae(
     return {**dae, "quad": T * powers} if quadratures else dae
 
 
-def in_sizes(dae: dict[str, ca.SX]) -> dict[str, ca.SX]:
-    """Write a DAE in states over their sizes, which become parameters, and algebraic unknowns over a large number."""
+def in_sizes(dae: dict[str, ca.SX], nominal: np.ndarray) -> dict[str, ca.SX]:
+    """Write a DAE in states over their sizes, which become parameters, and algebraic unknowns over large nominal values."""
     x, z, size = ca.SX.sym("x", dae["x"].numel()), ca.SX.sym("z", dae["z"].numel()), ca.SX.sym("size", dae["x"].numel())
     keys = [k for k in ("ode", "alg", "quad") if k in dae]
-    written = ca.substitute([dae[k] for k in keys], [dae["x"], dae["z"]], [size * x, UNSEEN * z])
+    written = ca.substitute([dae[k] for k in keys], [dae["x"], dae["z"]], [size * x, UNSEEN * ca.DM(nominal) * z])
     scaled = {**dae, **dict(zip(keys, written, strict=True)), "x": x, "z": z, "p": ca.vertcat(dae["p"], size)}
     return {**scaled, "ode": scaled["ode"] / size}

@@ -28,7 +28,7 @@ class Setup:
 
     plugin: str
     options: dict[str, Any]
-    sizes: tuple[np.ndarray, float]
+    sizes: tuple[np.ndarray, np.ndarray | float]
 
     def rows(self, call: Call) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
         """Return states, algebraic unknowns and integrals of power that a call has found; None where it has no such."""
@@ -108,7 +108,7 @@ def _one_step(problem: Problem, settings: Settings, way: Way, times: np.ndarray)
     }
     if fastest > 0:
         options["step0"] = min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
-    return Setup("rosenbrock", options, (size, UNSEEN))
+    return Setup("rosenbrock", options, (size, UNSEEN * problem.nominal[problem.nx :]))
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

@@ -45,7 +45,7 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
     D = J * weights
     size = np.linalg.norm(D, axis=1, keepdims=True)
     factors = on[:, None] * weights * nominal**2 / np.where(size > 0, size, 1.0)
-    chosen = factors if moves else _select(problem.compiled, scaled(D), on)
+    chosen = factors if moves else _select(problem.compiled, scaled(D), on) * nominal
     return replace(at.constants, moves=moves, D=chosen[tuple(c.entries)])
 
 

@@ -113,7 +113,7 @@ def algebraic(problem: Problem, at: Point) -> Point:
 
 def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
-    return NEWTON.terms * np.finfo(float).eps * terms(J, y, nominal)
+    return NEWTON.terms * np.finfo(float).eps * (abs(J) @ (np.abs(y) + nominal))
 
 
 def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
