@@ -47,7 +47,7 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     def rate(v: np.ndarray) -> np.ndarray:
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
-    shift = 1e-9 * max(abs(J.data).max(), 1.0)
+    shift = 1e-9 * np.max(np.abs(J.data), initial=1.0)
     diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
