@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal.solve.integrate.order import eigenvalues_of
-from acausal.solve.start.loop_states import _spared, _transversality, choose_projection, independent, worn
+from acausal.solve.start.loop_states import _select, _spared, _transversality, choose_projection, independent, worn
 from acausal.solve.start.loops import close, levels, tighten
 from acausal.solve.start.newton import algebraic
 from acausal.solve.start.tangent import tangent
@@ -95,6 +96,16 @@ def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
     np.testing.assert_allclose(_spared(J, stiffness), [1 / (1 + 1e7), 1])
     np.testing.assert_allclose(_spared(np.array([[1.0, 1e-3]]), stiffness), [1 / (1 + 1e3), 1])
     np.testing.assert_allclose(_spared(np.array([[1.0, 0.0]]), stiffness), [1 / (1 + 1e7), 1])
+
+
+def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
+    D = np.array([[0.1, 0.9, 0.2], [0.9, 0.1, 0.2]])
+    entries = np.array([[0, 0, 0, 1, 1, 1], [0, 1, 2, 0, 1, 2]])
+    compiled = SimpleNamespace(closing=SimpleNamespace(rows=[(0,), (1,)], entries=entries))
+    found = _select(compiled, D, np.array([True, True]))  # type: ignore[arg-type]
+    np.testing.assert_array_equal(found, [[0, 1, 0], [1, 0, 0]])
+    found = _select(compiled, D, np.array([False, True]))  # type: ignore[arg-type]
+    np.testing.assert_array_equal(found, [[0, 0, 0], [1, 0, 0]])
 
 
 def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():

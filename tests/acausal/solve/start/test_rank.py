@@ -33,6 +33,12 @@ def test_two_rows_at_a_small_angle(angle, expected):
     assert rank(np.array([[1, 0], [np.cos(angle), np.sin(angle)]])) == expected
 
 
+def test_what_is_rounding_grows_with_the_size_of_the_matrix():
+    rows = np.zeros((2, 100))
+    rows[:, 0], rows[1, 1] = 1.0, 20 * RANK
+    assert (rank(rows[:, :3]), rank(rows)) == (2, 1)
+
+
 def test_a_looser_tolerance_takes_rows_for_dependent():
     rows = np.array([[1, 0], [1, 1e-4]])
     assert (rank(rows), rank(rows, 1e-3)) == (2, 1)
