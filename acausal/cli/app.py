@@ -27,8 +27,8 @@ from acausal.cli.scenes import find_scene, scenes
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.simulation.runs import adaptive
 from acausal.simulation.settings import settled
-from acausal.simulation.trials import adaptive
 
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
@@ -177,7 +177,7 @@ def _at_start(compiled: CompiledModel) -> AtStart | None:
     from acausal.solve.problem import Problem
     from acausal.solve.start.start import start
 
-    if not compiled.closing.size:
+    if not compiled.constraints.size:
         return None
     try:
         return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)

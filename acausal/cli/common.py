@@ -144,7 +144,7 @@ def make_scene(
     with blaming(cls):
         model = cls()
         if effects is not None:
-            from acausal.study.switching.choices_file import with_effects
+            from acausal.study.effects.choices_file import with_effects
 
             values = with_effects(model, scene, effects, values)
         return model, values

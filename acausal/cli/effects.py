@@ -46,7 +46,7 @@ def effects(
     """Tell what each effect of a scene changes and costs, and the cheapest set that stays within an accuracy."""
     with running(json) as standard_output:
         from acausal.study import effects as study
-        from acausal.study.switching.choices_file import choices_document
+        from acausal.study.effects.choices_file import choices_document
 
         for path in (apply, csv, markdown):
             if path is not None:

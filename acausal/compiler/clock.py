@@ -2,7 +2,7 @@
 
 A condition that also compares other things is watched, but what the clock decides in it must not be left to a search: a
 pulse may begin and end between two looks. So each such comparison becomes a switch of its own, whose instants are
-break times, and the condition is watched with what these modes leave of it.
+break times, and the condition is watched with what these switches leave of it.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def functions(reduced: ReducedModel, excess: ca.SX) -> tuple[ca.Function, ca.Fun
 
 
 def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.SX]:
-    """Return which comparisons are linear in time, with factors of parameters and modes alone, and when they change.
+    """Return which comparisons are linear in time, with factors of parameters and constants alone, and when they change.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.S
     excess : casadi.SX
         Of comparisons, a column.
     """
-    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, reduced.modes, time.sx))}
+    free = {s.element_hash() for s in scalars(ca.vertcat(reduced.p, reduced.constants, time.sx))}
     bent = ca.which_depends(excess, time.sx, 2, True) if excess.numel() else []
     moving = ca.which_depends(excess, time.sx, 1, True) if excess.numel() else []
     plain = [
@@ -96,8 +96,8 @@ def split_clock(reduced: ReducedModel) -> ReducedModel:
         parts = [(part, *next(known)) for part in guard.condition.comparisons]
         if all(t for _, t, _ in parts) or not any(t for _, t, _ in parts):
             continue
-        modes = {id(part): _mode(Condition(Expr(e), part.kind), guard, switches) for part, t, e in parts if t}
-        own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, modes).condition())
+        own_switches = {id(part): _switch(Condition(Expr(e), part.kind), guard, switches) for part, t, e in parts if t}
+        own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, own_switches).condition())
     if not own:
         return reduced
     kept = flat.discontinuities
@@ -105,24 +105,24 @@ def split_clock(reduced: ReducedModel) -> ReducedModel:
     guards = [own.get(id(guard), guard) for guard in kept.guards]
     changed = replace(
         kept,
-        switches=(*kept.switches, *(mode for mode, _ in switches)),
+        switches=(*kept.switches, *(switch for switch, _ in switches)),
         guards=(*guards[:n], *(guard for _, guard in switches), *guards[n:]),
     )
     return replace(reduced, flat=replace(flat, discontinuities=changed))
 
 
-def _mode(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]]) -> ca.SX:
-    """Return the mode of a comparison, the same for the same comparison."""
-    for mode, other in switches:
+def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]]) -> ca.SX:
+    """Return the switch of a comparison, the same for the same comparison."""
+    for switch, other in switches:
         if other.condition.kind == condition.kind and ca.is_equal(other.excess, condition.excess.sx, 9):
-            return mode
+            return switch
     switches.append((ca.SX.sym("clock"), Guard(condition, guard.origin)))
     return switches[-1][0]
 
 
 @dataclass(frozen=True)
 class _Left:
-    """What modes leave of a condition: where it certainly holds, where it certainly does not, and what decides else."""
+    """What switches leave of a condition: where it certainly holds, where it certainly does not, and what decides else."""
 
     yes: ca.SX
     no: ca.SX
@@ -135,11 +135,11 @@ class _Left:
         return Condition(Expr(excess), self.rest.kind)
 
 
-def _what_is_left(condition: Condition, modes: dict[int, ca.SX]) -> _Left:
+def _what_is_left(condition: Condition, switches: dict[int, ca.SX]) -> _Left:
     if not isinstance(condition, Joined):
-        mode = modes.get(id(condition))
-        return _Left(ca.SX(0), ca.SX(0), condition) if mode is None else _Left(mode, 1 - mode, None)
-    a, b = _what_is_left(condition.a, modes), _what_is_left(condition.b, modes)
+        switch = switches.get(id(condition))
+        return _Left(ca.SX(0), ca.SX(0), condition) if switch is None else _Left(switch, 1 - switch, None)
+    a, b = _what_is_left(condition.a, switches), _what_is_left(condition.b, switches)
     every = condition.every
     yes = a.yes * b.yes if every else ca.fmax(a.yes, b.yes)
     no = ca.fmax(a.no, b.no) if every else a.no * b.no

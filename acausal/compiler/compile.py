@@ -69,7 +69,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         compiled.guards.breaks,
         compiled.guards.guess,
         compiled.hoist,
-        compiled.closing,
+        compiled.constraints,
     )
     compiled.guards.check()
     lap("generate")

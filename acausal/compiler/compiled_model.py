@@ -13,8 +13,8 @@ import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
-from acausal.compiler.closing import Closing
 from acausal.compiler.constants import Layout
+from acausal.compiler.constraints import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
 from acausal.compiler.parameters import Settable
@@ -144,15 +144,15 @@ class CompiledModel:
         return self.reduced.resolve(ca.vertcat(ca.SX(0, 1), *entries), unprojected=True)
 
     @cached_property
-    def closing(self) -> Closing:
+    def constraints(self) -> Constraints:
         """Constraints that hold at several levels."""
-        return Closing(self.reduced)
+        return Constraints(self.reduced)
 
     @cached_property
     def arguments(self) -> list[ca.SX]:
-        """Arguments of every function: x, z, parameters, time, modes and the flag of the initial system."""
+        """Arguments of every function: x, z, parameters, time, constants and the flag of the initial system."""
         r = self.reduced
-        return [r.x, r.z, r.p, time.sx, r.modes, initial.sx]
+        return [r.x, r.z, r.p, time.sx, r.constants, initial.sx]
 
     @cached_property
     def values(self) -> Call:
@@ -181,9 +181,9 @@ class CompiledModel:
         J = ca.jacobian(self._equations, ca.vertcat(self.reduced.x, self.reduced.z))
         return Call(ca.Function("local", self.arguments, [ca.densify(self._equations), J]))
 
-    def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray, flag: float) -> Local:
+    def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float) -> Local:
         """Evaluate equations and Jacobian at a point."""
-        value, entries = self.local(x, z, p, t, modes, flag)
+        value, entries = self.local(x, z, p, t, constants, flag)
         rows, starts, shape = self._pattern
         return Local(value.copy(), scipy.sparse.csc_matrix((entries.copy(), rows, starts), shape=shape))
 
@@ -206,9 +206,11 @@ class CompiledModel:
     @cached_property
     def layout(self) -> Layout:
         """How many constants a segment has."""
-        guards, closing = self.guards, self.closing
-        discretes, moves = guards.n_modes - guards.n_switches, self.reduced.modes.numel() > guards.n_modes
-        return Layout(guards.n_switches, discretes, len(closing.closures), int(moves), closing.entries.shape[1])
+        guards, constraints = self.guards, self.constraints
+        moves = self.reduced.constants.numel() > guards.n_switches + guards.n_discretes
+        return Layout(
+            guards.n_switches, guards.n_discretes, len(constraints.closures), int(moves), constraints.entries.shape[1]
+        )
 
     @cached_property
     def guards(self) -> Guards:
@@ -220,7 +222,7 @@ class CompiledModel:
     ) -> Call:
         """Return the integrator for a relative grid and options, built once.
 
-        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the modes are its parameters; if it is
+        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the constants are its parameters; if it is
         not IDAS, so are the sizes of the states.
         """
         chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
@@ -253,17 +255,17 @@ class CompiledModel:
 
     @cached_property
     def power(self) -> Rowwise:
-        """Function of x, z, parameters, time and modes: supplied and dissipated power."""
+        """Function of x, z, parameters, time and constants: supplied and dissipated power."""
         return Rowwise(ca.Function("power", self.arguments[:-1], [ca.densify(self.powers)]))
 
     @cached_property
     def rates(self) -> Rowwise:
-        """Function of x, z, parameters, time and modes: derivatives of the states."""
+        """Function of x, z, parameters, time and constants: derivatives of the states."""
         return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
     def stored(self) -> Call:
-        """Function of x, z, parameters, time and modes: stored energy."""
+        """Function of x, z, parameters, time and constants: stored energy."""
         energy = self.reduced.running.resolve(self.reduced.flat.energies["stored_energy"])
         return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(energy)]))
 

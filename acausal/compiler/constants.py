@@ -23,7 +23,7 @@ class Constants:
     moves : bool or None
         Whether D are factors of the constraint Jacobian, which moves along, or numbers; None where nothing is constrained.
     D : array
-        Directions along which coordinates are projected on the constraints, see `Closing.entries`.
+        Directions along which coordinates are projected on the constraints, see `Constraints.entries`.
     """
 
     switches: np.ndarray
@@ -34,7 +34,7 @@ class Constants:
 
     @cached_property
     def vector(self) -> np.ndarray:
-        """All of them, in the order of `ReducedModel.modes`."""
+        """All of them, in the order of `ReducedModel.constants`."""
         moves = [] if self.moves is None else [float(self.moves)]
         return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D])
 

@@ -14,7 +14,7 @@ UNSEEN = 1e10
 def make_dae(
     reduced: ReducedModel, hoisted: tuple[ca.SX, ca.SX, ca.SX], quadratures: bool, moves: bool
 ) -> dict[str, ca.SX]:
-    """Write the equations in s, where time is t0 + s T; t0, T, what follows from parameters and modes are parameters.
+    """Write the equations in s, where time is t0 + s T; t0, T, what follows from parameters and constants are parameters.
 
     Parameters
     ----------
@@ -28,11 +28,11 @@ def make_dae(
         Whether the projection of closed loops moves.
     """
     (column, values, _), nx, nz = hoisted, reduced.x.numel(), reduced.z.numel()
-    column = ca.substitute(column, reduced.closing.moves, moves)
+    column = ca.substitute(column, reduced.projections.moves, moves)
     s, t0, T = ca.SX.sym("s"), ca.SX.sym("t0"), ca.SX.sym("T")
     column = ca.substitute(column, time.sx, t0 + s * T)
     ode, alg, powers = ca.vertsplit(column, [0, nx, nx + nz, column.numel()])
-    p = ca.vertcat(t0, T, values, reduced.modes)
+    p = ca.vertcat(t0, T, values, reduced.constants)
     dae = {"x": reduced.x, "z": reduced.z, "p": p, "t": s, "ode": T * ode, "alg": alg}
     return {**dae, "quad": T * powers} if quadratures else dae
 

@@ -34,16 +34,16 @@ class Guards:
         Guards that compare time and parameters and nothing else: their instants are found before.
     watched : list of int
         All others.
-    n_switches, n_modes : int
-        Modes of the switches come first in the vector of modes, discrete variables up to `n_modes` next.
+    n_switches, n_discretes : int
+        Switches come first in the vector of constants, discrete variables next.
     """
 
     def __init__(self, reduced: ReducedModel, start: ca.Function) -> None:
         changing = reduced.flat.discontinuities
         self.reduced, self.guards, self._start = reduced, changing.guards, start
         self._dependence = reduced.dependence
-        self.n_switches, self.n_modes = len(changing.switches), changing.modes.numel()
-        self.arguments = [reduced.x, reduced.z, reduced.p, time.sx, reduced.modes]
+        self.n_switches, self.n_discretes = len(changing.switches), len(changing.discretes)
+        self.arguments = [reduced.x, reduced.z, reduced.p, time.sx, reduced.constants]
         self._excess = self._resolve([g.excess for g in self.guards])
         known = {s.element_hash() for s in scalars(ca.vertcat(*self.arguments))}
         for guard, excess in zip(self.guards, scalars(self._excess), strict=True):
@@ -105,8 +105,8 @@ class Guards:
 
     @cached_property
     def planned(self) -> Call:
-        """Function of parameters and modes: instants of comparisons of time with discrete variables, until these change."""
-        return Call(ca.Function("planned", [self.reduced.p, self.reduced.modes], [self._planned[1]]))
+        """Function of parameters and constants: instants of comparisons of time with discrete variables, until these change."""
+        return Call(ca.Function("planned", [self.reduced.p, self.reduced.constants], [self._planned[1]]))
 
     @property
     def plans(self) -> list[tuple[int, bool]]:
@@ -119,38 +119,38 @@ class Guards:
 
     @cached_property
     def guess(self) -> Call:
-        """Function of parameters and time: modes and discrete variables, exact where only time decides."""
+        """Function of parameters and time: switches and discrete variables, exact where only time decides."""
         r = self.reduced
         head = self._head()
         starts = self._start(r.p, time.sx) if head.numel() else ca.SX(0, 1)
-        modes = ca.SX.zeros(r.modes.numel())
+        known = ca.SX.zeros(r.constants.numel())
         for k in self.timed:
             if k < self.n_switches:
-                modes[k] = head[k]
-        head = ca.substitute([head], [r.modes], [modes])[0] if head.numel() else head
+                known[k] = head[k]
+        head = ca.substitute([head], [r.constants], [known])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
-        return Call(ca.Function("modes", [r.p, time.sx], [ca.densify(head)]))
+        return Call(ca.Function("guess", [r.p, time.sx], [ca.densify(head)]))
 
     @cached_property
     def start(self) -> Call:
-        """Function of x, z, parameters, time and modes: modes and discrete variables that fit these values."""
+        """Function of x, z, parameters, time and constants: switches and discrete variables that fit these values."""
         return Call(ca.Function("start", self.arguments, [ca.densify(self._head())]))
 
     def _head(self) -> ca.SX:
-        switches = scalars(self._excess)[: self.n_switches]
+        excesses = scalars(self._excess)[: self.n_switches]
         inclusive = [guard.inclusive for guard in self.guards]
-        modes = [e <= 0 if inside else e < 0 for e, inside in zip(switches, inclusive, strict=False)]
+        switches = [e <= 0 if inside else e < 0 for e, inside in zip(excesses, inclusive, strict=False)]
         discretes = [start for _, start in self.reduced.flat.discontinuities.discretes]
-        return ca.vertcat(ca.SX(0, 1), *modes, self._resolve(discretes))
+        return ca.vertcat(ca.SX(0, 1), *switches, self._resolve(discretes))
 
     @cached_property
     def continuous(self) -> Call:
-        """Function of x, z, parameters, time, modes and new modes: what is differentiated, and so must not jump.
+        """Function of x, z, parameters, time, constants and new constants: what is differentiated, and so must not jump.
 
-        All unknowns are those before the instant; the switches of the entries themselves take the new modes.
+        All unknowns are those before the instant; the switches of the entries themselves take the new values.
         """
-        new = ca.SX.sym("new", self.reduced.modes.numel())
-        entries = ca.substitute([e for e, _ in self._entries], [self.reduced.modes], [new])
+        new = ca.SX.sym("new", self.reduced.constants.numel())
+        entries = ca.substitute([e for e, _ in self._entries], [self.reduced.constants], [new])
         return Call(ca.Function("continuous", [*self.arguments, new], [self._resolve(entries)]))
 
     @property
@@ -164,7 +164,7 @@ class Guards:
 
     @cached_property
     def scale(self) -> Call:
-        """Function of x, z, parameters, time, modes and nominal changes: how much these change each watched excess."""
+        """Function of x, z, parameters, time, constants and nominal changes: how much these change each watched excess."""
         J = ca.jacobian(self._excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
         nominal = ca.SX.sym("nominal", J.shape[1])
         return Call(ca.Function("scale", [*self.arguments, nominal], [ca.densify(ca.fabs(J) @ nominal)]))
@@ -177,7 +177,7 @@ class Guards:
         """
         r, excess = self.reduced, self._excess[self.watched]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
-        unknowns, equations = (k.tolist() for k in self._dependence.closure(self._dependence.inside(excess)))
+        unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))
         z, own = r.z[unknowns], r.running.alg[equations]
         direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
         return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
@@ -189,7 +189,7 @@ class Guards:
 
     @cached_property
     def _rates(self) -> ca.Function:
-        """Function of x, z, parameters, time and modes: watched excesses and their time derivatives."""
+        """Function of x, z, parameters, time and constants: watched excesses and their time derivatives."""
         excess, (direct, by_z, inner, follows) = self._excess[self.watched], self._motion
         if not by_z.shape[1]:
             return ca.Function("rates", self.arguments, [excess, direct])
@@ -199,13 +199,13 @@ class Guards:
         return ca.Function("rates", inputs, [value, rate - J @ ca.solve(own, right, "qr")])
 
     def along(
-        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray
+        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return watched excesses and their time derivatives, a row for each time."""
         n = len(t)
         if n not in self._maps:
             self._maps[n] = Call(self._rates.map(n))
-        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(modes, n))
+        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(constants, n))
         return value.reshape(n, -1).copy(), np.nan_to_num(rate.reshape(n, -1), posinf=0.0, neginf=0.0)
 
     @cached_property
@@ -213,7 +213,7 @@ class Guards:
         return {}
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
-        """Function of x, z, parameters, time and modes: new values; and for each whether it is a state, and which."""
+        """Function of x, z, parameters, time and constants: new values; and for each whether it is a state, and which."""
         return self._jumps[guard]
 
     @cached_property

@@ -22,7 +22,7 @@ class Pass:
     linear : bool
         Whether one step is enough, up to rounding.
     function : Rowwise
-        From x, z, parameters, time and modes: these unknowns after the step.
+        From x, z, parameters, time and constants: these unknowns after the step.
     """
 
     unknowns: np.ndarray
@@ -51,7 +51,7 @@ def make_passes(
 
 
 def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: np.ndarray) -> ca.Function:
-    """From x, z, parameters, time and modes: z after a Newton step in the unknowns of a level."""
+    """From x, z, parameters, time and constants: z after a Newton step in the unknowns of a level."""
     rows, columns = list(level.equations), list(level.variables)
     parts = ca.Function("part", arguments, ca.cse([ca.densify(alg[rows]), J[rows, columns]]))
     given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]

@@ -12,7 +12,7 @@ AT_ONCE = 16
 
 
 class Rowwise:
-    """A function of x, z, parameters, time and modes, with one result.
+    """A function of x, z, parameters, time and constants, with one result.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class Rowwise:
         self.function = function
         self._calls: dict[int, Call] = {}
 
-    def __call__(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    def __call__(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Return one row for each time; nan where the evaluation failed, and in those evaluated with it.
 
         Parameters
@@ -35,11 +35,11 @@ class Rowwise:
             Parameters.
         t : array, shape (n,)
             Times in s.
-        modes : array, shape (m,) or (n, m)
+        constants : array, shape (m,) or (n, m)
             Constants of the segment, or of that of each time.
         """
         n = len(t)
-        modes = np.broadcast_to(modes, (n, modes.shape[-1]))
+        constants = np.broadcast_to(constants, (n, constants.shape[-1]))
         size = AT_ONCE if n > 1 else 1
         if size not in self._calls:
             self._calls[size] = Call(self.function.map(size))
@@ -48,7 +48,7 @@ class Rowwise:
         with quiet():
             for first in range(0, n, size):
                 rows = np.minimum(np.arange(first, first + size), n - 1)
-                given = (x[rows], z[rows], np.tile(p, size), t[rows], modes[rows])
+                given = (x[rows], z[rows], np.tile(p, size), t[rows], constants[rows])
                 for array, value in zip(call.inputs, given, strict=True):
                     array[:] = value.ravel()
                 if call.succeeds():

@@ -85,7 +85,7 @@ class Assembly:
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
         self.symbols = ca.vertcat(*chain.levels)
         self.discontinuities = FlatDiscontinuities(
-            tuple(mode for mode, _ in raw.pending.switches),
+            tuple(switch for switch, _ in raw.pending.switches),
             guards(raw.pending, raw.discretes, resolved),
             tuple(zip([ca.vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
             tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
@@ -121,7 +121,7 @@ class Assembly:
     def _simplified(self) -> _Left:
         """Propagate constants and aliases."""
         own = column(self.raw.build.parameters.symbols)
-        tape = Tape(self.symbols, ca.vertcat(own, time.sx, initial.sx, self.discontinuities.modes), self.residuals)
+        tape = Tape(self.symbols, ca.vertcat(own, time.sx, initial.sx, self.discontinuities.constants), self.residuals)
         present = set(tape.input) | self._asked()
         done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes).run()
         self._refuse_contradictions(done)

@@ -63,7 +63,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
         _run(component, component.equations, found, most)
         for name, value in component._values.items():
             declared = component.fields[name]
-            if isinstance(declared, f.Variable) and not isinstance(value, f.Start):
+            if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
                 origin = Origin(component._path, type(component).__name__, component._origin, f"{name}=...")
                 with_place(
                     lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin

@@ -34,7 +34,7 @@ class Discrete:
     def start(self) -> ca.SX:
         """Value at the start, a column; the variables of the owner must exist by now."""
         given = self.owner._values.get(self.declared.name)
-        value = given.value if isinstance(given, f.Start) else f.evaluate(self.declared.start, self.owner)
+        value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
         given = as_expr(value)
         sx = ca.densify(ca.vec(given.sx))
         size = self.expr.sx.numel()

@@ -45,7 +45,7 @@ class FlatClosure:
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that is cut: the connection, its components, and what of its closing equations said nothing new.
+    """A loop that is cut: the connection, its components, and what of its closures said nothing new.
 
     Parameters
     ----------
@@ -181,9 +181,9 @@ class FlatDiscontinuities:
     Parameters
     ----------
     switches : tuple of casadi.SX
-        Symbols of the modes of the switches.
+        Symbols of the switches.
     guards : tuple of Guard
-        Conditions that are watched: one for each switch, whose mode is 1 while it holds, then one for each statement of
+        Conditions that are watched: one for each switch, which is 1 while it holds, then one for each statement of
         jumps.
     discretes : tuple of (casadi.SX, casadi.SX)
         Symbols of the discrete variables, and their values at the start.
@@ -200,8 +200,8 @@ class FlatDiscontinuities:
     promises: tuple[Promise, ...]
 
     @property
-    def modes(self) -> ca.SX:
-        """Symbols that are constant between instants: modes of the switches, then discrete variables."""
+    def constants(self) -> ca.SX:
+        """Symbols that are constant between instants: switches, then discrete variables."""
         return ca.vertcat(ca.SX(0, 1), *self.switches, *[symbol for symbol, _ in self.discretes])
 
 

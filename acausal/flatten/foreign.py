@@ -76,7 +76,7 @@ def _known(raw: Said) -> set[int]:
     """Hashes of all symbols that a model may use."""
     pending = raw.pending
     columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx]
-    columns += [mode for mode, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
+    columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
     return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
 
 

@@ -64,14 +64,14 @@ class Simplifier:
         self.rank = rank
         self.result = Simplification(self.up, rank, tape.solved)
         self.extra: list[tuple[Linear, int]] = []
-        self.closed: set[int] = set(self.substitutes.values())
+        self.done: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
         """Propagate until nothing changes."""
         queue = list(range(len(self.tape.residual)))
         while queue:
             for row in sorted(set(queue)):
-                if row not in self.closed:
+                if row not in self.done:
                     self._visit(row)
             left = []
             while self.extra:
@@ -108,16 +108,16 @@ class Simplifier:
         if value is None:
             return
         if not value[1]:
-            self.closed.add(row)
+            self.done.add(row)
             if abs(value[0]) > ZERO:
                 self.result.contradictions.append((row, value[0]))
             else:
                 self.result.redundant.append(row)
                 if row in self.substitutes:
-                    self.closed.discard(self.substitutes[row])
+                    self.done.discard(self.substitutes[row])
                     self._visit(self.substitutes[row])
         elif row not in self.substitutes and self._assign(value, row):
-            self.closed.add(row)
+            self.done.add(row)
 
     def _assign(self, value: Linear, row: int, derived: bool = False) -> bool:
         """Use `value == 0`, the residual `row` or its derivative, to remove an unknown; False if none may be removed."""

@@ -140,8 +140,8 @@ def spanning_tree(
             f"{_owner_of(lost[0])}: {lost[0]._path} has no connection to a root such as the World, nor to a body that "
             f"could move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
-    closing = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
-    return [Cut(c, where, tree.loop(c)) for c, where in closing], chosen
+    cut = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
+    return [Cut(c, where, tree.loop(c)) for c, where in cut], chosen
 
 
 def _owner_of(connector: Connector) -> Origin:

@@ -95,7 +95,11 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
     symbol = ca.SX.sym(path, *shape)
     expr = Expr(symbol, unit_of(declared, owner), path)
     given = owner._values.get(name)
-    start = given if isinstance(given, f.Start) else f.Start(f.evaluate(declared.start, owner), declared.fixed)
+    start = (
+        given
+        if isinstance(given, f.InitialValue)
+        else f.InitialValue(f.evaluate(declared.start, owner), declared.fixed)
+    )
     nominal = declared.nominal(owner) if callable(declared.nominal) else declared.nominal
     nominal = start.nominal if start.nominal is not None else nominal
     arrays.append(
@@ -106,7 +110,7 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
             owner,
             _fill(start.value, shape, expr, "start"),
             start.fixed,
-            isinstance(given, f.Start),
+            isinstance(given, f.InitialValue),
             _fill(1.0 if nominal is None else nominal, shape, expr, "nominal"),
             nominal is not None,
         )

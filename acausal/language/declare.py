@@ -8,12 +8,12 @@ from typing import Any
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
+    InitialValue,
     Observed,
     Outer,
     Parameter,
     Part,
     Shape,
-    Start,
     Structural,
     Variable,
 )
@@ -29,7 +29,7 @@ def fixed(value: Any, *, nominal: Any = None) -> Any:
     nominal : float or array, optional
         Typical size of the variable, in its unit.
     """
-    return Start(value, True, nominal)
+    return InitialValue(value, True, nominal)
 
 
 def guess(value: Any, *, nominal: Any = None) -> Any:
@@ -42,7 +42,7 @@ def guess(value: Any, *, nominal: Any = None) -> Any:
     nominal : float or array, optional
         Typical size of the variable, in its unit.
     """
-    return Start(value, False, nominal)
+    return InitialValue(value, False, nominal)
 
 
 def structural(

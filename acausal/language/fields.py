@@ -105,15 +105,15 @@ def evaluate(value: Any, owner: Any) -> Any:
         return value.evaluate(owner)
     if isinstance(value, Condition):
         return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind))
-    if isinstance(value, Start):
-        return Start(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
+    if isinstance(value, InitialValue):
+        return InitialValue(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
     if type(value) in (list, tuple):
         return type(value)(evaluate(item, owner) for item in value)
     return value
 
 
 @dataclass(frozen=True)
-class Start:
+class InitialValue:
     """A start value; `fixed` makes it an equation of the initial system, otherwise it is a guess."""
 
     value: Any

@@ -28,7 +28,7 @@ class Pending:
     """What equations ask for while a model is flattened: derivatives, switching conditions and jumps.
 
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (mode, condition): `mode` is 1 while the condition holds; `places` tells where each is stated.
+    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` tells where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
     `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.
@@ -50,14 +50,14 @@ class Pending:
         self.promises: list[tuple[Condition, ca.SX, ca.SX]] = []
         self.promised: list[Any] = []
 
-    def mode(self, condition: Condition) -> ca.SX:
-        """Return the mode of a condition, the same for the same condition; one on discrete variables is its own."""
+    def switch(self, condition: Condition) -> ca.SX:
+        """Return the switch of a condition, the same for the same condition; one on discrete variables is its own."""
         if not self.watches or all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
             return _truth(condition)
-        for mode, other in self.switches:
+        for switch, other in self.switches:
             if other.kind == condition.kind and ca.is_equal(other.excess.sx, condition.excess.sx, 9):
-                return mode
-        self.switches.append((ca.SX.sym("mode"), condition))
+                return switch
+        self.switches.append((ca.SX.sym("switch"), condition))
         return self.switches[-1][0]
 
     def place(self, origin: Any) -> None:
@@ -77,7 +77,7 @@ class Pending:
         """Return a placeholder for the derivative of an expression."""
         placeholder = ca.SX.sym("der", *x.shape)
         self.derivatives.append((placeholder, x))
-        switching = self.discrete | {mode.element_hash() for mode, _ in self.switches}
+        switching = self.discrete | {switch.element_hash() for switch, _ in self.switches}
         if switching and any(s.element_hash() in switching for s in ca.symvar(x)):
             self.differentiated.append(x)
         return placeholder
@@ -149,7 +149,7 @@ def sign(x: Any) -> Any:
 
 
 def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
-    return pending.mode(Condition(-x, "<")) - pending.mode(Condition(x, "<"))
+    return pending.switch(Condition(-x, "<")) - pending.switch(Condition(x, "<"))
 
 
 @_deferrable
@@ -256,8 +256,8 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
         unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
         steps.insert(0, (condition, choice.sx - value.sx))
-        mode = _truth(condition) if smooth else _pending("piecewise").mode(condition)
-        value = Expr(ca.if_else(mode, choice.sx, value.sx), unit)
+        holds = _truth(condition) if smooth else _pending("piecewise").switch(condition)
+        value = Expr(ca.if_else(holds, choice.sx, value.sx), unit)
     if smooth and (pending := PENDING.get(None)):
         pending.promise(steps, value.sx)
     return value

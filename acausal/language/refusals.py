@@ -129,7 +129,7 @@ def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
     if isinstance(value, f.Part) or holds_parts(value):
         return [name for name, field in inherited.items() if isinstance(field, f.Part)]
     plain = int | float | complex | str | list | tuple | dict | np.ndarray | np.generic | None
-    if isinstance(value, plain | f.Start | f.Deferrable | Condition | Expr):
+    if isinstance(value, plain | f.InitialValue | f.Deferrable | Condition | Expr):
         return [*inherited, *cls._settings]
     return []
 
@@ -146,13 +146,13 @@ def _by_path(path: str, field: f.Field | None, value: Any, compiled: bool = Fals
 
 
 def _start(field: f.Field, value: Any) -> str:
-    needs = isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.Start)
+    needs = isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue)
     return f"fixed({shown(value)})" if needs else shown(value)
 
 
 def shown(value: Any) -> str:
     """Return a value as it is written in code, `...` where that is long."""
-    if isinstance(value, f.Start):
+    if isinstance(value, f.InitialValue):
         return f"{'fixed' if value.fixed else 'guess'}({shown(value.value)})"
     if isinstance(value, f.Template):
         given = vars(value).get("_values", {}).items()

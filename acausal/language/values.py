@@ -31,12 +31,12 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
-    if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.Start):
+    if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue):
         raise DeclarationError(
             f"{where} is a variable: write {name}=fixed({value!r}) for a value at the start, "
             f"or {name}=guess({value!r}) for a guess."
         )
-    if isinstance(value, f.Start) and not isinstance(field, f.Variable):
+    if isinstance(value, f.InitialValue) and not isinstance(field, f.Variable):
         raise DeclarationError(f"{where} is no variable: it takes a value, not fixed(...) or guess(...).")
     return value
 

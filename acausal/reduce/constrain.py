@@ -15,13 +15,13 @@ FEEDBACK = 1.0  # in 1/s: how fast what is integrated returns to what the constr
 
 
 @dataclass(frozen=True)
-class Closing:
-    """The constraints in terms of what is integrated, and what is chosen for them.
+class Projections:
+    """The projections on the constraints, these in terms of what is integrated, and what is chosen for both.
 
     Parameters
     ----------
-    residuals : casadi.SX
-        The equations at all their levels, without the projection: coordinates are what is integrated.
+    constraints : casadi.SX
+        Residuals of the constraints at all their levels, without the projection: coordinates are what is integrated.
     choice : casadi.SX
         Numbers that are chosen when values are known: for each closure 1 if it says something new; 1 if D moves with the
         constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
@@ -34,7 +34,7 @@ class Closing:
         The entry of the choice that tells whether D moves.
     """
 
-    residuals: ca.SX
+    constraints: ca.SX
     choice: ca.SX
     coordinates: ca.SX
     states: ca.SX
@@ -48,7 +48,7 @@ def constrain(
     elements: list[ca.SX],
     residuals: list[ca.SX],
     explicit: dict[tuple[int, int], ca.SX],
-) -> Closing:
+) -> Projections:
     """Change the residuals of closures, append those of projections, and return the constraints themselves.
 
     Parameters
@@ -68,7 +68,7 @@ def constrain(
     coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
     states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
     bare, following = _bare(plan, elements, residuals, explicit)
-    switches = _switch(flat, plan, elements, residuals)
+    counts = _counting(flat, plan, elements, residuals)
     bare, following = ca.substitute([bare, following], [coordinates], [states])
     moves, D = ca.SX.sym("moves"), []
     row_of = {m: k for k, m in enumerate(m for c in plan.constrained.constraints for m in c.multipliers)}
@@ -85,22 +85,22 @@ def constrain(
         one = ca.SX(1)
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
-    choice = ca.vertcat(*switches, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
-    return Closing(bare, choice, coordinates, states, following, moves)
+    choice = ca.vertcat(*counts, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
+    return Projections(bare, choice, coordinates, states, following, moves)
 
 
-def _switch(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a switch, which is 0 where it says nothing new: what works on it is 0 then."""
+def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
+    """Give each closure a symbol, 1 where it counts, 0 where it says nothing new: what works on it is 0 then."""
     duals = {c.row: c.dual for c in flat.loops.closures}
-    switches = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
+    counts = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
     for constraint in plan.constrained.constraints:
-        on = switches.get(constraint.base)
+        on = counts.get(constraint.base)
         if on is None:
             continue
         for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
             residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
         residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
-    return list(switches.values())
+    return list(counts.values())
 
 
 def _bare(

@@ -35,7 +35,7 @@ class Dependence:
         found = (self._place.get(s.element_hash()) for s in ca.symvar(expression))
         return {k for k in found if k is not None}
 
-    def closure(self, wanted: Iterable[int]) -> tuple[np.ndarray, np.ndarray]:
+    def needed(self, wanted: Iterable[int]) -> tuple[np.ndarray, np.ndarray]:
         """Return all unknowns that must be solved for to know the wanted ones, ascending, and their equations."""
         stack = list(wanted)
         seen = set(stack)

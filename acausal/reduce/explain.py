@@ -7,7 +7,7 @@ from collections import Counter
 from acausal.flatten import FlatModel
 from acausal.flatten.tree import join, walk
 from acausal.language.fields import Variable
-from acausal.structure import Part, StructuralSingularity
+from acausal.structure import StructuralSingularity, Subsystem
 
 MOST = 10
 
@@ -56,7 +56,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     return "\n".join(lines)
 
 
-def _hints(flat: FlatModel, part: Part) -> list[str]:
+def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
     """Ports without a connection and inputs without a value, of the components that the unknowns belong to."""
     names = [flat.unknowns.names[v].removeprefix("der(") for v in part.variables]
     ports = [p for p in flat.unconnected if any(n.startswith(f"{p}.") for n in names)]
@@ -73,7 +73,7 @@ def _hints(flat: FlatModel, part: Part) -> list[str]:
     return lines
 
 
-def _names(flat: FlatModel, part: Part) -> str:
+def _names(flat: FlatModel, part: Subsystem) -> str:
     known = flat.unknowns.names
     written = [v for v in part.variables if v < len(known)]
     names = [f"`{known[v]}`" for v in written[:MOST]]
@@ -81,7 +81,7 @@ def _names(flat: FlatModel, part: Part) -> str:
     return ", ".join(names) + (f" and {more} more" if more > 0 else "")
 
 
-def _equations(flat: FlatModel, part: Part) -> list[str]:
+def _equations(flat: FlatModel, part: Subsystem) -> list[str]:
     origins = flat.equations.origins
     written = Counter(str(origins[e]) for e in part.equations if e < len(origins))
     rows = [f"  {line}{f' ({n} entries)' if n > 1 else ''}" for line, n in list(written.items())[:MOST]]

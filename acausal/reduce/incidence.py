@@ -33,7 +33,7 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
     residuals, unknowns : casadi.SX
         Columns.
     others : casadi.SX
-        What else a coefficient must not depend on: time, modes.
+        What else a coefficient must not depend on: time, constants.
     """
     J = ca.sparsify(ca.jacobian(residuals, unknowns))
     entries: list[Any] = J.nonzeros()
@@ -50,8 +50,8 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
 
 def system_of(flat: FlatModel) -> tuple[System, Linear]:
     """Return the System of a flat model, and its Jacobian."""
-    unknowns, modes = flat.unknowns, flat.discontinuities.modes
-    linear = jacobian(flat.equations.residuals, unknowns.symbols, ca.vertcat(time.sx, initial.sx, modes))
+    unknowns, constants = flat.unknowns, flat.discontinuities.constants
+    linear = jacobian(flat.equations.residuals, unknowns.symbols, ca.vertcat(time.sx, initial.sx, constants))
     explicit: list[set[int]] = [set() for _ in linear.rows]
     monic: list[set[int]] = [set() for _ in linear.rows]
     for (i, j), coefficient in linear.explicit.items():
@@ -61,7 +61,7 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
     declared: dict[int, tuple[int, ...]] = {}
     if unknowns.declared:
         column = ca.vertcat(*unknowns.declared.values())
-        function = ca.Function("declared", [unknowns.symbols, time.sx, flat.parameters.symbols, modes], [column])
+        function = ca.Function("declared", [unknowns.symbols, time.sx, flat.parameters.symbols, constants], [column])
         pattern = function.jac_sparsity(0, 0)
         found: list[list[int]] = [[] for _ in unknowns.declared]
         for i, j in zip(*pattern.get_triplet(), strict=True):

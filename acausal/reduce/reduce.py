@@ -60,7 +60,7 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
     unknowns = ca.vertcat(flat.unknowns.symbols, *created)
     residuals, explicit = _differentiate(flat, plan, unknowns, linear)
     elements = scalars(unknowns)
-    closing = constrain(flat, plan, elements, residuals, explicit)
+    projections = constrain(flat, plan, elements, residuals, explicit)
 
     def solved(pairs: tuple[tuple[int, int], ...]) -> tuple[ca.SX, ca.SX]:
         symbols = ca.vertcat(*[elements[v] for v, _ in pairs])
@@ -76,18 +76,18 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
     continuous = flat.discontinuities.continuous + _switching(flat, plan, residuals)
-    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, closing, continuous)
+    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, projections, continuous)
 
 
 def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tuple[ca.SX, Origin], ...]:
     """Residuals that are differentiated and that switches change."""
-    modes, origins = flat.discontinuities.modes, flat.equations.origins
-    if not modes.numel():
+    constants, origins = flat.discontinuities.constants, flat.equations.origins
+    if not constants.numel():
         return ()
     source = [*range(len(origins)), *plan.differentiated]
     found = []
     for row in dict.fromkeys(plan.differentiated):
-        if ca.depends_on(residuals[row], modes):
+        if ca.depends_on(residuals[row], constants):
             first = row
             while first >= len(origins):
                 first = source[first]
@@ -128,7 +128,7 @@ def _differentiate(
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
     residuals, explicit = scalars(flat.equations.residuals), dict(linear.explicit)
     first, total = len(residuals), len(residuals) + len(plan.differentiated)
-    modes = flat.discontinuities.modes
+    constants = flat.discontinuities.constants
     while len(residuals) < total:
         start = len(residuals)
         sources = list(plan.differentiated[start - first :])
@@ -136,6 +136,6 @@ def _differentiate(
         level = ca.vertcat(*[residuals[e] for e in sources[:ready]])
         derivative = ca.densify(ca.jtimes(level, at, direction))
         residuals.extend(scalars(derivative))
-        coefficients = jacobian(derivative, unknowns, ca.vertcat(time.sx, initial.sx, modes)).explicit
+        coefficients = jacobian(derivative, unknowns, ca.vertcat(time.sx, initial.sx, constants)).explicit
         explicit.update({(start + i, j): c for (i, j), c in coefficients.items()})
     return residuals, explicit

@@ -10,7 +10,7 @@ import casadi as ca
 from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
 from acausal.language.functions import initial
-from acausal.reduce.constrain import Closing
+from acausal.reduce.constrain import Projections
 from acausal.reduce.dependence import Dependence
 from acausal.structure import Plan
 
@@ -26,7 +26,7 @@ class Running:
     ode, alg : casadi.SX
         Its equations.
     constraints, following : casadi.SX
-        Residuals of its constraints, and values that follow from states; see `Closing`.
+        Residuals of its constraints, and values that follow from states; see `Projections`.
     """
 
     reduced: ReducedModel
@@ -58,8 +58,8 @@ class ReducedModel:
         States, algebraic unknowns and the equations of the integrated system.
     definitions : (casadi.SX, casadi.SX)
         Unknowns that were assigned or are observed, in order of evaluation, and what they are.
-    closing : Closing
-        Constraints that hold at several levels.
+    projections : Projections
+        Projections on the constraints, which hold at several levels.
     continuous : tuple of (casadi.SX, Origin)
         What is differentiated although switches change it: it must not jump.
     """
@@ -73,7 +73,7 @@ class ReducedModel:
     ode: ca.SX
     alg: ca.SX
     definitions: tuple[ca.SX, ca.SX]
-    closing: Closing
+    projections: Projections
     continuous: tuple[tuple[ca.SX, Origin], ...]
 
     @property
@@ -92,14 +92,14 @@ class ReducedModel:
         return tuple(self.names[k] for k in self.plan.algebraic)
 
     @cached_property
-    def modes(self) -> ca.SX:
-        """Constants of a segment of integration: modes of the switches, discrete variables, then the choice."""
-        return ca.vertcat(self.flat.discontinuities.modes, self.closing.choice)
+    def constants(self) -> ca.SX:
+        """Constants of a segment of integration: switches, discrete variables, then the choice."""
+        return ca.vertcat(self.flat.discontinuities.constants, self.projections.choice)
 
     @cached_property
     def running(self) -> Running:
         """The model where the flag of the initial system is 0."""
-        equations = [self.ode, self.alg, self.closing.residuals, self.closing.following]
+        equations = [self.ode, self.alg, self.projections.constraints, self.projections.following]
         return Running(self, *ca.substitute(equations, [initial.sx], [ca.SX(0)]))
 
     @cached_property
@@ -126,5 +126,5 @@ class ReducedModel:
         was, becomes = self.flat.unknowns.eliminated
         first = ca.substitute([expression], [was], [becomes])
         if unprojected:
-            first = ca.substitute(first, [self.closing.coordinates], [self.closing.states])
+            first = ca.substitute(first, [self.projections.coordinates], [self.projections.states])
         return ca.substitute(first, [self.definitions[0]], [self._resolved])[0]

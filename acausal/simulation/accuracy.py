@@ -16,7 +16,7 @@ import numpy as np
 from acausal.errors import SimulationError
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
-from acausal.simulation.trials import Choice, Trials
+from acausal.simulation.runs import Numerics, Runs
 
 # Tolerances tried first, in parts of the accuracy; the loosest and the smallest.
 FIRST, LOOSEST, SMALLEST = 1e-2, 1e-3, 1e-12
@@ -31,21 +31,21 @@ FAILURES, STUCK = 3, 0.8
 
 @dataclass(frozen=True)
 class State:
-    """A choice with its run and the estimate of its error."""
+    """Numerics with their run and the estimate of its error."""
 
-    choice: Choice
+    numerics: Numerics
     result: Result
     estimate: Estimate
 
 
-def reach(accuracy: float, trials: Trials) -> Result:
+def reach(accuracy: float, runs: Runs) -> Result:
     """Return a run whose estimated errors are at most `accuracy`.
 
     Parameters
     ----------
     accuracy : float
         Largest error of each output in parts of its range.
-    trials : Trials
+    runs : Runs
         Runs of the model.
 
     Raises
@@ -53,11 +53,11 @@ def reach(accuracy: float, trials: Trials) -> Result:
     SimulationError
         If no such run is found; its `result` is the best one.
     """
-    search = Search(accuracy, trials)
+    search = Search(accuracy, runs)
     try:
         return search.report(search.go())
     except KeyboardInterrupt as interrupt:
-        complete = [found for found in trials.results.values() if isinstance(found, Result)]
+        complete = [found for found in runs.results.values() if isinstance(found, Result)]
         if search.best:
             interrupt.result = search.report(search.best)  # type: ignore[attr-defined]
         elif complete:
@@ -66,18 +66,18 @@ def reach(accuracy: float, trials: Trials) -> Result:
 
 
 class Search:
-    """Search for a choice that is accurate enough.
+    """Search for numerics that are accurate enough.
 
     Parameters
     ----------
     accuracy : float
         Largest error of each output in parts of its range.
-    trials : Trials
+    runs : Runs
         Runs of the model.
     """
 
-    def __init__(self, accuracy: float, trials: Trials) -> None:
-        self.accuracy, self.trials = accuracy, trials
+    def __init__(self, accuracy: float, runs: Runs) -> None:
+        self.accuracy, self.runs = accuracy, runs
         exponent = np.floor(np.log10(FIRST * accuracy) + 1e-9)
         self.first = float(np.clip(_tenth(10.0**exponent, 0), 10 * SMALLEST, LOOSEST))
         self.best: State | None = None
@@ -86,31 +86,31 @@ class Search:
 
     def go(self) -> State:
         """Refine what causes the larger error until the estimate is small enough."""
-        task = self.trials.task
-        choice = Choice(FEWEST if self.trials.adaptive else 0, self.first, task.method, task.max_order)
+        task = self.runs.task
+        numerics = Numerics(FEWEST if self.runs.adaptive else 0, self.first, task.method, task.max_order)
         while True:
-            choice = self._way(choice)
-            state = self._state(choice)
+            numerics = self._way(numerics)
+            state = self._state(numerics)
             if state is None:
-                choice = self._past_failure(choice)
+                numerics = self._past_failure(numerics)
                 continue
             if self.best is None or state.estimate.total < self.best.estimate.total:
                 self.best = state
             if state.estimate.total <= self.accuracy:
                 return state
-            choice = self._refined(state)
+            numerics = self._refined(state)
 
     def report(self, state: State) -> Result:
         """Return the run with what was chosen, estimated and tried in its stats."""
         found = state.estimate
         chosen = {
-            "tolerance": state.choice.tolerance,
+            "tolerance": state.numerics.tolerance,
             "max_order": state.result.stats.max_order,
-            "method": state.choice.method,
-            "sizes": self.trials.sizes(state.choice.number),
+            "method": state.numerics.method,
+            "sizes": self.runs.sizes(state.numerics.number),
         }
         return state.result.with_stats(
-            **self.trials.seconds(),
+            **self.runs.seconds(),
             accuracy=self.accuracy,
             accuracy_reached=found.total <= self.accuracy,
             error_estimate=found.total,
@@ -118,50 +118,50 @@ class Search:
             error_tolerance=found.tolerance,
             error_elements=found.elements,
             error_estimates=found.outputs,
-            elements_kept=self.trials.keeps_elements,
+            elements_kept=self.runs.keeps_elements,
             chosen=chosen,
-            trials=self.trials.done,
+            trials=self.runs.done,
         )
 
-    def _way(self, choice: Choice) -> Choice:
+    def _way(self, numerics: Numerics) -> Numerics:
         """Follow every vibration at order 5 where going on as before would cost more.
 
         The multistep method then takes about a step for each radian of the fastest vibration, whatever the tolerance.
         """
-        task, coarse = self.trials.task, self.trials(choice)
+        task, coarse = self.runs.task, self.runs(numerics)
         if isinstance(coarse, SimulationError) or task.max_order or task.method == "rosenbrock":
-            return choice
+            return numerics
         follows = coarse.stats.max_order == 5 and "rosenbrock" not in coarse.stats.method_steps
         turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
         if follows or GROWTH * _work(coarse) < ANEW * turns:
-            return choice
+            return numerics
         self.history.clear()
-        return replace(choice, tolerance=self.first, method="idas", max_order=5)
+        return replace(numerics, tolerance=self.first, method="idas", max_order=5)
 
-    def _state(self, choice: Choice) -> State | None:
+    def _state(self, numerics: Numerics) -> State | None:
         """Run and estimate; None where a run fails."""
-        run = self._run(choice)
-        fine = run and self._finer(choice, run)
+        run = self._run(numerics)
+        fine = run and self._finer(numerics, run)
         finer = fine and self._run(fine)
         if run is None or fine is None or finer is None:
             return None
         doubled = halved = None
-        if self.trials.adaptive:
-            doubled = self._run(replace(fine, number=2 * choice.number))
+        if self.runs.adaptive:
+            doubled = self._run(replace(fine, number=2 * numerics.number))
             if doubled is None:
                 return None
-            halved = self.trials.results.get(replace(fine, number=choice.number // 2))
-        tenths = fine.tolerance / choice.tolerance
+            halved = self.runs.results.get(replace(fine, number=numerics.number // 2))
+        tenths = fine.tolerance / numerics.tolerance
         half = halved if isinstance(halved, Result) else None
-        return State(choice, run, estimate(run, finer, tenths, doubled, half))
+        return State(numerics, run, estimate(run, finer, tenths, doubled, half))
 
-    def _finer(self, choice: Choice, run: Result) -> Choice | None:
-        """Return the choice with the largest smaller tolerance that makes a difference."""
-        fine = choice
+    def _finer(self, numerics: Numerics, run: Result) -> Numerics | None:
+        """Return the numerics with the largest smaller tolerance that makes a difference."""
+        fine = numerics
         for k in range(1, TENTHS + 1):
-            if (tolerance := _tenth(choice.tolerance, k)) < SMALLEST:
+            if (tolerance := _tenth(numerics.tolerance, k)) < SMALLEST:
                 break
-            fine = replace(choice, tolerance=tolerance)
+            fine = replace(numerics, tolerance=tolerance)
             finer = self._run(fine)
             if finer is None:
                 return None
@@ -169,38 +169,38 @@ class Search:
                 break
         return fine
 
-    def _run(self, choice: Choice) -> Result | None:
-        found = self.trials(choice)
+    def _run(self, numerics: Numerics) -> Result | None:
+        found = self.runs(numerics)
         if isinstance(found, Result):
             return found
         if found not in self.failures:
             self.failures.append(found)
         return None
 
-    def _refined(self, state: State) -> Choice:
-        choice, found = state.choice, state.estimate
+    def _refined(self, state: State) -> Numerics:
+        numerics, found = state.numerics, state.estimate
         if found.elements > found.tolerance:
-            if 4 * choice.number > MOST:
+            if 4 * numerics.number > MOST:
                 raise self._refusal(f"more than {MOST} elements or volumes are not tried")
-            return replace(choice, number=2 * choice.number)
+            return replace(numerics, number=2 * numerics.number)
         self.history.append(found.tolerance)
         if len(self.history) > 2 and self.history[-1] > STUCK * self.history[-3]:
             raise self._refusal("smaller tolerances change the result without an end")
         missing = np.log10(min(found.tolerance, 1e3) / self.accuracy)
-        return self._tighter(choice, max(1, int(missing)))
+        return self._tighter(numerics, max(1, int(missing)))
 
-    def _past_failure(self, choice: Choice) -> Choice:
+    def _past_failure(self, numerics: Numerics) -> Numerics:
         """Refine everything, if nothing better than this succeeded and not too much failed already."""
         if self.best or len(self.failures) >= FAILURES:
             raise self._refusal("runs with smaller tolerances or more elements fail")
-        number = 2 * choice.number
-        return self._tighter(choice if 2 * number > MOST else replace(choice, number=number), 1)
+        number = 2 * numerics.number
+        return self._tighter(numerics if 2 * number > MOST else replace(numerics, number=number), 1)
 
-    def _tighter(self, choice: Choice, tenths: int) -> Choice:
+    def _tighter(self, numerics: Numerics, tenths: int) -> Numerics:
         smallest = 10 * SMALLEST
-        if choice.tolerance <= smallest:
+        if numerics.tolerance <= smallest:
             raise self._refusal(f"a tolerance below {smallest:g} is lost in rounding")
-        return replace(choice, tolerance=max(_tenth(choice.tolerance, tenths), smallest))
+        return replace(numerics, tolerance=max(_tenth(numerics.tolerance, tenths), smallest))
 
     def _refusal(self, reason: str) -> SimulationError:
         if self.best is None:

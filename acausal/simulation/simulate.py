@@ -13,8 +13,8 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
+from acausal.simulation.runs import Runs
 from acausal.simulation.settings import settled
-from acausal.simulation.trials import Trials
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
@@ -131,7 +131,7 @@ def _simulate(
     model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task, accuracy: float | None
 ) -> Result:
     if accuracy is not None:
-        return reach(accuracy, Trials(model, parameters, task))
+        return reach(accuracy, Runs(model, parameters, task))
     if isinstance(model, CompiledModel):
         return run(model, model.parameter_values(parameters), task)
     compiled = compile(model, parameters)

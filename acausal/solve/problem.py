@@ -88,16 +88,16 @@ class Problem:
 
     def constraints(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Return the residuals of the constraints and their Jacobian by the states."""
-        return self.compiled.closing(at.x, self.p, at.time, at.constants.vector)
+        return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
     def projected(self, at: Point) -> Point:
         """Return the point with every coordinate where the constraints have it."""
-        return replace(at, x=self.compiled.closing.project(at.x, at.z, self.p, at.time, at.constants.vector))
+        return replace(at, x=self.compiled.constraints.project(at.x, at.z, self.p, at.time, at.constants.vector))
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""
-        z = self.compiled.closing.guess(at.x, at.z, self.p, at.time, at.constants.vector)
-        z[self.compiled.closing.multipliers] = 0.0
+        z = self.compiled.constraints.guess(at.x, at.z, self.p, at.time, at.constants.vector)
+        z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 
     def watched(self, at: Point) -> tuple[np.ndarray, np.ndarray]:

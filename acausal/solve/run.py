@@ -15,17 +15,17 @@ from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
-from acausal.solve.evaluator import Evaluator
 from acausal.solve.events.agenda import APART
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Chattering, Run
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
+from acausal.solve.integrate.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point, Problem
-from acausal.solve.sizes import PASSES, absolute_sizes, smaller_sizes
 from acausal.solve.start.initialize import Start
 from acausal.solve.start.redundancy import is_singular
 from acausal.solve.start.start import go_on, start
@@ -198,15 +198,15 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
 def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result:
     run = done.integrator
     compiled, times = run.compiled, plan.times
-    t, x, z, works, modes = run.trace.rows(done.first)
+    t, x, z, works, constants = run.trace.rows(done.first)
     rows = np.searchsorted(t, times[times <= t[-1]])
-    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], modes[rows], run.consistent)
+    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], constants[rows], run.consistent)
     found = doubts(compiled, evaluate) + broken_promises(run, evaluate)
     stats = replace(stats, doubts=[*found, *_loosened(run)])
     if energy:
         if run.trace.rough:
             caution(ROUGH)
-        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], modes[[0, -1]], run.consistent)
+        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], constants[[0, -1]], run.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
         supplied, dissipated = works[-1].tolist()
         stats = replace(

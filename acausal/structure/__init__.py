@@ -8,7 +8,7 @@ from acausal.structure.constraints import Constrained, Constraint, Projection
 from acausal.structure.dulmage_mendelsohn import DulmageMendelsohn, components, decompose
 from acausal.structure.levels import Level, levels
 from acausal.structure.plan import Plan
-from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.singularity import StructuralSingularity, Subsystem
 from acausal.structure.system import System
 
 __all__ = [
@@ -18,10 +18,10 @@ __all__ = [
     "Constraint",
     "DulmageMendelsohn",
     "Level",
-    "Part",
     "Plan",
     "Projection",
     "StructuralSingularity",
+    "Subsystem",
     "System",
     "analyse",
     "block_triangular",

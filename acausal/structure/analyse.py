@@ -10,28 +10,30 @@ from acausal.structure.observed import split_observed
 from acausal.structure.ordering import order_unknowns
 from acausal.structure.pantelides import pantelides
 from acausal.structure.plan import Plan
-from acausal.structure.singularity import Part, StructuralSingularity
-from acausal.structure.states import Choice, choose_states
+from acausal.structure.singularity import StructuralSingularity, Subsystem
+from acausal.structure.states import StateSelection, select_states
 from acausal.structure.system import System
 from acausal.structure.tearing import tear
 
 
-def _reduce(system: System) -> tuple[Extension, Constrained, Choice]:
+def _reduce(system: System) -> tuple[Extension, Constrained, StateSelection]:
     """Differentiate, project on what constrains the states, and match."""
     extension = pantelides(system)
     constrained = constrain(extension)
     lower = extension.lower.difference(row for c in constrained.constraints for row in c.rows)
     # Otherwise one level of a projected coordinate could follow from others, and the level below it could not.
     integrated = {p.state for p in constrained.projections}
-    choice = choose_states(extension.system(), lower, integrated=integrated)
-    if not choice.left:
-        return extension, constrained, choice
+    selection = select_states(extension.system(), lower, integrated=integrated)
+    if not selection.left:
+        return extension, constrained, selection
     # Constraints that reach too few states: some state must follow from the others by a fixed choice.
     extension = pantelides(system)
-    choice = choose_states(extension.system(), extension.lower, constant=False)
-    if choice.left:
-        raise StructuralSingularity(over=(Part.of(choice.left, (v for e in choice.left for v in extension.rows[e])),))
-    return extension, Constrained(), choice
+    selection = select_states(extension.system(), extension.lower, constant=False)
+    if selection.left:
+        raise StructuralSingularity(
+            over=(Subsystem.of(selection.left, (v for e in selection.left for v in extension.rows[e])),)
+        )
+    return extension, Constrained(), selection
 
 
 def analyse(system: System) -> Plan:
@@ -44,9 +46,9 @@ def analyse(system: System) -> Plan:
 
     """
     check(system)
-    extension, constrained, choice = _reduce(system)
+    extension, constrained, selection = _reduce(system)
     extended = extension.system()
-    states, equation_of = choice.states, choice.equation_of
+    states, equation_of = selection.states, selection.equation_of
     blocks = block_triangular(extended.rows, [(v, e) for v, e in enumerate(equation_of) if e >= 0])
     needed, observed = split_observed(extended, states, blocks)
     torn = tear(extended, needed)

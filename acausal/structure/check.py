@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal.structure.dulmage_mendelsohn import components, decompose
 from acausal.structure.incidence import lowest
-from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.singularity import StructuralSingularity, Subsystem
 from acausal.structure.system import System
 
 
@@ -27,7 +27,7 @@ def check(system: System) -> None:
     if not coarse.over.equations and not coarse.under.variables:
         return
     over, under = (
-        tuple(Part(part.equations, tuple(merged[v] for v in part.variables)) for part in components(rows, whole))
+        tuple(Subsystem(part.equations, tuple(merged[v] for v in part.variables)) for part in components(rows, whole))
         for whole in (coarse.over, coarse.under)
     )
     raise StructuralSingularity(over, under)

@@ -44,12 +44,12 @@ def complete(equations: Rows, conditions: Rows, n_variables: int) -> Completion:
     matching = maximum_matching(equations, n_variables)
     rows = [*equations, *conditions]
     variable_of = matching.variable_of + [-1] * len(conditions)
-    closed: set[int] = set()
+    exhausted: set[int] = set()
     used, surplus = [], []
     for k in range(len(conditions)):
-        search = augment(len(equations) + k, rows, variable_of, matching.equation_of, closed)
+        search = augment(len(equations) + k, rows, variable_of, matching.equation_of, exhausted)
         (used if search.found else surplus).append(k)
         if not search.found:
-            closed.update(search.right)
+            exhausted.update(search.right)
     free = tuple(v for v, e in enumerate(matching.equation_of) if e < 0)
     return Completion(tuple(used), tuple(surplus), free)

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 from acausal.structure.blt import block_triangular
 from acausal.structure.extension import Extension
-from acausal.structure.singularity import Part, StructuralSingularity
-from acausal.structure.states import Choice, choose_states
+from acausal.structure.singularity import StructuralSingularity, Subsystem
+from acausal.structure.states import StateSelection, select_states
 
 
 @dataclass(frozen=True)
@@ -97,21 +97,25 @@ def constrain(extension: Extension) -> Constrained:
     bases = list(extension.closures)
     while True:
         apart = {e for base in bases for e in extension.levels[base][:-1]}
-        choice = choose_states(extension.system(), extension.lower, apart)
-        found = sorted({base_of[e] for e in choice.left if e != extension.levels[base_of[e]][-1]}.difference(bases))
+        selection = select_states(extension.system(), extension.lower, apart)
+        found = sorted({base_of[e] for e in selection.left if e != extension.levels[base_of[e]][-1]}.difference(bases))
         if not found:
             break
         bases += found
-    if choice.left:
-        raise StructuralSingularity(over=(Part.of(choice.left, (v for e in choice.left for v in extension.rows[e])),))
+    if selection.left:
+        raise StructuralSingularity(
+            over=(Subsystem.of(selection.left, (v for e in selection.left for v in extension.rows[e])),)
+        )
     constraints, seen = [], set()
     holding: dict[int, list[int]] = {}
     written = list(extension.rows)
     for base in sorted(bases):
         *rows, top = extension.levels[base]
         multipliers = tuple(extension.add_variable() for _ in rows)
-        for row, multiplier, coordinates in zip(rows, multipliers, _coordinates(extension, choice, rows), strict=True):
-            seen |= reach(extension.rows[row], written, choice.equation_of)
+        for row, multiplier, coordinates in zip(
+            rows, multipliers, _coordinates(extension, selection, rows), strict=True
+        ):
+            seen |= reach(extension.rows[row], written, selection.equation_of)
             extension.rows[row] += (multiplier,)
             extension.explicit[row] = extension.monic[row] = frozenset()
             for x in coordinates:
@@ -119,16 +123,18 @@ def constrain(extension: Extension) -> Constrained:
         constraints.append(Constraint(base, tuple(rows), multipliers, top))
     if not constraints:
         return Constrained()
-    following = _following(extension, written, choice)
+    following = _following(extension, written, selection)
     projections = tuple(_project(extension, x, holding[x]) for x in sorted(holding))
-    reached = tuple(sorted(v for v in seen if choice.equation_of[v] >= 0))
+    reached = tuple(sorted(v for v in seen if selection.equation_of[v] >= 0))
     return Constrained(tuple(constraints), projections, reached, following)
 
 
-def _following(extension: Extension, rows: list[tuple[int, ...]], choice: Choice) -> tuple[tuple[int, int], ...]:
-    known = set(choice.states)
+def _following(
+    extension: Extension, rows: list[tuple[int, ...]], selection: StateSelection
+) -> tuple[tuple[int, int], ...]:
+    known = set(selection.states)
     found = []
-    for block in block_triangular(rows, [(v, e) for v, e in enumerate(choice.equation_of) if e >= 0]):
+    for block in block_triangular(rows, [(v, e) for v, e in enumerate(selection.equation_of) if e >= 0]):
         v, e = block.variables[0], block.equations[0]
         if len(block.variables) == 1 and v in extension.explicit[e] and known.issuperset(u for u in rows[e] if u != v):
             known.add(v)
@@ -136,13 +142,13 @@ def _following(extension: Extension, rows: list[tuple[int, ...]], choice: Choice
     return tuple(found)
 
 
-def _coordinates(extension: Extension, choice: Choice, rows: Iterable[int]) -> list[list[int]]:
+def _coordinates(extension: Extension, selection: StateSelection, rows: Iterable[int]) -> list[list[int]]:
     """States that enter at each level, those left out whose derivative enters with them."""
     before: set[int] = set()
     found = []
     for row in rows:
-        seen = reach(extension.rows[row], extension.rows, choice.equation_of)
-        reached = {v for v in seen if choice.equation_of[v] < 0}
+        seen = reach(extension.rows[row], extension.rows, selection.equation_of)
+        reached = {v for v in seen if selection.equation_of[v] < 0}
         found.append(sorted(v for v in reached - before if extension.derivative[v] not in reached))
         before |= reached
     return found

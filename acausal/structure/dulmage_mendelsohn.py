@@ -9,16 +9,16 @@ import scipy
 
 from acausal.structure.incidence import Rows, sparse, transpose
 from acausal.structure.matching import maximum_matching
-from acausal.structure.singularity import Part
+from acausal.structure.singularity import Subsystem
 
 
 @dataclass(frozen=True)
 class DulmageMendelsohn:
     """The three parts of the coarse decomposition; none depends on the matching it was found with."""
 
-    over: Part
-    well: Part
-    under: Part
+    over: Subsystem
+    well: Subsystem
+    under: Subsystem
 
 
 def decompose(rows: Rows, n_variables: int) -> DulmageMendelsohn:
@@ -26,18 +26,18 @@ def decompose(rows: Rows, n_variables: int) -> DulmageMendelsohn:
     matching = maximum_matching(rows, n_variables)
     free_equations = [e for e, variable in enumerate(matching.variable_of) if variable < 0]
     free_variables = [v for v, equation in enumerate(matching.equation_of) if equation < 0]
-    over = Part.of(*_reach(free_equations, rows, matching.equation_of))
+    over = Subsystem.of(*_reach(free_equations, rows, matching.equation_of))
     columns = transpose(rows, n_variables) if free_variables else []
     variables, equations = _reach(free_variables, columns, matching.variable_of)
-    under = Part.of(equations, variables)
-    well = Part.of(
+    under = Subsystem.of(equations, variables)
+    well = Subsystem.of(
         set(range(len(rows))).difference(over.equations, under.equations),
         set(range(n_variables)).difference(over.variables, under.variables),
     )
     return DulmageMendelsohn(over, well, under)
 
 
-def components(rows: Rows, part: Part) -> tuple[Part, ...]:
+def components(rows: Rows, part: Subsystem) -> tuple[Subsystem, ...]:
     """Connected components of `part`, smallest first (ties: lowest equation, then lowest variable)."""
     position = {variable: len(part.equations) + k for k, variable in enumerate(part.variables)}
     n = len(position) + len(part.equations)
@@ -49,7 +49,7 @@ def components(rows: Rows, part: Part) -> tuple[Part, ...]:
     for label, variable in zip(labels[len(part.equations) :], part.variables, strict=True):
         found[label][1].append(variable)
     found.sort(key=lambda item: (len(item[0]) + len(item[1]), item))
-    return tuple(Part.of(*item) for item in found)
+    return tuple(Subsystem.of(*item) for item in found)
 
 
 def _reach(free: Iterable[int], adjacency: Rows, partner: Sequence[int]) -> tuple[list[int], set[int]]:

@@ -45,7 +45,7 @@ class Extension:
         self.differentiated.append(equation)
         self.levels[base].append(len(self.rows) - 1)
 
-    def close(self, base: int) -> None:
+    def differentiate_closure(self, base: int) -> None:
         """Differentiate a closure until it holds a variable without derivative, or nothing new.
 
         There its substitute may enter.

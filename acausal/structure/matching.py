@@ -24,8 +24,8 @@ class Matching:
 
 
 @dataclass(frozen=True)
-class Search:
-    """Outcome of one search: whether it found a path, and the vertices of both sides that it visited."""
+class Augmentation:
+    """Outcome of one search for a path: whether it found one, and the vertices of both sides that it visited."""
 
     found: bool
     left: list[int]
@@ -45,11 +45,11 @@ def maximum_matching(rows: Rows, n_variables: int) -> Matching:
             alone.append(equation)
         else:
             matching.variable_of[equation], matching.equation_of[free] = free, equation
-    closed: set[int] = set()
+    exhausted: set[int] = set()
     for equation in alone:
-        search = augment(equation, rows, matching.variable_of, matching.equation_of, closed)
+        search = augment(equation, rows, matching.variable_of, matching.equation_of, exhausted)
         if not search.found:
-            closed.update(search.right)
+            exhausted.update(search.right)
     return matching
 
 
@@ -58,8 +58,8 @@ def augment(
     adjacency: Sequence[Sequence[int]],
     right_of: list[int],
     left_of: list[int],
-    closed: Collection[int] = (),
-) -> Search:
+    exhausted: Collection[int] = (),
+) -> Augmentation:
     """Match the left vertex `start` too, along a shortest augmenting path (Berge 1957, breadth first).
 
     Parameters
@@ -70,7 +70,7 @@ def augment(
         Right vertices next to each left vertex.
     right_of, left_of : list of int
         Partners of the left and of the right vertices, changed in place if a path is found.
-    closed : collection of int
+    exhausted : collection of int
         Right vertices from which no free one can be reached.
 
     """
@@ -78,14 +78,14 @@ def augment(
     left = [start]
     for vertex in left:
         for right in adjacency[vertex]:
-            if right in reached_from or right in closed:
+            if right in reached_from or right in exhausted:
                 continue
             reached_from[right] = vertex
             if left_of[right] < 0:
                 _flip(right, reached_from, right_of, left_of)
-                return Search(True, left, list(reached_from))
+                return Augmentation(True, left, list(reached_from))
             left.append(left_of[right])
-    return Search(False, left, list(reached_from))
+    return Augmentation(False, left, list(reached_from))
 
 
 def _flip(right: int, reached_from: dict[int, int], right_of: list[int], left_of: list[int]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from acausal.structure.dulmage_mendelsohn import decompose
 from acausal.structure.extension import Extension
 from acausal.structure.incidence import lowest
-from acausal.structure.singularity import Part, StructuralSingularity
+from acausal.structure.singularity import StructuralSingularity, Subsystem
 from acausal.structure.system import System
 
 LIMIT = 10
@@ -26,7 +26,7 @@ def pantelides(system: System) -> Extension:
     """
     extension = Extension(system)
     for e in system.closures:
-        extension.close(e)
+        extension.differentiate_closure(e)
     while True:
         derivative = extension.derivative
         rows = [[v for v in extension.rows[levels[-1]] if derivative[v] < 0] for levels in extension.levels]
@@ -36,6 +36,6 @@ def pantelides(system: System) -> Extension:
         coloured = [e for e in over.equations if system.defines[e] < 0 and e not in system.closures]
         if not coloured or any(len(extension.levels[e]) > LIMIT for e in coloured):
             root = lowest(derivative)
-            raise StructuralSingularity(over=(Part.of(over.equations, (root[v] for v in over.variables)),))
+            raise StructuralSingularity(over=(Subsystem.of(over.equations, (root[v] for v in over.variables)),))
         for e in coloured:
             extension.differentiate(e)

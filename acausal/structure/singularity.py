@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Part:
+class Subsystem:
     """Some equations and variables, both ascending."""
 
     equations: tuple[int, ...]
     variables: tuple[int, ...]
 
     @classmethod
-    def of(cls, equations: Iterable[int], variables: Iterable[int]) -> Part:
+    def of(cls, equations: Iterable[int], variables: Iterable[int]) -> Subsystem:
         """Sort both and drop repetitions."""
         return cls(tuple(sorted(set(equations))), tuple(sorted(set(variables))))
 
@@ -24,14 +24,14 @@ class StructuralSingularity(Exception):
 
     Parameters
     ----------
-    over : tuple of Part
+    over : tuple of Subsystem
         Parts with more equations than variables.
-    under : tuple of Part
+    under : tuple of Subsystem
         Parts with fewer equations than variables; a derivative stands as the variable it derives from.
 
     """
 
-    def __init__(self, over: tuple[Part, ...] = (), under: tuple[Part, ...] = ()) -> None:
+    def __init__(self, over: tuple[Subsystem, ...] = (), under: tuple[Subsystem, ...] = ()) -> None:
         super().__init__(f"{len(over)} over-determined and {len(under)} under-determined parts")
         self.over = over
         self.under = under

@@ -11,7 +11,7 @@ from acausal.structure.system import System
 
 
 @dataclass(frozen=True)
-class Choice:
+class StateSelection:
     """Equation of each algebraic variable, and the equations that are left over."""
 
     equation_of: list[int]
@@ -23,13 +23,13 @@ class Choice:
         return tuple(v for v, equation in enumerate(self.equation_of) if equation < 0)
 
 
-def choose_states(
+def select_states(
     system: System,
     lower: Collection[int],
     apart: Collection[int] = (),
     constant: bool = True,
     integrated: Collection[int] = (),
-) -> Choice:
+) -> StateSelection:
     """Match the equations; the variables left over are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
     The sets of variables that can be matched together are the independent sets of a matroid, hence a greedy choice
@@ -58,18 +58,18 @@ def choose_states(
     ties = [sorted(x) for x in system.explicit] if constant else system.rows
     columns = transpose([() if e in apart else x for e, x in enumerate(ties)], system.n_variables)
     # No free equation can be reached from what a failed search visited, now or later.
-    closed: set[int] = set(apart)
+    exhausted: set[int] = set(apart)
     for variable in _candidates(system) if unmatched else ():
         if variable in integrated or matching.equation_of[derivative[variable]] < 0:
             continue
-        search = augment(variable, columns, matching.equation_of, matching.variable_of, closed)
+        search = augment(variable, columns, matching.equation_of, matching.variable_of, exhausted)
         if not search.found:
-            closed.update(search.right)
+            exhausted.update(search.right)
             continue
         unmatched = [e for e in unmatched if matching.variable_of[e] < 0]
         if not unmatched:
             break
-    return Choice(matching.equation_of, unmatched)
+    return StateSelection(matching.equation_of, unmatched)
 
 
 def _candidates(system: System) -> list[int]:

@@ -22,7 +22,8 @@ MAY = {
     "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
     "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
 }
-ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "switching": {"measuring", "switching"}}
+ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
+SOLVE = ("problem", "hermite", "looks", "start", "integrate", "events", "checks", "run")
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 
 
@@ -74,6 +75,17 @@ def test_rooms_of_studies(room: str) -> None:
     for path in (ROOT / "acausal/study" / room).rglob("*.py"):
         used = {name.split(".")[2] for name in imports(path) if name.startswith("acausal.study.")}
         assert used <= ROOMS[room], f"{path} imports {used - ROOMS[room]}"
+
+
+def test_rooms_of_solve_stand_in_one_order() -> None:
+    files = [path.relative_to(ROOT / "acausal/solve") for path in (ROOT / "acausal/solve").rglob("[a-z]*.py")]
+    assert {path.parts[0].removesuffix(".py") for path in files} == set(SOLVE)
+    for path in files:
+        rank = SOLVE.index(path.parts[0].removesuffix(".py"))
+        used = {
+            name.split(".")[2] for name in imports(ROOT / "acausal/solve" / path) if name.startswith("acausal.solve.")
+        }
+        assert used <= set(SOLVE[: rank + 1]), f"{path} imports {used}"
 
 
 def test_structure_sees_integers_only() -> None:

@@ -104,7 +104,7 @@ def axial() -> str:
     for row in found.rows:
         m, errors = row.measurement, [f"{row.error_of(name):.1e}" for name in ("tip_deflection", "tip_extension")]
         counts = (m.equations, m.steps, m.factorisations, f"{1e3 * row.seconds:.3g}")
-        rows.append((row.point.settings["beam.axial"], f"{row.point.tolerance:.0e}", *counts, *errors))
+        rows.append((row.case.settings["beam.axial"], f"{row.case.tolerance:.0e}", *counts, *errors))
     return _markdown(head, rows)
 
 

@@ -29,13 +29,13 @@ def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
     found = result._evaluate(column)
     residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
     J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
-    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, flat.discontinuities.modes, initial.sx]
+    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, flat.discontinuities.constants, initial.sx]
     slopes = ca.Function("slopes", arguments, [ca.fabs(J)], {"allow_free": True})
     free = ca.Function("slopes", [*arguments, *slopes.free_sx()], [ca.fabs(J)]) if slopes.free_sx() else slopes
-    modes = result._evaluate.modes[:, : flat.discontinuities.modes.numel()]
+    constants = result._evaluate.constants[:, : flat.discontinuities.constants.numel()]
     p, worst = compiled.parameter_values(None), 0.0
     for k in range(0, len(result.time), 7):
-        terms = np.array(free(values[k], p, result.time[k], modes[k], 0)) @ np.abs(values[k]) + 1
+        terms = np.array(free(values[k], p, result.time[k], constants[k], 0)) @ np.abs(values[k]) + 1
         worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
     return worst
 

@@ -31,4 +31,4 @@ def test_spin_up_by_default() -> None:
     study = ac.study(SpinUp(omega=4))
     check(study)
     assert study.reference.floor < 1e-4
-    assert {row.point.formulation for row in study.rows if row.remark} == {"one frame"}
+    assert {row.case.formulation for row in study.rows if row.remark} == {"one frame"}

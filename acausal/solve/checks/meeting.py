@@ -13,10 +13,10 @@ from itertools import islice
 import numpy as np
 
 from acausal.solve.checks.validity import separations
-from acausal.solve.events.looks import pace
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.integrate.trace import Trace
+from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
 # So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
@@ -44,7 +44,7 @@ class _Rows:
     times: np.ndarray
     x: np.ndarray
     z: np.ndarray
-    modes: np.ndarray
+    constants: np.ndarray
     rate: np.ndarray
     effect: np.ndarray
     offset: np.ndarray
@@ -64,11 +64,11 @@ class _Search:
         self.looks, self.near = 0, 0.0
         self.shortest = SHORTEST * max(abs(t) for t in integrator.span)
 
-    def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, modes: np.ndarray) -> _Rows:
+    def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: np.ndarray) -> _Rows:
         """Evaluate the pair in rows of a run."""
-        values = self.watch.function(x, z, self.integrator.problem.p, t, modes)[:, self.columns]
+        values = self.watch.function(x, z, self.integrator.problem.p, t, constants)[:, self.columns]
         offset = values[:, 2:]
-        return _Rows(t, x, z, modes, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
+        return _Rows(t, x, z, constants, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
 
     def run(self, rows: _Rows, everywhere: bool) -> Iterator[tuple[float, float]]:
         """Yield times of meetings in the rows of the run and effects there, in order."""
@@ -101,13 +101,13 @@ class _Search:
         """Rows from a row on, `length` times the interval after it; None where they cannot be reached."""
         self.looks += 1
         run, x, z = self.integrator, rows.x[k], rows.z[k]
-        at = Point(float(rows.times[k]), x, z, run.compiled.layout.constants(rows.modes[k + 1]))
+        at = Point(float(rows.times[k]), x, z, run.compiled.layout.constants(rows.constants[k + 1]))
         times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
         found = run.trial(at, times, STEPS)
         if isinstance(found, Refusal):
             return None
-        all_modes = np.tile(found.constants.vector, (PARTS + 1, 1))
-        return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), all_modes)
+        vectors = np.tile(found.constants.vector, (PARTS + 1, 1))
+        return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), vectors)
 
 
 def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
@@ -137,8 +137,8 @@ def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
 
 
 def _search(search: _Search, first: Point, trace: Trace, text: str) -> list[Meeting]:
-    t, x, z, _, modes = trace.rows(first)
-    rows = search.rows(t, x, z, modes)
+    t, x, z, _, constants = trace.rows(first)
+    rows = search.rows(t, x, z, constants)
     search.near = NEAR * float(np.max(rows.distance))
     least, n = NOTHING * float(np.max(np.abs(rows.effect))), len(rows.times)
     everywhere = n <= FEW and trace.steps > STEPS_A_ROW * n

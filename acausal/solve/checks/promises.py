@@ -14,9 +14,9 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.flatten.discontinuities import Promise
 from acausal.solve.checks.validity import DEAR, ROWS, Watch, watch
-from acausal.solve.evaluator import Evaluator
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.symbols import scalars
 
 # Part of the largest value of a law that is a step; less may be rounding of its constants.
@@ -48,21 +48,21 @@ class _Look:
     def rows(self, rows: np.ndarray) -> np.ndarray:
         """Values at output points."""
         run = self.run
-        return self._values(run.x[rows], run.z[rows], run.t[rows], run.modes[rows])
+        return self._values(run.x[rows], run.z[rows], run.t[rows], run.constants[rows])
 
     def inside(self, row: int, times: np.ndarray) -> np.ndarray:
         """Values at times between an output point and the next."""
         run, pair = self.run, slice(row, row + 2)
-        modes = run.modes[row]
-        constants = self.integrator.compiled.layout.constants(modes)
+        vector = run.constants[row]
+        constants = self.integrator.compiled.layout.constants(vector)
         found = between(self.integrator, constants, run.t[pair], run.x[pair], run.z[pair], times)
-        return self._values(found.x, found.z, times, modes)
+        return self._values(found.x, found.z, times, vector)
 
-    def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         solver = self.run.solver
-        z = solver(x, z, t, modes, self.seen.wanted)
+        z = solver(x, z, t, constants, self.seen.wanted)
         solver.unsolved.clear()
-        return self.seen.function(x, z, solver.p, t, modes)
+        return self.seen.function(x, z, solver.p, t, constants)
 
 
 def _known(compiled: CompiledModel) -> Watch:

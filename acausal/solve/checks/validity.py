@@ -15,7 +15,7 @@ from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
-from acausal.solve.evaluator import Evaluator
+from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.problem import Point, Problem
 
 # Most output points that are looked at, and where each look costs a solution of the equations.
@@ -37,7 +37,7 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
     """Make the function of expressions in symbols of the model, one row of the result for each point."""
     r = compiled.reduced
     column = r.running.resolve(ca.vertcat(ca.SX(0, 1), *entries))
-    arguments = [r.x, r.z, r.p, time.sx, r.modes]
+    arguments = [r.x, r.z, r.p, time.sx, r.constants]
     try:
         function = ca.Function("watch", arguments, [ca.densify(column)])
     except RuntimeError:
@@ -92,8 +92,8 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     if not seen.stated:
         return []
     rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if seen.wanted else ROWS)).astype(int))
-    x, z, t, modes = run.x[rows], run.z[rows], run.t[rows], run.modes[rows]
-    values = np.abs(seen.function(x, z, run.solver.p, t, modes))
+    x, z, t, constants = run.x[rows], run.z[rows], run.t[rows], run.constants[rows]
+    values = np.abs(seen.function(x, z, run.solver.p, t, constants))
     if seen.wanted:
         # The integrator's own values tell at once where nothing is near its limit.
         most = np.max(np.nan_to_num(values), axis=0)
@@ -102,9 +102,9 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
             for (s, _), part, whole in zip(seen.stated, most[::2], most[1::2], strict=True)
         ):
             return []
-        z = run.solver(x, z, t, modes, seen.wanted)
+        z = run.solver(x, z, t, constants, seen.wanted)
         run.solver.unsolved.clear()
-        values = np.abs(seen.function(x, z, run.solver.p, t, modes))
+        values = np.abs(seen.function(x, z, run.solver.p, t, constants))
     found = []
     for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.energy import between_rows
-from acausal.solve.events.hermite import cubic
+from acausal.solve.hermite import cubic
 from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
@@ -60,14 +60,14 @@ def between(
     times : array, shape (n,)
         Times between them.
     """
-    c, h, modes = run.compiled, ends[1] - ends[0], constants.vector
+    c, h, vector = run.compiled, ends[1] - ends[0], constants.vector
     s = ((times - ends[0]) / h)[:, None]
-    z = run.consistent(x, z, ends, modes)
-    rates = run.consistent.rates(x, z, ends, modes)
+    z = run.consistent(x, z, ends, vector)
+    rates = run.consistent.rates(x, z, ends, vector)
     found, slope = cubic(s, h, x, rates)
     guess = z[0] + s * (z[1] - z[0])
-    inside = run.consistent(found, guess, times, modes)
-    true = run.consistent.rates(found, inside, times, modes)
+    inside = run.consistent(found, guess, times, vector)
+    true = run.consistent.rates(found, inside, times, vector)
     weights = run.tolerance * (np.abs(found) + run.settings.nominal[: c.nx])
     defect = np.max(np.abs(slope - true) * h / weights, axis=1, initial=0.0)
     if run.consistent.unsolved:
@@ -78,16 +78,16 @@ def between(
 
 def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as of `between`."""
-    c, modes = run.compiled, constants.vector
+    c, vector = run.compiled, constants.vector
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)
     looks = np.linspace(ends[0], ends[1], LOOKS + 2)[1:-1]
     if np.all(between(run, constants, ends, x, z, looks).defect <= FAITHFUL):
-        found, known = between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)
+        found, known = between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)
         if known:
             return found[-1]
     at = Point(float(ends[0]), x[0], z[0], constants)
     stretch = run.attempt(at, ends, replace(run.way, max_steps=MOST_STEPS, careful=True))
     if isinstance(stretch, Stretch):
         return stretch.energy[-1]
-    return between_rows(c, run.consistent, (x, z, ends, modes), run.tolerance)[0][-1]
+    return between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)[0][-1]

@@ -160,7 +160,7 @@ class Run:
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
         """Try in another way, or look at less of the time, as the law may no longer be right beyond an event."""
         run = self.integrator
-        following = next_ways(run.way, refusal, run.settings.policy(grid, run.loops))
+        following = next_ways(run.way, refusal, run.settings.rescues(grid, run.loops))
         if not following:
             return self._shorter(at, grid, Failure.of(refusal))
         run.way = following[0]

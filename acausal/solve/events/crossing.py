@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from acausal.solve.events.hermite import coefficients, cubic
+from acausal.solve.hermite import coefficients, cubic
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What happens at one instant: modes flip, variables jump and algebraic unknowns follow until nothing changes."""
+"""What happens at one instant: switches flip, variables jump and algebraic unknowns follow until nothing changes."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ class Instants:
                 (x if is_state else discretes)[place] = value
                 jumped += [place] * is_state
         after = replace(at, x=x, constants=replace(constants, discretes=discretes))
-        if not jumped or not self.problem.compiled.closing.size:
+        if not jumped or not self.problem.compiled.constraints.size:
             return after
         held = np.array(jumped, dtype=int)
         after, mismatch = close(self.problem, after, held)

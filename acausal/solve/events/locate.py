@@ -10,11 +10,11 @@ from acausal.compiler.constants import Constants
 from acausal.solve.events.between import FAITHFUL, between
 from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
-from acausal.solve.events.looks import pace
 from acausal.solve.events.stride import FINE
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
 DEPTH, SUSPECTS, TRIALS = 3, 4, 80
@@ -26,7 +26,7 @@ LOOKS = 4000
 
 
 @dataclass(frozen=True)
-class Row:
+class Sample:
     """Values at a time; `value` and `rate` are positive if unchanged."""
 
     time: float
@@ -41,8 +41,8 @@ class Row:
 class Crossing:
     """The first change: rows before and after it, at most a rounding error apart, and the greatest values before."""
 
-    before: Row
-    after: Row
+    before: Sample
+    after: Sample
     peak: np.ndarray
 
 
@@ -127,11 +127,11 @@ class Locator:
             return None
         return self._narrow(at, rows[end], rows[end + 1], width / 100, peak[end])
 
-    def row(self, at: Point, here: Point) -> Row:
+    def row(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""
         return self._rows(at, np.array([here.time]), here.x[None], here.z[None], here.constants)[0]
 
-    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Row]:
+    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Sample]:
         """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
         run, guards = self.run, self.instants.guards
         z = run.consistent(x, z, t, constants.vector, guards.needs)
@@ -139,11 +139,13 @@ class Locator:
         value, rate = guards.along(x, z, run.problem.p, t, constants.vector)
         side = np.where(at.truth, -1.0, 1.0)
         return [
-            Row(time, a, b, g, d, constants)
+            Sample(time, a, b, g, d, constants)
             for time, a, b, g, d in zip(t.tolist(), x, z, value * side, rate * side, strict=True)
         ]
 
-    def _seen_between(self, at: Point, rows: list[Row], level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
+    def _seen_between(
+        self, at: Point, rows: list[Sample], level: np.ndarray, turning: list[int], end: int
+    ) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
         found = np.zeros(end, dtype=bool)
         todo = [(k, rows[k], rows[k + 1], level[k]) for k in turning]
@@ -161,7 +163,7 @@ class Locator:
             todo += [(k, parts[i], parts[i + 1], least) for i in _near(parts, np.tile(least, (len(parts), 1)))]
         return found
 
-    def _interpolated(self, at: Point, a: Row, b: Row, times: np.ndarray) -> list[Row] | None:
+    def _interpolated(self, at: Point, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
         """Rows between two others; None where the cubic does not follow the motion."""
         ends = np.array([a.time, b.time])
         found = between(self.run, a.constants, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
@@ -169,13 +171,13 @@ class Locator:
             return None
         return self._rows(at, found.times, found.x, found.z, a.constants)
 
-    def _inside(self, at: Point, a: Row, b: Row, depth: int) -> Crossing | None:
+    def _inside(self, at: Point, a: Sample, b: Sample, depth: int) -> Crossing | None:
         """Look closer between two rows."""
         times = np.linspace(a.time, b.time, FINE + 1)
         begin = Point(a.time, a.x, a.z, at.constants, at.truth)
         return self.first(begin, accepted(self.run.trial(begin, times, TRIAL_STEPS)), depth + 1)
 
-    def _narrow(self, at: Point, a: Row, b: Row, slack: np.ndarray, peak: np.ndarray) -> Crossing:
+    def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
 
         Raises
@@ -209,21 +211,21 @@ class Locator:
                 level = np.where(a.value > 0, 0.0, level)
         return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
 
-    def _at_wall(self, at: Point, a: Row, b: Row, wall: float, refusal: Refusal) -> Row:
+    def _at_wall(self, at: Point, a: Sample, b: Sample, wall: float, refusal: Refusal) -> Sample:
         """The last row that could be reached, where a condition is as near to its change as the tolerance can tell."""
         due = (b.value <= 0) & (a.value <= self.instants.width(at))
         if not due.any():
             raise Failure.of(refusal)
         return replace(a, time=wall, value=np.where(due, np.minimum(a.value, 0.0), a.value))
 
-    def _guess(self, a: Row, b: Row, level: np.ndarray) -> float:
+    def _guess(self, a: Sample, b: Sample, level: np.ndarray) -> float:
         out = np.flatnonzero(b.value < level)
         found = [
             root((a.time, b.time), (a.value[k] - level[k], b.value[k] - level[k]), (a.rate[k], b.rate[k])) for k in out
         ]
         return min(found, default=b.time)
 
-    def _between(self, at: Point, a: Row, b: Row, time: float) -> Row | Refusal:
+    def _between(self, at: Point, a: Sample, b: Sample, time: float) -> Sample | Refusal:
         """The row at a time between two others: on their cubic if it follows the motion, else integrated."""
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
@@ -232,7 +234,7 @@ class Locator:
         return stretch if isinstance(stretch, Refusal) else self.row(at, stretch.end(at))
 
 
-def _near(rows: list[Row], level: np.ndarray) -> list[int]:
+def _near(rows: list[Sample], level: np.ndarray) -> list[int]:
     """Intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
 
     A convex function lies above its tangents: elsewhere it cannot change and change back.

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal.solve.events.looks import uneven
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import uneven
 
 # Parts of an interval at least, and of one that is looked into.
 FINE = 8

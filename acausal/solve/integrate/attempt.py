@@ -9,8 +9,8 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Constants
-from acausal.solve.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.energy import RESOLVED, ROWS, everywhere, refined
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import Setup, rounding, set_up
@@ -58,7 +58,7 @@ class Integrator:
     @property
     def loops(self) -> bool:
         """Whether there are constraints."""
-        return bool(self.compiled.closing.size)
+        return bool(self.compiled.constraints.size)
 
     def rounding(self, at: Point) -> np.ndarray:
         """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
@@ -73,7 +73,7 @@ class Integrator:
         if not self.loops:
             return at
         z = at.z.copy()
-        z[self.compiled.closing.multipliers] = 0.0
+        z[self.compiled.constraints.multipliers] = 0.0
         at = replace(self.problem.projected(at), z=z)
         self.trace.choices += 1
         return replace(at, constants=choose_projection(self.problem, at, moves=moves))
@@ -82,7 +82,7 @@ class Integrator:
         """Whether the chosen states became unfit on the way."""
         if not self.loops or constants.moves:
             return False
-        looks = int(np.clip(WORK / self.compiled.closing.size**3, 8, 100))
+        looks = int(np.clip(WORK / self.compiled.constraints.size**3, 8, 100))
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
         return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
 

@@ -51,7 +51,7 @@ class Consistent:
         x: np.ndarray,
         z: np.ndarray,
         t: np.ndarray,
-        modes: np.ndarray,
+        constants: np.ndarray,
         wanted: Iterable[int] | None = None,
     ) -> np.ndarray:
         """Return algebraic unknowns for which their equations hold.
@@ -62,43 +62,43 @@ class Consistent:
             States, and algebraic unknowns nearly right.
         t : array, shape (n,)
             Times in s.
-        modes : array, shape (m,) or (n, m)
+        constants : array, shape (m,) or (n, m)
             Constants of the segment, or of that of each time.
         wanted : iterable of int, optional
             Unknowns that must be right, with all that they need; all if not given.
         """
         c = self.compiled
-        unknowns, equations = c.dependence.closure(range(c.nz) if wanted is None else wanted)
+        unknowns, equations = c.dependence.needed(range(c.nz) if wanted is None else wanted)
         if not unknowns.size or not len(t):
             return z
-        modes = np.broadcast_to(modes, (len(t), modes.shape[-1]))
+        constants = np.broadcast_to(constants, (len(t), constants.shape[-1]))
         first, z = z, z.copy()
-        size = self._sizes(x, z, t, modes, unknowns, equations)
+        size = self._sizes(x, z, t, constants, unknowns, equations)
         doubtful: set[int] = set()
         for step in c.passes(unknowns, equations):
-            doubtful |= self._settle(step, size[step.unknowns], x, z, t, modes)
+            doubtful |= self._settle(step, size[step.unknowns], x, z, t, constants)
         for row in sorted(doubtful):
-            if not self.holds(x[row], z[row], float(t[row]), modes[row], TERMS * np.finfo(float).eps, equations):
-                self._alone(row, x, z, first, t, modes)
+            if not self.holds(x[row], z[row], float(t[row]), constants[row], TERMS * np.finfo(float).eps, equations):
+                self._alone(row, x, z, first, t, constants)
         return z
 
-    def rates(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    def rates(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Return the derivatives of the states, shape (n, nx)."""
         self.evaluations += len(t)
-        return self.compiled.rates(x, z, self.p, t, modes)
+        return self.compiled.rates(x, z, self.p, t, constants)
 
     def holds(
         self,
         x: np.ndarray,
         z: np.ndarray,
         t: float,
-        modes: np.ndarray,
+        constants: np.ndarray,
         tolerance: float,
         equations: np.ndarray | None = None,
     ) -> bool:
         """Whether algebraic equations, all if not given, hold at one time, relative to the sizes of their terms."""
         c = self.compiled
-        local = c.at(x, z, self.p, t, modes, 0.0)
+        local = c.at(x, z, self.p, t, constants, 0.0)
         rows = c.nx + (np.arange(c.nz) if equations is None else equations)
         terms = np.abs(local.jacobian[rows, : c.nx + c.nz]) @ np.abs(np.concatenate([x, z]))
         return bool(np.all(np.abs(local.value[rows]) <= tolerance * (1 + terms)))
@@ -108,7 +108,7 @@ class Consistent:
         x: np.ndarray,
         z: np.ndarray,
         t: np.ndarray,
-        modes: np.ndarray,
+        constants: np.ndarray,
         unknowns: np.ndarray,
         equations: np.ndarray,
     ) -> np.ndarray:
@@ -118,7 +118,7 @@ class Consistent:
         if key not in self._natural or len(t) > MANY:
             size = np.zeros(c.nz)
             for k in np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int)):
-                J = abs(c.at(x[k], z[k], self.p, float(t[k]), modes[k], 0.0).jacobian[c.nx + equations])
+                J = abs(c.at(x[k], z[k], self.p, float(t[k]), constants[k], 0.0).jacobian[c.nx + equations])
                 entries = J[:, c.nx + unknowns].tocoo()
                 terms = (J @ np.abs(np.concatenate([x[k], z[k]])))[entries.row]
                 here = np.full(len(unknowns), np.inf)
@@ -130,13 +130,13 @@ class Consistent:
         return np.maximum(size, NOISE * np.max(size)) if size.any() else np.ones(len(size))
 
     def _settle(
-        self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray
+        self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray
     ) -> set[int]:
         """Repeat a pass in place until nothing changes; return the rows where it did not get there."""
         enough = ONCE if step.linear else SETTLED
         rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), set()
         while rows.size:
-            found = self._newton(step, x[rows], z[rows], t[rows], modes[rows])
+            found = self._newton(step, x[rows], z[rows], t[rows], constants[rows])
             change = np.max(np.abs(found - z[np.ix_(rows, step.unknowns)]) / size, axis=1)
             nearer = change < before[rows]
             doubtful |= set(rows[~nearer].tolist())
@@ -146,21 +146,21 @@ class Consistent:
             rows = rows[change > enough]
         return doubtful
 
-    def _newton(self, step: Pass, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    def _newton(self, step: Pass, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """One Newton step at every time; nan where the equations are singular."""
         self.evaluations += len(t)
-        found = step.function(x, z, self.p, t, modes)
+        found = step.function(x, z, self.p, t, constants)
         bad = np.flatnonzero(~np.all(np.isfinite(found), axis=1))
         for k in bad if len(t) > 1 else ():
             # A singular one leaves nothing for the others of its call.
-            found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], modes[[k]])[0]
+            found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], constants[[k]])[0]
         return found
 
     def _alone(
-        self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, modes: np.ndarray
+        self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, constants: np.ndarray
     ) -> None:
         """Solve at one time by the damped iteration, from what was given."""
-        given = Point(float(t[row]), x[row], first[row], self.compiled.layout.constants(modes[row]))
+        given = Point(float(t[row]), x[row], first[row], self.compiled.layout.constants(constants[row]))
         try:
             z[row] = algebraic(self.problem, given).z
         except InitializationError:

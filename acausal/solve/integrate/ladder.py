@@ -112,7 +112,7 @@ def read(said: str, begin: float, end: float) -> Refusal:
 
 
 @dataclass(frozen=True)
-class Policy:
+class Rescues:
     """What may be changed from one try to the next.
 
     Attributes
@@ -140,7 +140,7 @@ class Policy:
         return self.loops and refusal.kind is not Kind.STEPS
 
 
-def next_ways(way: Way, refusal: Refusal, policy: Policy) -> tuple[Way, ...]:
+def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     """Return the ways to try after a refused one, in this order; none if only shorter stretches are left.
 
     A quick way gives place to the projection that moves where the chosen states became unfit, and to the one-step method,
@@ -153,18 +153,18 @@ def next_ways(way: Way, refusal: Refusal, policy: Policy) -> tuple[Way, ...]:
         The refused one.
     refusal : Refusal
         Why.
-    policy : Policy
+    rescues : Rescues
         What may be changed.
     """
     if way.careful:
-        looser = (min(factor * policy.tolerance, max(LOOSEST, policy.tolerance)) for factor in LOOSER)
+        looser = (min(factor * rescues.tolerance, max(LOOSEST, rescues.tolerance)) for factor in LOOSER)
         return tuple(
             replace(way, method=method, tolerance=tolerance, max_steps=PATIENT)
             for tolerance in dict.fromkeys(looser)
-            for method in reversed(policy.methods)
+            for method in reversed(rescues.methods)
         )
-    changed = replace(way, moves=way.moves or (policy.projects and policy.wears(refusal)))
+    changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
-    if "rosenbrock" in policy.methods and (stuck or (refusal.kind is Kind.STEPS and policy.damps)):
+    if "rosenbrock" in rescues.methods and (stuck or (refusal.kind is Kind.STEPS and rescues.damps)):
         changed = replace(changed, method="rosenbrock")
     return () if changed == way else (changed,)

@@ -86,7 +86,7 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
         "quad_err_con": False,
         # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular
         # position of a loop they are enlarged.
-        "nonlin_conv_coeff": 0.005 if c.closing.size else 0.05,
+        "nonlin_conv_coeff": 0.005 if c.constraints.size else 0.05,
         "show_eval_warnings": False,
         "linear_solver": "qr" if way.careful or c.nx + c.nz > LARGE else "csparse",
         "calc_ic": steepest > 1 and not way.careful,

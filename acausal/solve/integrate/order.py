@@ -37,7 +37,7 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
     J = problem.local(at).jacobian[: nx + nz]
-    if nx <= (LOOPED if problem.compiled.closing.size else DENSE):
+    if nx <= (LOOPED if problem.compiled.constraints.size else DENSE):
         N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()

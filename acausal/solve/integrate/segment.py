@@ -48,11 +48,11 @@ def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
 
 def quickly(run: Integrator, at: Point, times: np.ndarray) -> Stretch | Refusal:
     """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
-    policy = run.settings.policy(times, run.loops)
+    rescues = run.settings.rescues(times, run.loops)
     while True:
         way = replace(run.way, max_steps=run.settings.patience(run.way, times))
         found = run.attempt(at, times, way)
-        following = next_ways(way, found, policy) if isinstance(found, Refusal) else ()
+        following = next_ways(way, found, rescues) if isinstance(found, Refusal) else ()
         if not following:
             return found
         run.way = following[0]
@@ -89,7 +89,7 @@ def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stre
     found = _stride(run, at, times, way, HALVINGS)
     if isinstance(found, Stretch):
         return found
-    for loose in next_ways(way, found, run.settings.policy(times, run.loops)):
+    for loose in next_ways(way, found, run.settings.rescues(times, run.loops)):
         stretch = run.attempt(at, times, loose)
         if isinstance(stretch, Stretch):
             run.trace.loosened += [float(times[0])] * (loose.tolerance > way.tolerance)
@@ -100,7 +100,7 @@ def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stre
 def _stride(run: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int) -> Stretch | Refusal:
     """Go to the next output, with new choices of states on the way where one does not last."""
     found = run.attempt(at, times, way)
-    if isinstance(found, Stretch) or not halvings or not run.settings.policy(times, run.loops).wears(found):
+    if isinstance(found, Stretch) or not halvings or not run.settings.rescues(times, run.loops).wears(found):
         return found
     middle = (times[0] + times[1]) / 2
     first = _stride(run, at, np.array([times[0], middle]), way, halvings - 1)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.solve.integrate.ladder import Policy, Way
+from acausal.solve.integrate.ladder import Rescues, Way
 
 # Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
 SHORT, LONG = 40_000, 100_000
@@ -60,9 +60,9 @@ class Settings:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
         return self.method == "auto" and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
 
-    def policy(self, times: np.ndarray, loops: bool) -> Policy:
+    def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
         """What may be changed between tries of a stretch with these outputs."""
-        return Policy(self.methods, self.constraints == "auto", loops, self.may_ring(times), self.tolerance)
+        return Rescues(self.methods, self.constraints == "auto", loops, self.may_ring(times), self.tolerance)
 
     def patience(self, way: Way, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""

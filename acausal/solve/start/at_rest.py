@@ -34,7 +34,7 @@ def kinematic(compiled: CompiledModel) -> list[int]:
         return []
     if "kinematic" not in compiled.cache:
         r = compiled.reduced
-        given = ca.vertcat(r.p, r.modes, ca.SX.sym("none"))
+        given = ca.vertcat(r.p, r.constants, ca.SX.sym("none"))
         forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
         unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
         through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))
@@ -52,7 +52,7 @@ def at_rest(problem: Problem, at: Point) -> bool:
     nx = problem.nx
     if _moving(problem, at):
         return False
-    if problem.compiled.closing.size and np.max(np.abs(problem.constraints(at)[0])) > CONSISTENT:
+    if problem.compiled.constraints.size and np.max(np.abs(problem.constraints(at)[0])) > CONSISTENT:
         return False
     local = problem.local(at)
     allowed = CONSISTENT + _rounding(local.jacobian, at.y)

@@ -34,7 +34,7 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     if not mismatch <= CLOSED:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)
-    counts = np.array([k not in redundancy.dropped for k in problem.compiled.closing.closures], dtype=float)
+    counts = np.array([k not in redundancy.dropped for k in problem.compiled.constraints.closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
     return replace(closed, constants=choose_projection(problem, closed, spare=False)), redundancy
 
@@ -66,7 +66,7 @@ def rows_and_knowns(
     known : list of int
         Unknowns in (x, z) that are not solved for.
     """
-    compiled, c, nx, nz = problem.compiled, problem.compiled.closing, problem.nx, problem.nz
+    compiled, c, nx, nz = problem.compiled, problem.compiled.constraints, problem.nx, problem.nz
     free = np.setdiff1d(np.arange(nx), held)
     rows = nx + np.array(conditions, dtype=int)
     M, C = _reduced(problem, at, free, rows)
@@ -143,7 +143,7 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     """Go on from a singular position along the velocity, so short a way that accelerations do not matter."""
     x = at.x
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
-    moving = np.isin(pairs[:, 0], problem.compiled.closing.states)
+    moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
     speed = float(np.max(np.abs(x[rates]), initial=0.0))
     if not speed > REST:

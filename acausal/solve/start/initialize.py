@@ -44,7 +44,7 @@ class Start:
 
     def found(self, compiled: CompiledModel) -> AtStart:
         """Return what a report tells of it."""
-        dropped = (k for k, row in enumerate(compiled.closing.closures) if row in self.redundancy.dropped)
+        dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
         return AtStart(tuple(dropped), self.redundancy.singular, self.independent)
 
 
@@ -58,7 +58,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     time : float
         Start time in s.
     head : array
-        Modes of the switches at the start, and discrete variables.
+        Switches at the start, and discrete variables.
     initial : "fixed", "guesses" or "steady"
         What to do with states that no condition determines: refuse, take their guesses, or find those at which all
         derivatives vanish.
@@ -70,7 +70,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     """
     if initial not in INITIAL:
         raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.")
-    compiled, loops = problem.compiled, bool(problem.compiled.closing.size)
+    compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
     at, redundancy = _guess(problem, time, head), Redundancy()
     if initial == "steady":
         first = _sparse(problem, at)
@@ -118,7 +118,7 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
         others += range(-nx, 0)
     equations, used, surplus, known = rows_and_knowns(problem, at, held, others, initial == "fixed")
     z = at.z.copy()
-    z[compiled.closing.multipliers] = 0.0
+    z[compiled.constraints.multipliers] = 0.0
     rows = np.array([*equations, *used], int)
     demanded = [row for row in surplus if row >= 0]
     system = InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items()))
@@ -158,7 +158,7 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     first = {state: row for row, state in reversed(direct.items())}
     direct = {row: state for state, row in first.items()}
     at = _direct_values(problem, tuple(direct.items()), at)
-    if not compiled.closing.size:
+    if not compiled.constraints.size:
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
     return problem.completed(at), redundancy, direct

@@ -32,7 +32,7 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
         False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
         Jacobian as it changes on the way, stiff coordinates the less.
     """
-    c = problem.compiled.closing
+    c = problem.compiled.constraints
     on = np.ones(c.size, dtype=bool)
     for constraint, counts in zip(c.closures, at.constants.closures, strict=True):
         on[list(c.rows[constraint])] = counts > 0
@@ -54,8 +54,8 @@ def independent(compiled: CompiledModel, constants: Constants) -> tuple[str, ...
 
 def _directions(compiled: CompiledModel, constants: Constants) -> np.ndarray:
     """D, shape (size, nx), from the constants of a segment."""
-    D = np.zeros((compiled.closing.size, compiled.nx))
-    D[tuple(compiled.closing.entries)] = constants.D
+    D = np.zeros((compiled.constraints.size, compiled.nx))
+    D[tuple(compiled.constraints.entries)] = constants.D
     return D
 
 
@@ -65,7 +65,7 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """
     compiled, nx = problem.compiled, problem.nx
-    plan, c = compiled.reduced.plan, compiled.closing
+    plan, c = compiled.reduced.plan, compiled.constraints
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
     rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
     columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
@@ -133,6 +133,6 @@ def worn(problem: Problem, x: np.ndarray, t: np.ndarray, constants: Constants) -
     constants : Constants
         Those of the segment.
     """
-    c = problem.compiled.closing
+    c = problem.compiled.constraints
     held = c.held(x, problem.p, t, constants.vector)
     return _transversality(held[:, :, c.states], _directions(problem.compiled, constants)[:, c.states])

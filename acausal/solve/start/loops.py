@@ -21,7 +21,7 @@ ATTEMPTS = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
     """Residuals and states of each level of the constraints, positions first."""
-    c = compiled.closing
+    c = compiled.constraints
     depth = max((len(r) for r in c.rows), default=0)
     found = []
     for d in range(depth, 0, -1):
@@ -130,7 +130,7 @@ def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
 def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     """Raise InitializationError with the mismatch of every loop that does not close."""
     compiled = problem.compiled
-    c, flat = compiled.closing, compiled.reduced.flat
+    c, flat = compiled.constraints, compiled.reduced.flat
     value, _ = problem.constraints(at)
     lines = []
     for number, loop in enumerate(flat.loops.cuts):

@@ -31,7 +31,7 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    compiled, c = problem.compiled, problem.compiled.closing
+    compiled, c = problem.compiled, problem.compiled.constraints
     rows = [r[0] for r in c.rows]
 
     def jacobian(at: Point) -> np.ndarray:
@@ -60,9 +60,9 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
 
 def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     """Whether constraints that are independent elsewhere all but depend on each other in a position."""
-    if not problem.compiled.closing.size:
+    if not problem.compiled.constraints.size:
         return False
-    held = [rows[0] for k, rows in enumerate(problem.compiled.closing.rows) if k not in redundancy.dropped]
+    held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
     return rank(problem.constraints(at)[1][held], BESIDE) < len(held)
 
 

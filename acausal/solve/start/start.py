@@ -1,4 +1,4 @@
-"""Where a run begins: values, and modes of the switches that fit them."""
+"""Where a run begins: values, and switches that fit them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROUNDS = 20
 
 
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
-    """Find consistent values at the start, and the modes that fit them.
+    """Find consistent values at the start, and the switches that fit them.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     Raises
     ------
     InitializationError
-        If no values are found, or none whose modes fit them.
+        If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
     head = problem.compiled.guards.guess(p, later)[0].copy()
@@ -42,7 +42,9 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
         new = head.copy()
-        own = np.setdiff1d(np.arange(guards.n_modes), [k for k in guards.timed if k < guards.n_switches])
+        own = np.setdiff1d(
+            np.arange(guards.n_switches + guards.n_discretes), [k for k in guards.timed if k < guards.n_switches]
+        )
         new[own] = found[own]
         if np.allclose(new, head, rtol=1e-9, atol=1e-12):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at)))

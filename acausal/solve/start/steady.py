@@ -40,7 +40,7 @@ ATTEMPTS = 3
 
 
 @dataclass
-class Local:
+class Linearized:
     """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated."""
 
     point: Point
@@ -100,14 +100,14 @@ class Equilibrium:
             caution(unstable_text(self.problem.compiled, self.guess.time, rate))
         return found.point
 
-    def _tried(self, first: Point | None) -> Local | None:
+    def _tried(self, first: Point | None) -> Linearized | None:
         try:
             here = self._at(first) if first else None
         except InitializationError:
             return None
         return here if here and self._rests(here) else None
 
-    def _is_guess(self, found: Local) -> bool:
+    def _is_guess(self, found: Linearized) -> bool:
         return bool(np.all(np.abs(self._apart(found)) <= 1e-6 * self.scale))
 
     def _nearly(self, relaxed: Point) -> Point:
@@ -117,7 +117,7 @@ class Equilibrium:
         resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))
         return resting[0].point if resting else self.guess
 
-    def _at(self, at: Point) -> Local:
+    def _at(self, at: Point) -> Linearized:
         """Solve for the algebraic unknowns, and linearise."""
         nx, nz = self.nx, self.problem.nz
         at = algebraic(self.problem, at)
@@ -125,17 +125,17 @@ class Equilibrium:
         J = local.jacobian.tocsc()
         dz = _solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
         A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
-        return Local(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
+        return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
 
     def _close(self, at: Point) -> Point:
         """Close the loops, and choose the states that follow from others anew."""
-        if not self.problem.compiled.closing.size:
+        if not self.problem.compiled.constraints.size:
             return at
         at = tighten(self.problem, replace(at, constants=self.guess.constants))
         at = replace(at, constants=choose_projection(self.problem, at, spare=False))
         return self.problem.completed(at)
 
-    def _newton(self, at: Point) -> Local | None:
+    def _newton(self, at: Point) -> Linearized | None:
         """Search from a point, then bring what is free back to its guess; None where it does not come to rest."""
         here = self._search(at)
         if here is None or not self._rests(here):
@@ -152,16 +152,16 @@ class Equilibrium:
             part = part if nearer else part / 2
         return here
 
-    def _rests(self, here: Local) -> bool:
+    def _rests(self, here: Linearized) -> bool:
         return at_rest(self.problem, here.point)
 
-    def _apart(self, here: Local) -> np.ndarray:
+    def _apart(self, here: Linearized) -> np.ndarray:
         return self.guess.x - here.point.x
 
-    def _distance(self, here: Local) -> float:
+    def _distance(self, here: Linearized) -> float:
         return float(np.linalg.norm(self._apart(here) / self.scale))
 
-    def _search(self, at: Point, conditions: bool = True) -> Local | None:
+    def _search(self, at: Point, conditions: bool = True) -> Linearized | None:
         """Newton steps of least norm, as far as they lead; None where equations cannot be solved."""
         try:
             here = self._at(self._close(at))
@@ -178,7 +178,9 @@ class Equilibrium:
             here = there
         return here
 
-    def _go(self, here: Local, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool) -> Local | None:
+    def _go(
+        self, here: Linearized, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool
+    ) -> Linearized | None:
         """Shorten a step until the residuals do not grow; None if they always do."""
         size = np.linalg.norm(J, axis=1)
         weight = 1 / np.where(size > 0, size, 1.0)
@@ -192,12 +194,12 @@ class Equilibrium:
                 return there
         return None
 
-    def _all(self, here: Local, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
+    def _all(self, here: Linearized, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
         """Everything that must vanish: rates, initial conditions, constraints; and its Jacobian by the states."""
         value, J = here.rates[self.rows], here.A[self.rows]
         if conditions:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
-        if self.problem.compiled.closing.size:
+        if self.problem.compiled.constraints.size:
             off, M = self.problem.constraints(here.point)
             value, J = np.concatenate([value, off]), np.vstack([J, M])
         return value, J
@@ -250,7 +252,7 @@ class Equilibrium:
                 break
         return here.point
 
-    def _growing(self, here: Local) -> tuple[float, np.ndarray]:
+    def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
         N, chosen = tangent(self.problem, here.point)
         A = (here.A @ N)[chosen]

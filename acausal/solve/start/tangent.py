@@ -21,7 +21,7 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     chosen : array of int, shape (n,)
         The independent states, those along which the motion is largest, coordinates with their rates.
     """
-    if not problem.compiled.closing.size:
+    if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
     J = problem.constraints(at)[1]
     null = null_space(J)

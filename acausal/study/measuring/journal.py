@@ -18,18 +18,21 @@ from acausal.errors import DeclarationError, ExportError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.result import check_writable
-from acausal.study.measuring.point import Measurement, Point
+from acausal.study.measuring.case import Case, Measurement
+
+# Under this name a line holds the key of its case.
+POINT = "point"
 
 
 class Journal:
-    """Measurements by the key of their point, a line of JSON each.
+    """Measurements by the key of their case, a line of JSON each.
 
     Parameters
     ----------
     path : str, Path or None
         Name of the file; None keeps nothing.
     identity : mapping
-        What all points have in common; a journal of another identity is refused.
+        What all cases have in common; a journal of another identity is refused.
     """
 
     def __init__(self, path: str | Path | None, identity: Mapping[str, Any]) -> None:
@@ -47,19 +50,20 @@ class Journal:
     def __len__(self) -> int:
         return len(self._found)
 
-    def get(self, point: Point) -> Measurement | None:
+    def get(self, case: Case) -> Measurement | None:
         """Return what an earlier session measured.
 
         Parameters
         ----------
-        point : Point
+        case : Case
             Of this session.
         """
-        document = self._found.get(point.key)
+        document = self._found.get(case.key)
         if document is None:
             return None
         values = {name: np.array(column) for name, column in document["values"].items()}
-        return Measurement(**{**document, "point": point, "times": np.array(document["times"]), "values": values})
+        given = {name: entry for name, entry in document.items() if name != POINT}
+        return Measurement(**{**given, "case": case, "times": np.array(document["times"]), "values": values})
 
     def add(self, measurement: Measurement) -> None:
         """Keep a measurement.
@@ -67,9 +71,10 @@ class Journal:
         Parameters
         ----------
         measurement : Measurement
-            Of a point that is not in the journal yet.
+            Of a case that is not in the journal yet.
         """
-        document = asdict(measurement) | {"point": measurement.point.key, "times": measurement.times.tolist()}
+        document = {POINT: measurement.case.key, **asdict(measurement), "times": measurement.times.tolist()}
+        del document["case"]
         document["values"] = {name: np.asarray(column).tolist() for name, column in measurement.values.items()}
         self._write(document)
 
@@ -90,7 +95,7 @@ class Journal:
             )
         # The last line may be cut where the session was killed.
         found = [document for document in map(_read, lines[1:]) if document]
-        self._found = {document["point"]: document for document in found}
+        self._found = {document[POINT]: document for document in found}
         if _read(lines[-1]) is None and self.path is not None:
             text = "\n".join([lines[0], *[json.dumps(d) for d in found]]) + "\n"
             self.path.write_text(text, encoding="utf-8")
@@ -108,7 +113,7 @@ class Journal:
 
 
 def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:
-    """Return what tells one study from another: engine, model with its sources, and options of all points.
+    """Return what tells one study from another: engine, model with its sources, and options of all cases.
 
     Parameters
     ----------
@@ -117,7 +122,7 @@ def identity(model: Component, trees: Iterable[Component], **options: Any) -> di
     trees : iterable of Component
         The model built in every formulation.
     **options
-        What all points have in common.
+        What all cases have in common.
     """
     classes = {cls for tree in trees for part in walk(tree) for cls in type(part).__mro__}
     files = {getattr(sys.modules.get(cls.__module__), "__file__", None) for cls in classes}

@@ -1,4 +1,4 @@
-"""Measure a point in this process: compile it, run it, and tell what it costs."""
+"""Measure a case in this process: compile it, run it, and tell what it costs."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from acausal.errors import AcausalError, AcausalWarning
 from acausal.locks import alone
 from acausal.result import Result
 from acausal.simulation import simulate
+from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
-from acausal.study.measuring.point import Job, Measurement
 from acausal.study.measuring.shipping import unpack
 
 # Seconds after which a run is not repeated: what takes long is measured well enough. Runs that are repeated fill the
@@ -30,7 +30,7 @@ _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
 
 @alone
 def measure(job: Job) -> Measurement:
-    """Compile and run a point; whatever goes wrong with the model is told in the measurement.
+    """Compile and run a case; whatever goes wrong with the model is told in the measurement.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ def measure(job: Job) -> Measurement:
                 return _measure(job, compiled, show)
     except TooLong:
         _COMPILED.clear()  # it was left in the middle of something
-        return Measurement(job.point, error=f"it was stopped after {job.limit:g} s")
+        return Measurement(job.case, error=f"it was stopped after {job.limit:g} s")
     except AcausalError as error:
-        return Measurement(job.point, error=(str(error).splitlines() or [type(error).__name__])[0])
+        return Measurement(job.case, error=(str(error).splitlines() or [type(error).__name__])[0])
 
 
 def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
@@ -59,7 +59,7 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
         seconds.append(_run(job, compiled, show)[1])
     compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
     found = Measurement(
-        job.point,
+        job.case,
         compile_seconds=stats.compile_seconds,
         solve_seconds=statistics.median(seconds),
         steps=stats.steps,
@@ -81,16 +81,16 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
 
 def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
     """Run, and tell the solve time less what other processes had of the processor meanwhile."""
-    point = job.point
+    case = job.case
     began, busy = clock.perf_counter(), clock.process_time()
     result = simulate(
         compiled,
         stop_time=job.stop_time,
         intervals=job.intervals,
-        tolerance=point.tolerance,
-        max_order=point.max_order,
-        method=point.method,
-        constraints=point.constraints,
+        tolerance=case.tolerance,
+        max_order=case.max_order,
+        method=case.method,
+        constraints=case.constraints,
         initial=job.initial,
         progress=show,
     )
@@ -99,9 +99,9 @@ def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
 
 
 def _compiled(job: Job) -> CompiledModel:
-    """Compile a point, or take what another point with the same structure left."""
-    key = (hashlib.sha256(job.model).digest(), job.point.structure)
-    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.point.settings)
+    """Compile a case, or take what another case with the same structure left."""
+    key = (hashlib.sha256(job.model).digest(), job.case.structure)
+    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.case.settings)
     _COMPILED[key] = found
     while len(_COMPILED) > KEPT:
         del _COMPILED[next(iter(_COMPILED))]

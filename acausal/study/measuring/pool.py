@@ -1,4 +1,4 @@
-"""Run the points of a study side by side, in processes or on the workers of a cluster."""
+"""Run the cases of a study side by side, in processes or on the workers of a cluster."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from typing import Any
 
 from acausal.errors import DeclarationError, SimulationError
 from acausal.study.measuring.arguments import check_counts
+from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.measure import measure
-from acausal.study.measuring.point import Job, Measurement
 from acausal.study.measuring.workers import Workers, initialise, without_main
 
-# Many points at once on few cores would share threads of linear algebra, and no time would mean anything.
+# Many cases at once on few cores would share threads of linear algebra, and no time would mean anything.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 LOOPBACK = "127.0.0.1"
 
 
 def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
-    """Measure points and yield each as soon as it is there.
+    """Measure cases and yield each as soon as it is there.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def run(jobs: Iterable[Job], executor: Executor) -> Iterator[Measurement]:
 
 
 def executor_of(executor: Executor | str | None, workers: int | None) -> AbstractContextManager[Executor]:
-    """Return where points run: processes on this machine, a cluster by its address, or what is given.
+    """Return where cases run: processes on this machine, a cluster by its address, or what is given.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A session measures points: what the journal knows is not measured again, what is new is kept at once."""
+"""A session measures cases: what the journal knows is not measured again, what is new is kept at once."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 
+from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.journal import Journal
-from acausal.study.measuring.point import Job, Measurement, Point
 from acausal.study.measuring.pool import run
 
 Progress = Callable[[int, int, str], None]
@@ -15,50 +15,50 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass
 class Session:
-    """Where and how points are measured.
+    """Where and how cases are measured.
 
     Parameters
     ----------
     job : Job
-        How points are run; each takes the place of its own.
+        How cases are run; each takes the place of its own.
     executor : Executor
         Where jobs run.
     journal : Journal
         What was measured earlier, and is from now on.
     progress : callable, optional
-        Called with the number of points done, of all points so far, and what is going on.
+        Called with the number of cases done, of all cases so far, and what is going on.
     """
 
     job: Job
     executor: Executor
     journal: Journal
     progress: Progress | None = None
-    found: dict[Point, Measurement] = field(default_factory=dict)
+    found: dict[Case, Measurement] = field(default_factory=dict)
     wanted: int = 0
 
-    def measure(self, points: Iterable[Point], what: str = "") -> list[Measurement]:
-        """Measure points side by side, and return what they gave in their order.
+    def measure(self, cases: Iterable[Case], what: str = "") -> list[Measurement]:
+        """Measure cases side by side, and return what they gave in their order.
 
         Parameters
         ----------
-        points : iterable of Point
+        cases : iterable of Case
             What to run.
         what : str
             What they are for, for the progress.
         """
-        points = list(points)
-        new = [point for point in dict.fromkeys(points) if point not in self.found]
+        cases = list(cases)
+        new = [case for case in dict.fromkeys(cases) if case not in self.found]
         self.wanted += len(new)
-        for point in new:
-            kept = self.journal.get(point)
+        for case in new:
+            kept = self.journal.get(case)
             if kept is not None:
-                self.found[point] = kept
+                self.found[case] = kept
         self._tell(what)
-        for measurement in run([replace(self.job, point=p) for p in new if p not in self.found], self.executor):
+        for measurement in run([replace(self.job, case=c) for c in new if c not in self.found], self.executor):
             self.journal.add(measurement)
-            self.found[measurement.point] = measurement
+            self.found[measurement.case] = measurement
             self._tell(what)
-        return [self.found[point] for point in points]
+        return [self.found[case] for case in cases]
 
     def _tell(self, what: str) -> None:
         if self.progress:

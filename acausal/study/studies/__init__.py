@@ -1,4 +1,4 @@
-"""Studies of accuracy against time: every point of a grid against a reference.
+"""Studies of accuracy against time: every case of a grid against a reference.
 
 formulation <- grid, reference <- rows <- table, picture <- study.
 """

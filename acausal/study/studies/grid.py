@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.simulation.simulate import CONSTRAINTS, METHODS
-from acausal.study.measuring.point import Point
+from acausal.study.measuring.case import Case
 from acausal.study.studies.formulation import Formulation
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -63,34 +63,34 @@ class Grid:
             if not values:
                 raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
 
-    def points(self, given: Mapping[str, Any]) -> list[Point]:
-        """Return every point, those of one compiled model together.
+    def cases(self, given: Mapping[str, Any]) -> list[Case]:
+        """Return every case, those of one compiled model together.
 
         Parameters
         ----------
         given : mapping of str to value
-            Settings that all points have in common.
+            Settings that all cases have in common.
         """
         return [
-            replace(point, method=method, constraints=constraints, max_order=order, tolerance=tolerance)
-            for point in self.structures(given)
+            replace(case, method=method, constraints=constraints, max_order=order, tolerance=tolerance)
+            for case in self.structures(given)
             for method, constraints, order, tolerance in itertools.product(
                 self.methods, self.constraints, self.max_orders, sorted(self.tolerances, reverse=True)
             )
         ]
 
-    def structures(self, given: Mapping[str, Any]) -> list[Point]:
-        """Return one point for each model that has to be compiled.
+    def structures(self, given: Mapping[str, Any]) -> list[Case]:
+        """Return one case for each model that has to be compiled.
 
         Parameters
         ----------
         given : mapping of str to value
-            Settings that all points have in common.
+            Settings that all cases have in common.
         """
         found = []
         for form in self.formulations:
             for step, values in itertools.product(range(form.steps), itertools.product(*self.switches.values())):
                 settings, size = form.at(step)
                 switched = dict(zip(self.switches, values, strict=True))
-                found.append(Point(form.name, {**given, **settings, **switched}, size))
+                found.append(Case(form.name, {**given, **settings, **switched}, size))
         return found

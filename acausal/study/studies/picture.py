@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from acausal.errors import DeclarationError
 from acausal.result.plots import DPI
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import TOLERANCE, Row, pareto
+from acausal.study.studies.rows import TOLERANCE, StudyRow, pareto
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,7 +19,7 @@ MARKERS = "osD^vPXh<>pd"
 NEAR, TOO_NEAR = 1.35, 1.15
 
 
-def draw(rows: Sequence[Row], reference: Reference, title: str, output: str | None = None) -> Figure:
+def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str | None = None) -> Figure:
     """Draw error over solve time, both logarithmic.
 
     A curve joins the points of a formulation that no other point of it beats. Hollow points would gain from a tighter
@@ -27,7 +27,7 @@ def draw(rows: Sequence[Row], reference: Reference, title: str, output: str | No
 
     Parameters
     ----------
-    rows : sequence of Row
+    rows : sequence of StudyRow
         The points.
     reference : Reference
         Its own error is a band at the bottom.
@@ -54,9 +54,9 @@ def draw(rows: Sequence[Row], reference: Reference, title: str, output: str | No
     axes.set(xscale="log", yscale="log", xlabel="solve time [ms]")
     axes.set_ylabel(f"largest error of {output or 'all outputs'}, in parts of the range")
     axes.set_title(title)
-    names = list(dict.fromkeys(row.point.formulation for row in rows))
+    names = list(dict.fromkeys(row.case.formulation for row in rows))
     for k, name in enumerate(names):
-        _curve(axes, [row for row in good if row.point.formulation == name], name, k, output)
+        _curve(axes, [row for row in good if row.case.formulation == name], name, k, output)
     floor = reference.floor if output is None else reference.floors[output]
     _front(axes, good, floor, output)
     _band(axes, floor)
@@ -66,12 +66,12 @@ def draw(rows: Sequence[Row], reference: Reference, title: str, output: str | No
     axes.grid(which="major", alpha=0.35)
     _legend(
         axes,
-        [f"{name}: diverged or failed" for name in names if all(r.remark for r in rows if r.point.formulation == name)],
+        [f"{name}: diverged or failed" for name in names if all(r.remark for r in rows if r.case.formulation == name)],
     )
     return figure
 
 
-def _curve(axes: Axes, rows: Sequence[Row], name: str, k: int, output: str | None) -> None:
+def _curve(axes: Axes, rows: Sequence[StudyRow], name: str, k: int, output: str | None) -> None:
     """Draw every point of a formulation, and join the best of them."""
     if not rows:
         return
@@ -86,7 +86,7 @@ def _curve(axes: Axes, rows: Sequence[Row], name: str, k: int, output: str | Non
     axes.plot([_ms(r) for r in best], [r.error_of(output) for r in best], color=colour, linewidth=1.6, zorder=1)
 
 
-def _front(axes: Axes, rows: Sequence[Row], floor: float, output: str | None) -> None:
+def _front(axes: Axes, rows: Sequence[StudyRow], floor: float, output: str | None) -> None:
     """Ring the points that no other one beats, and name their sizes and tolerances."""
     best = pareto(rows, floor, output)
     x, y = [_ms(r) for r in best], [r.error_of(output) for r in best]
@@ -97,13 +97,13 @@ def _front(axes: Axes, rows: Sequence[Row], floor: float, output: str | None) ->
         if x[k] < TOO_NEAR * labelled:
             continue
         crowded, labelled = x[k] < NEAR * labelled, x[k]
-        text = ", ".join(filter(None, [row.point.size, f"{row.point.tolerance:.0e}".replace("e-0", "e-")]))
+        text = ", ".join(filter(None, [row.case.size, f"{row.case.tolerance:.0e}".replace("e-0", "e-")]))
         place: dict[str, Any] = {"ha": "left", "va": "bottom"} if crowded else {"ha": "right", "va": "top"}
         offset = (5, 7) if crowded else (-5, -7)
         axes.annotate(text, (x[k], y[k]), offset, textcoords="offset points", fontsize="x-small", **place)
 
 
-def _ms(row: Row) -> float:
+def _ms(row: StudyRow) -> float:
     return 1e3 * row.seconds
 
 

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
+from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
-from acausal.study.measuring.point import Measurement, Point
 from acausal.study.studies.formulation import Formulation
 
 # Refinements that are tried, and the least tolerance of a reference.
 ROUNDS, LEAST = 6, 1e-12
-Measure = Callable[[Iterable[Point]], Sequence[Measurement]]
+Measure = Callable[[Iterable[Case]], Sequence[Measurement]]
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Reference:
         The deviation that was asked for.
     text : str
         Where it comes from.
-    point : Point or None
+    case : Case or None
         How it was computed, where it was.
     """
 
@@ -43,7 +43,7 @@ class Reference:
     agreement: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     asked: float = 0.0
     text: str = ""
-    point: Point | None = None
+    case: Case | None = None
 
     @property
     def floors(self) -> dict[str, float]:
@@ -67,23 +67,23 @@ class Reference:
         return "\n".join(lines)
 
 
-def make(measure: Measure, formulations: Sequence[Formulation], point: Point, least: float, asked: float) -> Reference:
+def make(measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, asked: float) -> Reference:
     """Make the reference from the model itself.
 
     Parameters
     ----------
     measure : callable
-        Measures points side by side.
+        Measures cases side by side.
     formulations : sequence of Formulation
         Those with the same limit; two of them check each other.
-    point : Point
-        Settings that all points have in common.
+    case : Case
+        Settings that all cases have in common.
     least : float
         The tightest tolerance of the study.
     asked : float
         Deviation to be reached, in parts of the range.
     """
-    start = replace(point, tolerance=max(LEAST, least / 10))
+    start = replace(case, tolerance=max(LEAST, least / 10))
     if not any(form.refine for form in formulations):
         return _tightened(measure, _at(start, formulations[0], 0), asked)
     return _refined(measure, [form for form in formulations if form.refine], start, asked)
@@ -127,7 +127,7 @@ def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Referen
     return Reference(times, values, text=str(path))
 
 
-def _refined(measure: Measure, forms: Sequence[Formulation], start: Point, asked: float) -> Reference:
+def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
     """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
     state, best = _State(tuple(forms), start.tolerance), None
     for _ in range(ROUNDS):
@@ -148,11 +148,11 @@ class _State:
     level: int = 0
 
 
-def _look(measure: Measure, state: _State, start: Point, asked: float) -> tuple[Reference | None, _State, str]:
+def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
     """Compare with coarser elements, another formulation and a looser tolerance; tell what to refine, or what failed."""
-    point, n = replace(start, tolerance=state.tolerance), len(state.forms)
-    coarse = [_at(point, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
-    fine = [_at(point, form, form.steps - 1 + state.level) for form in state.forms]
+    case, n = replace(start, tolerance=state.tolerance), len(state.forms)
+    coarse = [_at(case, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
+    fine = [_at(case, form, form.steps - 1 + state.level) for form in state.forms]
     runs = measure([*coarse, *fine])
     pairs = [(a, b, form) for a, b, form in zip(runs[:n], runs[n:], state.forms, strict=True) if not a.error + b.error]
     if not pairs:
@@ -161,9 +161,9 @@ def _look(measure: Measure, state: _State, start: Point, asked: float) -> tuple[
     pairs = sorted(pairs, key=lambda pair: worst(pair[0].values, pair[1].values))[:2]
     coarser, best, _ = pairs[0]
     agreement = {"coarser elements": _distances(coarser, best)}
-    agreement |= {other.point.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
+    agreement |= {other.case.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
     elements = max(max(found.values()) for found in agreement.values())
-    looser = measure([replace(best.point, tolerance=10 * state.tolerance)])[0]
+    looser = measure([replace(best.case, tolerance=10 * state.tolerance)])[0]
     if looser.error:
         return None, state, _failed([looser])
     agreement["looser tolerance"] = _distances(looser, best)
@@ -184,19 +184,19 @@ def _ended(found: Reference | None, why: str) -> Reference:
     return replace(found, text=f"{found.text} ({why})") if why else found
 
 
-def _tightened(measure: Measure, point: Point, asked: float) -> Reference:
+def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
     """Tighten the tolerance of a model without elements, and check by another way of integration."""
-    found, best, looser = None, measure([point])[0], measure([replace(point, tolerance=10 * point.tolerance)])[0]
+    found, best, looser = None, measure([case])[0], measure([replace(case, tolerance=10 * case.tolerance)])[0]
     why = ""
     for _ in range(ROUNDS):
         if best.error or looser.error:
             why = _failed([best, looser])
             break
         found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
-        tolerance = best.point.tolerance / 10
+        tolerance = best.case.tolerance / 10
         if found.floor <= asked or tolerance < LEAST:
             break
-        looser, best = best, measure([replace(best.point, tolerance=tolerance)])[0]
+        looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]
     return _checked(measure, _ended(found, why), looser if best.error else best)
 
 
@@ -204,10 +204,10 @@ def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference
     """Compare with loops closed in the other way, or with the other integrator."""
     if best.constraints in ("states", "projection"):
         name = "projection" if best.constraints == "states" else "states"
-        other = measure([replace(best.point, constraints=name)])[0]
+        other = measure([replace(best.case, constraints=name)])[0]
     else:
         name = "idas" if best.method == "rosenbrock" else "rosenbrock"
-        other = measure([replace(best.point, method=name)])[0]
+        other = measure([replace(best.case, method=name)])[0]
     if other.error:
         return replace(found, text=f"{found.text} (no check by {name}: {other.error})")
     return replace(found, agreement={**found.agreement, name: _distances(other, found)})
@@ -218,14 +218,14 @@ def _distances(one: Measurement, other: Measurement | Reference) -> dict[str, fl
 
 
 def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], asked: float) -> Reference:
-    return Reference(best.times, best.values, agreement, asked, str(best.point), best.point)
+    return Reference(best.times, best.values, agreement, asked, str(best.case), best.case)
 
 
-def _at(point: Point, form: Formulation, step: int) -> Point:
+def _at(case: Case, form: Formulation, step: int) -> Case:
     settings, size = form.at(step)
-    return replace(point, formulation=form.name, settings={**point.settings, **settings}, size=size)
+    return replace(case, formulation=form.name, settings={**case.settings, **settings}, size=size)
 
 
 def _failed(now: Sequence[Measurement]) -> str:
     failed = next(m for m in now if m.error)
-    return f"{failed.point}: {failed.error}"
+    return f"{failed.case}: {failed.error}"

@@ -1,4 +1,4 @@
-"""Rows of a study: how wrong a point is, what it costs, and what its error comes from."""
+"""Rows of a study: how wrong a case is, what it costs, and what its error comes from."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import RUNAWAY, deviations, worst
-from acausal.study.measuring.point import Measurement, Point
 from acausal.study.studies.formulation import Formulation
 from acausal.study.studies.reference import Reference
 
-# What limits the accuracy of a point.
+# What limits the accuracy of a case.
 TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"
 # The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes with
 # the power 2/3 of the tolerance, that of elements at least with the square of their size.
@@ -20,8 +20,8 @@ TOLERANCE_POWER, ELEMENTS_SHARE = 2 / 3, 1 / 3
 
 
 @dataclass(frozen=True)
-class Row:
-    """A point against the reference.
+class StudyRow:
+    """A case against the reference.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Row:
         What limits the accuracy: "tolerance", "elements" (of which there are too few), "model" (the formulation has
         another limit than the reference), or "reference" (which is not known better).
     front : bool
-        Whether no other point is both faster and more accurate.
+        Whether no other case is both faster and more accurate.
     remark : str
         Why it does not count; "" if it does.
     """
@@ -45,9 +45,9 @@ class Row:
     remark: str = ""
 
     @property
-    def point(self) -> Point:
+    def case(self) -> Case:
         """What was run."""
-        return self.measurement.point
+        return self.measurement.case
 
     @property
     def seconds(self) -> float:
@@ -77,7 +77,7 @@ class Row:
 
 def rows_of(
     measurements: Sequence[Measurement], reference: Reference, formulations: Sequence[Formulation]
-) -> tuple[Row, ...]:
+) -> tuple[StudyRow, ...]:
     """Compare measurements with the reference.
 
     Parameters
@@ -92,46 +92,46 @@ def rows_of(
     rows = [_compared(m, reference) for m in measurements]
     good = [row for row in rows if not row.remark]
     forms = {form.name: form for form in formulations}
-    front = {row.point for row in pareto(good, reference.floor)}
+    front = {row.case for row in pareto(good, reference.floor)}
     return tuple(
-        row if row.remark else replace(row, limit=_limit(row, good, reference, forms), front=row.point in front)
+        row if row.remark else replace(row, limit=_limit(row, good, reference, forms), front=row.case in front)
         for row in rows
     )
 
 
-def pareto(rows: Sequence[Row], floor: float = 0.0, output: str | None = None) -> list[Row]:
+def pareto(rows: Sequence[StudyRow], floor: float = 0.0, output: str | None = None) -> list[StudyRow]:
     """Return the rows that no other one beats in time and error, the fastest first.
 
     Parameters
     ----------
-    rows : sequence of Row
+    rows : sequence of StudyRow
         With errors.
     floor : float
         Errors below it are not told apart.
     output : str, optional
         Whose error; the largest of all outputs if not given.
     """
-    known = {row.point: max(row.error_of(output), floor) for row in rows}
-    best: list[Row] = []
-    for row in sorted(rows, key=lambda r: (r.seconds, known[r.point])):
-        if not best or known[row.point] < known[best[-1].point]:
+    known = {row.case: max(row.error_of(output), floor) for row in rows}
+    best: list[StudyRow] = []
+    for row in sorted(rows, key=lambda r: (r.seconds, known[r.case])):
+        if not best or known[row.case] < known[best[-1].case]:
             best.append(row)
     return best
 
 
-def _compared(m: Measurement, reference: Reference) -> Row:
+def _compared(m: Measurement, reference: Reference) -> StudyRow:
     if m.error:
-        return Row(m, {}, remark=m.error)
-    row = Row(m, deviations(m.values, reference.values))
+        return StudyRow(m, {}, remark=m.error)
+    row = StudyRow(m, deviations(m.values, reference.values))
     if row.error > RUNAWAY:
         return replace(row, remark=f"it diverged: {row.error:.1g} times the range away from the reference")
     return row
 
 
-def _limit(row: Row, good: Sequence[Row], reference: Reference, forms: Mapping[str, Formulation]) -> str:
+def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms: Mapping[str, Formulation]) -> str:
     """Tell what the error comes from: at least half of it goes with what is blamed."""
-    half, form = row.error / 2, forms[row.point.formulation]
-    exact = _has_its_limit(row.point, form, reference)
+    half, form = row.error / 2, forms[row.case.formulation]
+    exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:
         return REFERENCE
     if _tolerance_error(row, good, reference) > half:
@@ -141,41 +141,41 @@ def _limit(row: Row, good: Sequence[Row], reference: Reference, forms: Mapping[s
     return REFERENCE if exact else MODEL
 
 
-def _has_its_limit(point: Point, form: Formulation, reference: Reference) -> bool:
-    """Whether a point comes to the reference in the limit: an exact formulation, and no switch that changes the model."""
-    made = reference.point
+def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
+    """Whether a case comes to the reference in the limit: an exact formulation, and no switch that changes the model."""
+    made = reference.case
     if made is None:
         return form.exact
-    own = {path: value for path, value in point.settings.items() if path not in (*form.settings, *form.refine)}
+    own = {path: value for path, value in case.settings.items() if path not in (*form.settings, *form.refine)}
     return (form.exact or form.name == made.formulation) and all(made.settings.get(p, v) == v for p, v in own.items())
 
 
-def _tolerance_error(row: Row, good: Sequence[Row], reference: Reference) -> float:
+def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float:
     """Estimate what the tolerance does, from the same equations at another one."""
-    own = replace(row.point, tolerance=0.0)
-    series = sorted((r for r in good if replace(r.point, tolerance=0.0) == own), key=lambda r: r.point.tolerance)
+    own = replace(row.case, tolerance=0.0)
+    series = sorted((r for r in good if replace(r.case, tolerance=0.0) == own), key=lambda r: r.case.tolerance)
     if len(series) < 2:
         return 0.0
-    if row.point != series[0].point:
+    if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return _between(row, series[1], reference) * (row.point.tolerance / series[1].point.tolerance) ** TOLERANCE_POWER
+    return _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** TOLERANCE_POWER
 
 
-def _elements_error(row: Row, good: Sequence[Row], form: Formulation, reference: Reference) -> float:
+def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:
     """Estimate what the number of elements does, from the same formulation with another one."""
 
-    def family(point: Point) -> Point:
-        settings = {path: value for path, value in point.settings.items() if path not in form.refine}
-        return replace(point, size="", settings=settings)
+    def family(case: Case) -> Case:
+        settings = {path: value for path, value in case.settings.items() if path not in form.refine}
+        return replace(case, size="", settings=settings)
 
-    own = family(row.point)
-    series = sorted((r for r in good if family(r.point) == own), key=lambda r: -r.measurement.equations)
+    own = family(row.case)
+    series = sorted((r for r in good if family(r.case) == own), key=lambda r: -r.measurement.equations)
     if len(series) < 2:
         return 0.0
-    if row.point != series[0].point:
+    if row.case != series[0].case:
         return _between(row, series[0], reference)
     return _between(row, series[1], reference) * ELEMENTS_SHARE
 
 
-def _between(one: Row, other: Row, reference: Reference) -> float:
+def _between(one: StudyRow, other: StudyRow, reference: Reference) -> float:
     return worst(one.measurement.values, other.measurement.values, reference.values)

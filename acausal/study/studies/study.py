@@ -20,8 +20,8 @@ from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import write_csv
 from acausal.study.measuring.arguments import check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
-from acausal.study.measuring.point import Job, Point
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import pack
@@ -29,7 +29,7 @@ from acausal.study.studies.formulation import Formulation, formulations_of
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, read
-from acausal.study.studies.rows import Row, pareto, rows_of
+from acausal.study.studies.rows import StudyRow, pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
 if TYPE_CHECKING:
@@ -38,14 +38,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Study:
-    """Every point of a study against its reference.
+    """Every case of a study against its reference.
 
     Parameters
     ----------
     title : str
         Name of the model.
-    rows : tuple of Row
-        One for each point.
+    rows : tuple of StudyRow
+        One for each case.
     reference : Reference
         What they are compared with, and how well it is known.
     switches : tuple of str
@@ -53,12 +53,12 @@ class Study:
     """
 
     title: str
-    rows: tuple[Row, ...]
+    rows: tuple[StudyRow, ...]
     reference: Reference
     switches: tuple[str, ...] = ()
 
     @property
-    def best(self) -> list[Row]:
+    def best(self) -> list[StudyRow]:
         """The rows that no other one beats in time and error, the fastest first."""
         return pareto([row for row in self.rows if not row.remark], self.reference.floor)
 
@@ -68,18 +68,18 @@ class Study:
         return columns(self.rows, self.switches)
 
     def table(self) -> str:
-        """Return reference, points and the price of each digit as text for a terminal."""
+        """Return reference, cases and the price of each digit as text for a terminal."""
         table = cells(self.rows, self.reference, self.switches).text()
         return "\n\n".join([self.title, str(self.reference), table, "\n".join(self.price())])
 
     def price(self) -> list[str]:
-        """Return what each digit costs: the fastest point within each power of ten of the error, a line each."""
+        """Return what each digit costs: the fastest case within each power of ten of the error, a line each."""
         lines = []
         for power in range(-1, -13, -1):
             within = [row for row in self.best if row.error <= 10.0**power]
             if not within or self.reference.floor > 10.0**power:
                 break
-            lines.append(f"an error of {10.0**power:.0e} costs {1e3 * within[0].seconds:.3g} ms: {within[0].point}")
+            lines.append(f"an error of {10.0**power:.0e} costs {1e3 * within[0].seconds:.3g} ms: {within[0].case}")
         return lines
 
     def document(self) -> dict[str, Any]:
@@ -90,7 +90,7 @@ class Study:
         return {"model": self.title, "reference": told, "rows": rows}
 
     def to_csv(self, path: str | Path) -> None:
-        """Write every column of every point.
+        """Write every column of every case.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Study:
         write_csv(path, self.columns)
 
     def to_markdown(self, path: str | Path) -> None:
-        """Write reference, points and the price of each digit as Markdown.
+        """Write reference, cases and the price of each digit as Markdown.
 
         Parameters
         ----------
@@ -160,7 +160,7 @@ def study(
     stop_time : float, optional
         In s; the model's own if not given.
     parameters : mapping of str to value, optional
-        Values by path that all points have in common; what they fix is not varied.
+        Values by path that all cases have in common; what they fix is not varied.
     outputs : sequence of str
         Paths of what is compared, with * and ?; the model's outputs if empty.
     formulations : sequence of Formulation, optional
@@ -180,18 +180,18 @@ def study(
     initial : str, optional
         As of `simulate`.
     repeats : int
-        Runs of a point whose median counts; what takes seconds is not repeated.
+        Runs of a case whose median counts; what takes seconds is not repeated.
     limit : float
-        Seconds after which a point is stopped.
+        Seconds after which a case is stopped.
     workers : int, optional
         Number of processes; one for each core if not given.
     executor : Executor or str, optional
-        Where points run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
+        Where cases run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
         address of a Dask scheduler. Processes of this machine if not given.
     journal : str or Path, optional
         File that keeps what is done; an interrupted study goes on from it, a complete one removes it.
     progress : callable, optional
-        Called with the number of points done, of points so far, and what is going on.
+        Called with the number of cases done, of cases so far, and what is going on.
 
     Returns
     -------
@@ -212,17 +212,17 @@ def study(
     compiled = compile(model, given)
     names = outputs_of(compiled, outputs)
     forms = tuple(formulations or formulations_of(model, given))
-    loops = compiled.closing.size and len(forms) == 1 and not forms[0].refine
+    loops = compiled.constraints.size and len(forms) == 1 and not forms[0].refine
     kinds = constraints or (("states", "projection") if loops else ("auto",))
     grid = Grid(forms, tolerances, max_orders, methods, kinds, switches or {})
-    trees = [Instantiation(model, point.settings).root for point in grid.structures(given)]
-    job = Job(pack(model), Point(), stop, intervals, names, repeats, limit, initial)
+    trees = [Instantiation(model, case.settings).root for case in grid.structures(given)]
+    job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial)
     known = None if reference is None else read(reference, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
     kept = Journal(journal, identity(model, trees, **common))
     with executor_of(executor, workers) as pool:
         session = Session(job, pool, kept, progress)
-        measured = session.measure(grid.points(given), "points")
+        measured = session.measure(grid.cases(given), "points")
         if known is None:
             exact = [form for form in forms if form.exact] or list(forms[:1])
             base = _base(compiled, grid, given)
@@ -231,10 +231,10 @@ def study(
     return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
 
 
-def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Point:
-    """Return what all points of a reference have in common: what is switched stands as in the model itself."""
+def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Case:
+    """Return what all cases of a reference have in common: what is switched stands as in the model itself."""
     own = {path: value for path in grid.switches if (value := _value(compiled, path)) is not None}
-    return Point("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
+    return Case("", {**given, **own}, method=grid.methods[0], constraints=grid.constraints[0])
 
 
 def _value(compiled: CompiledModel, path: str) -> Any:

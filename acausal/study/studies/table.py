@@ -7,30 +7,30 @@ from typing import Any
 
 from acausal.result.tables import Table
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import Row
+from acausal.study.studies.rows import StudyRow
 
 WORDS = ("", "formulation", "size", "method", "constraints", "limited by")
 
 
-def columns(rows: Sequence[Row], switches: Sequence[str] = ()) -> dict[str, list[Any]]:
+def columns(rows: Sequence[StudyRow], switches: Sequence[str] = ()) -> dict[str, list[Any]]:
     """Return everything that is known of each row, by the names of the columns of the CSV.
 
     Parameters
     ----------
-    rows : sequence of Row
+    rows : sequence of StudyRow
         The rows.
     switches : sequence of str
         Paths that were varied.
     """
     outputs = dict.fromkeys(name for row in rows for name in row.errors)
     table: dict[str, list[Any]] = {
-        "formulation": [r.point.formulation for r in rows],
-        "size": [r.point.size for r in rows],
-        **{path: [r.point.settings[path] for r in rows] for path in switches},
-        "tolerance": [r.point.tolerance for r in rows],
-        "max_order": [r.measurement.max_order or r.point.max_order for r in rows],
-        "method": [r.measurement.method or r.point.method for r in rows],
-        "constraints": [r.measurement.constraints or r.point.constraints for r in rows],
+        "formulation": [r.case.formulation for r in rows],
+        "size": [r.case.size for r in rows],
+        **{path: [r.case.settings[path] for r in rows] for path in switches},
+        "tolerance": [r.case.tolerance for r in rows],
+        "max_order": [r.measurement.max_order or r.case.max_order for r in rows],
+        "method": [r.measurement.method or r.case.method for r in rows],
+        "constraints": [r.measurement.constraints or r.case.constraints for r in rows],
         "error": [r.error for r in rows],
         "rms": [r.rms for r in rows],
     }
@@ -46,12 +46,12 @@ def columns(rows: Sequence[Row], switches: Sequence[str] = ()) -> dict[str, list
     }
 
 
-def cells(rows: Sequence[Row], reference: Reference, switches: Sequence[str]) -> Table:
+def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str]) -> Table:
     """Return the table for people: what is the same in every row is left out.
 
     Parameters
     ----------
-    rows : sequence of Row
+    rows : sequence of StudyRow
         The rows.
     reference : Reference
         Tells which errors are too small to be known.
@@ -60,22 +60,22 @@ def cells(rows: Sequence[Row], reference: Reference, switches: Sequence[str]) ->
     """
     table = columns(rows, switches)
     options = ("max_order", "method", "constraints")
-    asked = {name: {getattr(row.point, name) for row in rows} for name in options}
+    asked = {name: {getattr(row.case, name) for row in rows} for name in options}
     varied = [name for name in options if len(asked[name]) > 1 or len({used for used in table[name] if used}) > 1]
     head = ["", "formulation", "size", *switches, "tolerance", *(name.replace("_", " ") for name in varied)]
     head += ["solve ms", "compile s", "steps", "fact.", "residuals", "unknowns", "error", "rms", "limited by"]
     body = []
     for k, row in enumerate(rows):
-        m, point = row.measurement, row.point
-        what = ["*" if row.front else "", point.formulation, point.size, *(str(table[path][k]) for path in switches)]
-        what += [f"{point.tolerance:.0e}", *(str(table[name][k] or "") for name in varied)]
+        m, case = row.measurement, row.case
+        what = ["*" if row.front else "", case.formulation, case.size, *(str(table[path][k]) for path in switches)]
+        what += [f"{case.tolerance:.0e}", *(str(table[name][k] or "") for name in varied)]
         costs = [f"{m.solve_seconds * 1e3:.3g}", f"{m.compile_seconds:.2g}"]
         costs += [str(n) for n in (m.steps, m.factorisations, m.residual_evaluations, m.equations)]
         body.append([*what, *(costs if m.steps or not m.error else ["-"] * 6), *_errors(row, reference)])
     return Table(head, body, WORDS)
 
 
-def _errors(row: Row, reference: Reference) -> list[str]:
+def _errors(row: StudyRow, reference: Reference) -> list[str]:
     if row.remark:
         return ["-", "-", row.remark]
     below = row.error < reference.floor

@@ -26,7 +26,7 @@ from acausal import (
     root,
     variable,
 )
-from acausal.study.switching.listing import effects_of
+from acausal.study.effects.listing import effects_of
 from components import BodyShape, FixedTranslation, FlexibleBeam, Frame, Revolute, SubstructuredBeam, World
 
 REST = {"phi": fixed(0.1), "w": fixed(0)}

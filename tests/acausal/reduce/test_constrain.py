@@ -39,10 +39,10 @@ class Pendulum:
         at = model.index
         self.explicit = {(0, at["ax"]): one, (1, at["ay"]): one}
         self.own = list(self.residuals)
-        self.closing = constrain(flat, self.plan, self.elements, self.residuals, self.explicit)  # type: ignore[arg-type]
+        self.projections = constrain(flat, self.plan, self.elements, self.residuals, self.explicit)  # type: ignore[arg-type]
 
     def value(self, expression, choice, **values) -> np.ndarray:
-        known = [*(self.at[name] for name in values), self.closing.choice]
+        known = [*(self.at[name] for name in values), self.projections.choice]
         f = ca.Function("f", known, [expression], {"allow_free": True})
         return np.array(f(*values.values(), choice)).ravel()
 
@@ -51,7 +51,7 @@ class Pendulum:
         added = self.residuals[len(self.own) :: 2]
         equations = [self.residuals[self.constraint.rows[0]], *added[:2]]
         unknowns = ca.vertcat(self.at["x"], self.at["y"], self.mu[0])
-        known = ca.vertcat(self.at["X"], self.at["Y"], self.closing.choice)
+        known = ca.vertcat(self.at["X"], self.at["Y"], self.projections.choice)
         f = ca.Function("f", [unknowns, known], [ca.vertcat(*equations)])
         solve = ca.rootfinder("solve", "newton", f, {"abstol": 1e-13})
         return np.array(solve([X, Y, 0.0], [X, Y, *choice])).ravel()
@@ -63,7 +63,7 @@ def pendulum() -> Pendulum:
 
 
 def test_constraints_are_told_in_terms_of_what_is_integrated(pendulum):
-    found = pendulum.value(pendulum.closing.residuals, np.zeros(5), X=3, Y=4, VX=5, VY=-1)
+    found = pendulum.value(pendulum.projections.constraints, np.zeros(5), X=3, Y=4, VX=5, VY=-1)
     np.testing.assert_allclose(found, [24, 22])
 
 
@@ -73,7 +73,7 @@ def test_projections_are_appended_with_their_constant_coefficients(pendulum):
     assert len(pendulum.residuals) == pendulum.plan.system.n_equations
     for (row, unknown), coefficient in pendulum.explicit.items():
         slope = ca.jacobian(pendulum.residuals[row], pendulum.elements[unknown])
-        assert ca.is_equal(ca.simplify(ca.substitute(slope, pendulum.closing.moves, 0)), coefficient, 3)
+        assert ca.is_equal(ca.simplify(ca.substitute(slope, pendulum.projections.moves, 0)), coefficient, 3)
     assert {row for row, _ in pendulum.explicit} == {0, 1, *range(n, n + 8)}
 
 
@@ -107,7 +107,7 @@ def test_a_closure_that_counts_stays_and_one_that_does_not_gives_way():
     values = {"x": 2.0, "y": 3.0, "vx": 5.0, "vy": 7.0, "ax": 1.0, "ay": 1.0, "dual": 11.0}
     rows = [*pendulum.constraint.rows, pendulum.constraint.top]
     both = ca.vertcat(*[pendulum.residuals[row] for row in rows])
-    symbols = [*(pendulum.at[name] for name in values), *pendulum.mu, pendulum.closing.choice]
+    symbols = [*(pendulum.at[name] for name in values), *pendulum.mu, pendulum.projections.choice]
     f = ca.Function("f", symbols, [both])
     np.testing.assert_allclose(np.array(f(*values.values(), 0.1, 0.2, on)).ravel(), [12, 62, 158])
     off = [0.0, *np.zeros(5)]
@@ -120,6 +120,6 @@ def test_nothing_to_constrain_leaves_nothing_to_choose():
     elements = [ca.SX.sym(name) for name in model.name]
     residuals = [elements[0], elements[1]]
     flat = SimpleNamespace(loops=SimpleNamespace(closures=[]))
-    closing = constrain(flat, plan, elements, residuals, {})  # type: ignore[arg-type]
-    assert closing.choice.numel() == closing.residuals.numel() == closing.states.numel() == 0
+    projections = constrain(flat, plan, elements, residuals, {})  # type: ignore[arg-type]
+    assert projections.choice.numel() == projections.constraints.numel() == projections.states.numel() == 0
     assert len(residuals) == 2

@@ -231,17 +231,17 @@ def test_what_cannot_be_reached_is_refused_with_the_best():
 
 
 def test_interrupt_leaves_the_best(monkeypatch):
-    from acausal.simulation import trials
+    from acausal.simulation import runs
 
-    runs, real = [], trials.run
+    called, real = [], runs.run
 
     def stopped(*arguments: Any) -> ac.Result:
-        runs.append(arguments)
-        if len(runs) > 3:
+        called.append(arguments)
+        if len(called) > 3:
             raise KeyboardInterrupt
         return real(*arguments)
 
-    monkeypatch.setattr(trials, "run", stopped)
+    monkeypatch.setattr(runs, "run", stopped)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(SpinUp(), stop_time=20.0, accuracy=1e-4)
     result = caught.value.result  # type: ignore[attr-defined]

@@ -31,7 +31,7 @@ class Made:
         plan = SimpleNamespace(residuals=range(n), differentiated=())
         reduced = SimpleNamespace(flat=SimpleNamespace(equations=equations), plan=plan)
         self.compiled = SimpleNamespace(
-            nz=self.nz, reduced=reduced, closing=SimpleNamespace(size=0), states=[f"x{k}" for k in range(nx)]
+            nz=self.nz, reduced=reduced, constraints=SimpleNamespace(size=0), states=[f"x{k}" for k in range(nx)]
         )
 
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:

@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import pytest
 
-from acausal.solve.integrate.ladder import Failure, Kind, Policy, Refusal, Way, accepted, next_ways, read
+from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Rescues, Way, accepted, next_ways, read
 
 QUICK = Way("idas", moves=False, tolerance=1e-6, max_steps=100)
-AUTO = Policy(("idas", "rosenbrock"), projects=True, loops=True, damps=True, tolerance=1e-6)
+AUTO = Rescues(("idas", "rosenbrock"), projects=True, loops=True, damps=True, tolerance=1e-6)
 FREE = replace(AUTO, loops=False)
 
 
 @pytest.mark.parametrize(
-    ("way", "kind", "policy", "method", "moves"),
+    ("way", "kind", "rescues", "method", "moves"),
     [
         (QUICK, Kind.WORN, AUTO, "idas", True),
         (QUICK, Kind.APART, AUTO, "idas", True),
@@ -26,12 +26,12 @@ FREE = replace(AUTO, loops=False)
         (QUICK, Kind.CORRECTOR, replace(AUTO, projects=False), "rosenbrock", False),
     ],
 )
-def test_what_follows_a_quick_way(way, kind, policy, method, moves):
-    assert next_ways(way, Refusal(kind, 0.5), policy) == (replace(way, method=method, moves=moves),)
+def test_what_follows_a_quick_way(way, kind, rescues, method, moves):
+    assert next_ways(way, Refusal(kind, 0.5), rescues) == (replace(way, method=method, moves=moves),)
 
 
 @pytest.mark.parametrize(
-    ("way", "kind", "policy"),
+    ("way", "kind", "rescues"),
     [
         (QUICK, Kind.ERROR_TEST, FREE),
         (QUICK, Kind.STEPS, replace(AUTO, damps=False)),
@@ -42,8 +42,8 @@ def test_what_follows_a_quick_way(way, kind, policy, method, moves):
         (QUICK, Kind.WORN, replace(AUTO, projects=False)),
     ],
 )
-def test_where_nothing_follows_a_quick_way(way, kind, policy):
-    assert next_ways(way, Refusal(kind, 0.5), policy) == ()
+def test_where_nothing_follows_a_quick_way(way, kind, rescues):
+    assert next_ways(way, Refusal(kind, 0.5), rescues) == ()
 
 
 @pytest.mark.parametrize("kind", list(Kind))
@@ -63,8 +63,8 @@ def test_careful_ways_take_the_other_method_and_then_longer_steps():
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-10])
 def test_no_tolerance_becomes_smaller_or_looser_than_1e_4(tolerance):
-    policy = replace(AUTO, methods=("idas",), tolerance=tolerance)
-    found = next_ways(replace(QUICK, careful=True, tolerance=tolerance), Refusal(Kind.OTHER, 0.5), policy)
+    rescues = replace(AUTO, methods=("idas",), tolerance=tolerance)
+    found = next_ways(replace(QUICK, careful=True, tolerance=tolerance), Refusal(Kind.OTHER, 0.5), rescues)
     assert [way.tolerance for way in found] == sorted({way.tolerance for way in found})
     assert found[0].tolerance == tolerance
     assert found[-1].tolerance <= max(tolerance, 1e-4)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linear_sum_assignment
 
-from acausal.structure import Part, StructuralSingularity, analyse
+from acausal.structure import StructuralSingularity, Subsystem, analyse
 from acausal.structure.extension import Extension
 from tests.acausal.structure.examples import Model, freedom, random_model
 
@@ -160,7 +160,7 @@ def test_definitions_only_cannot_be_reduced() -> None:
     model = Model(["x | r", "x | r"], {"x": "v"}, {"r": "v"}, {0: "r", 1: "r"})
     with pytest.raises(StructuralSingularity) as error:
         analyse(model.system)
-    assert error.value.over == (Part((0, 1), (model.index["r"],)),)
+    assert error.value.over == (Subsystem((0, 1), (model.index["r"],)),)
 
 
 def test_bound_on_the_number_of_differentiations() -> None:

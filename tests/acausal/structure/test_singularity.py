@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from acausal.structure import Part, StructuralSingularity, analyse, components, decompose
+from acausal.structure import StructuralSingularity, Subsystem, analyse, components, decompose
 from acausal.structure.incidence import transpose
 from acausal.structure.matching import augment, maximum_matching
 from tests.acausal.structure.examples import Model, random_model
@@ -20,20 +20,20 @@ def test_augmenting_path_shifts_the_matching_or_reports_what_it_saw() -> None:
 
 
 def test_closed_vertices_are_not_entered() -> None:
-    assert augment(0, [[0]], [-1], [-1], closed={0}).right == []
+    assert augment(0, [[0]], [-1], [-1], exhausted={0}).right == []
 
 
 def test_coarse_decomposition() -> None:
     rows = [[0], [0], [1, 2], [2, 1], [3, 4, 1]]
     parts = decompose(rows, 5)
-    assert parts.over == Part((0, 1), (0,))
-    assert parts.well == Part((2, 3), (1, 2))
-    assert parts.under == Part((4,), (3, 4))
+    assert parts.over == Subsystem((0, 1), (0,))
+    assert parts.well == Subsystem((2, 3), (1, 2))
+    assert parts.under == Subsystem((4,), (3, 4))
 
 
 def test_components_smallest_first() -> None:
     rows = [[0, 1], [0, 1], [0, 1], [2], [2]]
-    assert components(rows, decompose(rows, 3).over) == (Part((3, 4), (2,)), Part((0, 1, 2), (0, 1)))
+    assert components(rows, decompose(rows, 3).over) == (Subsystem((3, 4), (2,)), Subsystem((0, 1, 2), (0, 1)))
 
 
 def test_too_many_equations_smallest_part_first() -> None:
@@ -41,7 +41,7 @@ def test_too_many_equations_smallest_part_first() -> None:
     with pytest.raises(StructuralSingularity) as error:
         analyse(model.system)
     at = model.index
-    assert error.value.over == (Part((3, 4), (at["z"],)), Part((0, 1, 2), (at["x"], at["y"])))
+    assert error.value.over == (Subsystem((3, 4), (at["z"],)), Subsystem((0, 1, 2), (at["x"], at["y"])))
     assert error.value.under == ()
 
 
@@ -51,27 +51,27 @@ def test_too_few_equations_reports_the_lowest_of_a_chain() -> None:
         analyse(model.system)
     at = model.index
     assert error.value.over == ()
-    assert error.value.under == (Part((), (at["lonely"],)), Part((0,), (at["x"], at["f"])))
+    assert error.value.under == (Subsystem((), (at["lonely"],)), Subsystem((0,), (at["x"], at["f"])))
 
 
 def test_singular_although_counts_match() -> None:
     model = Model(["x", "x", "y z"])
     with pytest.raises(StructuralSingularity) as error:
         analyse(model.system)
-    assert error.value.over == (Part((0, 1), (0,)),)
-    assert error.value.under == (Part((2,), (1, 2)),)
+    assert error.value.over == (Subsystem((0, 1), (0,)),)
+    assert error.value.under == (Subsystem((2,), (1, 2)),)
 
 
 def test_two_equations_for_one_chain_are_too_many() -> None:
     with pytest.raises(StructuralSingularity) as error:
         analyse(Model(["x", "v", "f"], {"x": "v"}).system)
-    assert error.value.over == (Part((0, 1), (0,)),)
+    assert error.value.over == (Subsystem((0, 1), (0,)),)
 
 
 def test_equation_without_variables() -> None:
     with pytest.raises(StructuralSingularity) as error:
         analyse(Model(["", "x"]).system)
-    assert error.value.over == (Part((0,), ()),)
+    assert error.value.over == (Subsystem((0,), ()),)
 
 
 @pytest.mark.parametrize("seed", range(20))

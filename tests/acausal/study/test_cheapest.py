@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal.study.switching.cheapest import cheapest, search
-from acausal.study.switching.rows import Row
+from acausal.study.effects.cheapest import cheapest, search
+from acausal.study.effects.rows import EffectRow
 
 
 def made(
     choices: Mapping[str, Any], change: float, seconds: float, operations: int = 100, steps: int = 10, **more: Any
 ):
-    return Row(
+    return EffectRow(
         dict(choices), {"x": change}, {"x": change}, seconds, seconds, operations=operations, steps=steps, **more
     )
 
@@ -27,17 +27,17 @@ class Scene:
         self.effects = effects
         self.asked: list[dict[str, Any]] = []
 
-    def row(self, choices: Mapping[str, Any]) -> Row:
+    def row(self, choices: Mapping[str, Any]) -> EffectRow:
         change, seconds = 0.0, 1.0
         for name in choices:
             change, seconds = change + self.effects[name][0], seconds * self.effects[name][1]
         return made(choices, change, seconds)
 
-    def measure(self, wanted: list[Mapping[str, Any]]) -> list[Row]:
+    def measure(self, wanted: list[Mapping[str, Any]]) -> list[EffectRow]:
         self.asked += [dict(choices) for choices in wanted]
         return [self.row(choices) for choices in wanted]
 
-    def best(self, accuracy: float, standing: Row = FULL, fits: Any = dict) -> Row:
+    def best(self, accuracy: float, standing: EffectRow = FULL, fits: Any = dict) -> EffectRow:
         singles = [self.row({name: False}) for name in self.effects]
         return cheapest({"x": search(singles, FULL, standing, ["x"], accuracy, fits)}, self.measure)["x"]
 
@@ -70,10 +70,10 @@ def test_times_within_their_scatter_are_told_apart_by_operations_then_steps():
 def test_small_steps_do_not_add_up_to_a_slower_scene():
     """Each step is 8 % slower than the one before, with fewer operations."""
 
-    def row(choices: Mapping[str, Any]) -> Row:
+    def row(choices: Mapping[str, Any]) -> EffectRow:
         return made(choices, 0.0, 1.08 ** len(choices), operations=100 - len(choices))
 
-    def measure(wanted: list[Mapping[str, Any]]) -> list[Row]:
+    def measure(wanted: list[Mapping[str, Any]]) -> list[EffectRow]:
         return [row(choices) for choices in wanted]
 
     singles = [row({name: False}) for name in "abc"]
@@ -97,7 +97,7 @@ def test_the_scene_as_it_stands_may_be_the_cheapest():
 
 
 def test_a_failed_trial_is_no_candidate():
-    failed = Row({"a": False}, error="it diverged")
+    failed = EffectRow({"a": False}, error="it diverged")
     assert cheapest({"x": search([failed], FULL, failed, ["x"], 1e-2, dict)}, lambda wanted: [])["x"] is FULL
 
 
@@ -106,7 +106,7 @@ def test_searches_go_side_by_side():
     singles = [scene.row({name: False}) for name in scene.effects]
     rounds: list[int] = []
 
-    def measure(wanted: list[Mapping[str, Any]]) -> list[Row]:
+    def measure(wanted: list[Mapping[str, Any]]) -> list[EffectRow]:
         rounds.append(len(wanted))
         return scene.measure(wanted)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal import Model, chain, fixed
-from acausal.study.switching.listing import effects_of, fitting, fullest
+from acausal.study.effects.listing import effects_of, fitting, fullest
 from components import BodyRod, Revolute, SubstructuredBeam, World
 from models import SliderCrank
 from tests.acausal.study.effects_demo import Ramp, Tree

@@ -1,9 +1,9 @@
-"""Rows: what limits each point, which are the best, and how they are written."""
+"""Rows: what limits each case, which are the best, and how they are written."""
 
 import numpy as np
 import pytest
 
-from acausal.study import Formulation, Measurement, Point, Reference, Row, Study
+from acausal.study import Case, Formulation, Measurement, Reference, Study, StudyRow
 from acausal.study.studies.rows import pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
@@ -14,7 +14,7 @@ REFERENCE = Reference(T, {"x": T}, {"coarser elements": {"x": 1e-6}}, 1e-5, "mad
 
 def measured(form, n, tolerance, error, seconds):
     return Measurement(
-        Point(form, {"n": n}, str(n), tolerance), T, {"x": T * (1 + error)}, 0.1, seconds, 10, 5, 30, n, 100, 2, "idas"
+        Case(form, {"n": n}, str(n), tolerance), T, {"x": T * (1 + error)}, 0.1, seconds, 10, 5, 30, n, 100, 2, "idas"
     )
 
 
@@ -27,7 +27,7 @@ MEASURED = [
     measured("bad", 2, 1e-5, 5.1e-2, 4e-3),
     measured("bad", 4, 1e-5, 5e-2, 6e-3),
     measured("bad", 4, 1e-6, 1e6, 6e-3),
-    Measurement(Point("bad", {"n": 4}, "4", 1e-7), error="it was stopped after 60 s"),
+    Measurement(Case("bad", {"n": 4}, "4", 1e-7), error="it was stopped after 60 s"),
 ]
 ROWS = rows_of(MEASURED, REFERENCE, FORMS)
 
@@ -92,6 +92,6 @@ def test_picture(tmp_path):
 
 
 def test_row_of_a_failure_has_no_error():
-    row: Row = ROWS[8]
+    row: StudyRow = ROWS[8]
     assert np.isnan(row.error)
     assert np.isnan(row.rms)

@@ -26,9 +26,7 @@ def found():
 
 def errors(found, formulation, size, tolerance=1e-7):
     (row,) = [
-        r
-        for r in found.rows
-        if (r.point.formulation, r.point.size, r.point.tolerance) == (formulation, size, tolerance)
+        r for r in found.rows if (r.case.formulation, r.case.size, r.case.tolerance) == (formulation, size, tolerance)
     ]
     return row
 
@@ -45,12 +43,12 @@ def test_errors_are_those_of_the_formulas(found):
 
 def test_reference_is_known_as_asked(found):
     assert found.reference.floor <= 1e-3
-    assert found.reference.point.formulation == "fourth"
+    assert found.reference.case.formulation == "fourth"
     assert found.reference.values["x"] == pytest.approx(np.exp(-found.reference.times), abs=1e-4)
 
 
 def test_a_formulation_that_diverges_is_marked(found):
-    rows = [row for row in found.rows if row.point.formulation == "unstable"]
+    rows = [row for row in found.rows if row.case.formulation == "unstable"]
     assert len(rows) == 2
     assert all(row.remark.startswith("it diverged") for row in rows)
     assert len(found.rows) == 14
@@ -81,12 +79,12 @@ def test_orders_switches_and_a_table_as_reference(tmp_path):
         tolerances=(1e-6,),
     )
     assert len(found.rows) == 2 * 2 * 2
-    assert {(r.point.max_order, r.point.settings["rate"]) for r in found.rows} == {
+    assert {(r.case.max_order, r.case.settings["rate"]) for r in found.rows} == {
         (None, 1.0), (None, 1.1), (2, 1.0), (2, 1.1)
     }  # fmt: skip
     assert str(found.reference) == f"reference: {tmp_path / 'r.csv'}"
     assert "rate" in found.columns
-    assert min(r.error for r in found.rows if r.point.settings["rate"] == 1.1) > 0.02
+    assert min(r.error for r in found.rows if r.case.settings["rate"] == 1.1) > 0.02
 
 
 @pytest.mark.parametrize("workers", [processes, lambda n: cluster("local", n)], ids=["processes", "dask"])
@@ -186,6 +184,6 @@ def test_a_journal_of_another_study_is_refused(tmp_path):
 def test_a_switch_that_changes_the_model_limits_it():
     form = {"formulations": Decay.formulations[1:2], "tolerances": (1e-6,), "accuracy": 1e-3}
     found = study(**form, switches={"rate": (1.0, 1.1)})
-    assert found.reference.point is not None
-    assert found.reference.point.settings["rate"] == 1.0
-    assert {row.limit for row in found.rows if row.point.settings["rate"] == 1.1} == {"model"}
+    assert found.reference.case is not None
+    assert found.reference.case.settings["rate"] == 1.0
+    assert {row.limit for row in found.rows if row.case.settings["rate"] == 1.1} == {"model"}

@@ -9,7 +9,7 @@ import pytest
 
 from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
-from acausal.solve.events.looks import uneven
+from acausal.solve.looks import uneven
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 

@@ -24,7 +24,7 @@ def held(*names: str) -> np.ndarray:
 
 
 def directions(constants) -> dict[str, float]:
-    places = compiled().closing.entries[1]
+    places = compiled().constraints.entries[1]
     return {compiled().states[k]: float(d) for k, d in zip(places, constants.D, strict=True)}
 
 
@@ -101,7 +101,7 @@ def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
 def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
     D = np.array([[0.1, 0.9, 0.2], [0.9, 0.1, 0.2]])
     entries = np.array([[0, 0, 0, 1, 1, 1], [0, 1, 2, 0, 1, 2]])
-    compiled = SimpleNamespace(closing=SimpleNamespace(rows=[(0,), (1,)], entries=entries))
+    compiled = SimpleNamespace(constraints=SimpleNamespace(rows=[(0,), (1,)], entries=entries))
     found = _select(compiled, D, np.array([True, True]))  # type: ignore[arg-type]
     np.testing.assert_array_equal(found, [[0, 1, 0], [1, 0, 0]])
     found = _select(compiled, D, np.array([False, True]))  # type: ignore[arg-type]

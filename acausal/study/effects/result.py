@@ -10,9 +10,9 @@ from typing import Any
 
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
-from acausal.study.switching.listing import Effect, same
-from acausal.study.switching.rows import ALL, Interaction, Row, as_fast
-from acausal.study.switching.tables import brief_changes, changes, columns, number, sets, together
+from acausal.study.effects.listing import Effect, same
+from acausal.study.effects.rows import ALL, EffectRow, Interaction, as_fast
+from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 
 WIDTH = 120
 # Interactions below this part of the accuracy are not worth a line.
@@ -32,13 +32,13 @@ class Effects:
         As given to `effects`.
     effects : tuple of Effect
         All effects of the fullest scene.
-    reference, standing : Row
+    reference, standing : EffectRow
         What the others are compared with, and the scene as it stands.
     refused : str
         Why the fullest scene is not the reference, "" if it is.
-    floor : Row
+    floor : EffectRow
         The reference at a tenth of the tolerance: changes below its own are those of the integration.
-    rows : tuple of Row
+    rows : tuple of EffectRow
         One switched effect each, the largest change first.
     interactions : tuple of Interaction
         Pairs, the largest interaction first.
@@ -46,7 +46,7 @@ class Effects:
         Number of pairs that were left out.
     idle : tuple of mapping
         Switches that leave the equations as they are: the scene does not call for the effect.
-    cheapest : mapping of str to Row
+    cheapest : mapping of str to EffectRow
         The cheapest set for "all outputs" and, where there are several, for each output.
     choices : mapping of str to mapping
         Every choice of these sets by path.
@@ -62,15 +62,15 @@ class Effects:
     accuracy: float
     tolerance: float
     effects: tuple[Effect, ...]
-    reference: Row
-    standing: Row
+    reference: EffectRow
+    standing: EffectRow
     refused: str
-    floor: Row
-    rows: tuple[Row, ...]
+    floor: EffectRow
+    rows: tuple[EffectRow, ...]
     interactions: tuple[Interaction, ...]
     untried: int
     idle: tuple[Mapping[str, Any], ...]
-    cheapest: Mapping[str, Row]
+    cheapest: Mapping[str, EffectRow]
     choices: Mapping[str, Mapping[str, Any]]
 
     @property
@@ -112,7 +112,7 @@ class Effects:
             file.write("\n\n".join(p.markdown() if isinstance(p, Table) else p for p in parts) + "\n")
 
     def to_csv(self, path: str | Path) -> None:
-        """Write a row for each trial: what it is for, its choices, changes and costs.
+        """Write a row for each variant: what it is for, its choices, changes and costs.
 
         Parameters
         ----------
@@ -142,7 +142,7 @@ class Effects:
             words += f" The fullest scene is not the reference: {self.refused}"
         return words
 
-    def _labelled(self) -> list[tuple[str, Row]]:
+    def _labelled(self) -> list[tuple[str, EffectRow]]:
         """The rows that are shown, each with what it is called."""
         labelled = [(row.name, row) for row in self.rows]
         if self.standing.choices:
@@ -220,7 +220,7 @@ class Effects:
             yield f"From the scene as it stands to the set for all outputs: {switched}"
 
 
-def _praise(row: Row, reference: Row) -> str:
+def _praise(row: EffectRow, reference: EffectRow) -> str:
     """Name a set and what it saves."""
     if not row.choices:
         return "all effects of the reference"

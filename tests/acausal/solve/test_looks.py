@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from acausal.solve.events.looks import pace, uneven
+from acausal.solve.looks import pace, uneven
 
 GRID = np.array([0.0, 1.0, 2.0, 2.5, 4.0])
 

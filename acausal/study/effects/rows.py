@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from acausal.simulation.estimate import scale
+from acausal.study.measuring.case import Measurement
 from acausal.study.measuring.deviation import deviations
-from acausal.study.measuring.point import Measurement
 
 # What a cheapest set is for, beside one output.
 ALL = "all outputs"
@@ -19,8 +19,8 @@ NOISE = 0.1
 
 
 @dataclass(frozen=True)
-class Row:
-    """What a trial changes and costs, next to the reference.
+class EffectRow:
+    """What a variant changes and costs, next to the reference.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Row:
     operations, equations, equations_less, steps : int
         Instructions of equations and Jacobian; size of the integrated system, and by how much it is smaller; steps.
     error : str
-        Why the trial failed, "" if it did not.
+        Why the variant failed, "" if it did not.
     """
 
     choices: Mapping[str, Any]
@@ -64,15 +64,15 @@ class Row:
         """The output that changes most."""
         return max(self.largest, key=lambda name: self.largest[name])
 
-    def cheaper(self, other: Row) -> bool:
+    def cheaper(self, other: EffectRow) -> bool:
         """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
         if not as_fast(self, other):
             return self.seconds < other.seconds
         return (self.operations, self.steps) < (other.operations, other.steps)
 
 
-def as_fast(one: Row, other: Row) -> bool:
-    """Tell whether the times of two trials cannot be told apart."""
+def as_fast(one: EffectRow, other: EffectRow) -> bool:
+    """Tell whether the times of two variants cannot be told apart."""
     return abs(one.seconds - other.seconds) <= NOISE * other.seconds
 
 
@@ -91,20 +91,20 @@ class Interaction:
         return max(self.size.values(), default=0.0)
 
 
-def row(choices: Mapping[str, Any], found: Measurement, reference: Measurement) -> Row:
-    """Compare a trial with the reference.
+def row(choices: Mapping[str, Any], found: Measurement, reference: Measurement) -> EffectRow:
+    """Compare a variant with the reference.
 
     Parameters
     ----------
     choices : mapping of str to value
         What is switched.
     found, reference : Measurement
-        What the trial and the reference gave.
+        What the variant and the reference gave.
     """
     if found.error:
-        return Row(dict(choices), error=found.error)
+        return EffectRow(dict(choices), error=found.error)
     changes = deviations(found.values, reference.values)
-    return Row(
+    return EffectRow(
         dict(choices),
         {name: largest for name, (largest, _) in changes.items()},
         {name: rms for name, (_, rms) in changes.items()},

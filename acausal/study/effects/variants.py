@@ -1,4 +1,4 @@
-"""Trials: a scene with some of its effects switched, compiled, looked at and measured."""
+"""Variants: a scene with some of its effects set otherwise, compiled, looked at and measured."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from acausal.compiler import compile
 from acausal.errors import AcausalError
 from acausal.language.component import Component
 from acausal.result.lookup import find
+from acausal.study.effects.listing import fitting
+from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.journal import Journal
-from acausal.study.measuring.point import Job, Measurement, Point
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import unpack
-from acausal.study.switching.listing import fitting
 
 Choices = Mapping[str, Any]
 
@@ -32,7 +32,7 @@ def fingerprint(job: Job) -> str:
         What would be measured.
     """
     try:
-        compiled = compile(unpack(job.model), parameters=job.point.settings)
+        compiled = compile(unpack(job.model), parameters=job.case.settings)
         shown = ca.vertcat(*[find(compiled.tree, name).column for name in job.outputs])
         outputs = ca.Function("outputs", compiled.arguments, [compiled.reduced.resolve(ca.densify(shown))])
     except AcausalError:
@@ -41,17 +41,17 @@ def fingerprint(job: Job) -> str:
     return hashlib.sha256("".join(f.serialize() for f in functions).encode()).hexdigest()
 
 
-class Trials:
-    """Measures a scene with effects switched; what is known is not measured again.
+class Variants:
+    """Measures a scene with effects set otherwise; what is known is not measured again.
 
     Parameters
     ----------
     model : Component
         The scene.
     settings : mapping of str to value
-        Values that hold in all trials, unless a choice replaces them.
+        Values that hold in all variants, unless a choice replaces them.
     job : Job
-        How to run; its point tells all but the settings.
+        How to run; its case tells all but the settings.
     executor : Executor
         Where to run.
     progress : callable, optional
@@ -65,17 +65,15 @@ class Trials:
         self.session = Session(job, executor, Journal(None, {}), progress)
 
     def fitting(self, choices: Choices) -> dict[str, Any]:
-        """Return the settings of a trial: those that fit together."""
+        """Return the settings of a variant: those that fit together."""
         return fitting(self.model, {**self.settings, **choices})
 
     def fingerprints(self, wanted: Iterable[Choices]) -> list[str]:
-        """Return the fingerprint of each trial."""
-        return list(
-            self.executor.map(fingerprint, [replace(self.job, point=self._point(choices)) for choices in wanted])
-        )
+        """Return the fingerprint of each variant."""
+        return list(self.executor.map(fingerprint, [replace(self.job, case=self._case(choices)) for choices in wanted]))
 
     def measure(self, wanted: Iterable[Choices], what: str, tolerance: float | None = None) -> list[Measurement]:
-        """Measure trials.
+        """Measure variants.
 
         Parameters
         ----------
@@ -86,10 +84,10 @@ class Trials:
         tolerance : float, optional
             Another one than for the others.
         """
-        points = [self._point(choices) for choices in wanted]
+        cases = [self._case(choices) for choices in wanted]
         if tolerance is not None:
-            points = [replace(point, tolerance=tolerance) for point in points]
-        return self.session.measure(points, what)
+            cases = [replace(case, tolerance=tolerance) for case in cases]
+        return self.session.measure(cases, what)
 
-    def _point(self, choices: Choices) -> Point:
-        return replace(self.job.point, settings=self.fitting(choices))
+    def _case(self, choices: Choices) -> Case:
+        return replace(self.job.case, settings=self.fitting(choices))

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from acausal.result.tables import Table
-from acausal.study.switching.rows import ALL, Interaction, Row
+from acausal.study.effects.rows import ALL, EffectRow, Interaction
 
 WORDS = ("effect", "in", "switched together", "for", "switched")
 COSTS = ("time", "operations", "equations", "steps")
 FIGURES = ("seconds", "time", "work", "operations", "equations", "equations_less", "steps", "error")
-Labelled = Sequence[tuple[str, Row]]
+Labelled = Sequence[tuple[str, EffectRow]]
 
 
 def changes(rows: Labelled, outputs: Sequence[str], rms: bool = False) -> Table:
@@ -19,14 +19,14 @@ def changes(rows: Labelled, outputs: Sequence[str], rms: bool = False) -> Table:
 
     Parameters
     ----------
-    rows : sequence of (str, Row)
+    rows : sequence of (str, EffectRow)
         The rows, each with what it is called.
     outputs : sequence of str
         Whose changes.
     rms : bool
         Root mean squares as well.
     """
-    return _trials(
+    return _variants(
         rows,
         outputs,
         lambda row: [number(row.largest[n]) + (f" {number(row.rms[n])}" if rms else "") for n in outputs],
@@ -38,10 +38,10 @@ def brief_changes(rows: Labelled) -> Table:
 
     Parameters
     ----------
-    rows : sequence of (str, Row)
+    rows : sequence of (str, EffectRow)
         The rows, each with what it is called.
     """
-    return _trials(rows, ("largest", "in"), lambda row: [number(row.change()), row.worst])
+    return _variants(rows, ("largest", "in"), lambda row: [number(row.change()), row.worst])
 
 
 def together(interactions: Iterable[tuple[Interaction, str]]) -> Table:
@@ -59,12 +59,12 @@ def together(interactions: Iterable[tuple[Interaction, str]]) -> Table:
     return Table(["switched together", "interaction", "in"], body, WORDS)
 
 
-def sets(cheapest: Mapping[str, Row]) -> Table:
+def sets(cheapest: Mapping[str, EffectRow]) -> Table:
     """Return the cheapest sets.
 
     Parameters
     ----------
-    cheapest : mapping of str to Row
+    cheapest : mapping of str to EffectRow
         By the output that they are for, or all outputs.
     """
     body = [
@@ -79,7 +79,7 @@ def columns(rows: Labelled, outputs: Sequence[str]) -> dict[str, list[Any]]:
 
     Parameters
     ----------
-    rows : sequence of (str, Row)
+    rows : sequence of (str, EffectRow)
         The rows, each with its kind.
     outputs : sequence of str
         Whose changes.
@@ -96,11 +96,11 @@ def number(value: float) -> str:
     return "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e+")
 
 
-def _trials(rows: Labelled, shown: Sequence[str], changes_of: Callable[[Row], list[str]]) -> Table:
+def _variants(rows: Labelled, shown: Sequence[str], changes_of: Callable[[EffectRow], list[str]]) -> Table:
     failed = [*[""] * len(shown), "failed", *[""] * (len(COSTS) - 1)]
     body = [[label, *(failed if row.error else [*changes_of(row), *_costs(row)])] for label, row in rows]
     return Table(["effect", *shown, *COSTS], body, WORDS)
 
 
-def _costs(row: Row) -> list[str]:
+def _costs(row: EffectRow) -> list[str]:
     return [f"{row.time:.2f} x", f"{row.work:.2f} x", f"{-row.equations_less:+d}", str(row.steps)]

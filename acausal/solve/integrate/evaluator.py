@@ -22,7 +22,7 @@ class Evaluator:
         The model.
     t : array, shape (n,)
         Times in s.
-    x, z, modes : arrays, shape (n, ...)
+    x, z, constants : arrays, shape (n, ...)
         States, algebraic unknowns and constants of segments at these times; what of z a value needs is solved for again
         from the states when it is read first.
     solver : Consistent
@@ -35,11 +35,11 @@ class Evaluator:
         t: np.ndarray,
         x: np.ndarray,
         z: np.ndarray,
-        modes: np.ndarray,
+        constants: np.ndarray,
         solver: Consistent,
     ) -> None:
         self.compiled, self.solver = compiled, solver
-        self.t, self.x, self.z, self.modes = t, x, z, modes
+        self.t, self.x, self.z, self.constants = t, x, z, constants
         self._given = z
         self._solved: set[int] = set()
 
@@ -54,23 +54,23 @@ class Evaluator:
         resolved = c.reduced.running.resolve(ca.densify(expression))
         wanted = c.dependence.inside(resolved)
         # What closes a loop is in nearly all equations: all at once, and the order of reading makes no difference.
-        self._solve((set(range(c.nz)) if wanted and c.closing.size else wanted) - self._solved)
-        arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.modes]
+        self._solve((set(range(c.nz)) if wanted and c.constraints.size else wanted) - self._solved)
+        arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.constants]
         n = len(self.t)
         try:
             call = Call(ca.Function("observe", arguments, [resolved]).map(n))
         except RuntimeError:
             refuse_undeclared(resolved, arguments)
             raise
-        values = [self.x.ravel(), self.z.ravel(), np.tile(self.solver.p, n), self.t, self.modes.ravel()]
+        values = [self.x.ravel(), self.z.ravel(), np.tile(self.solver.p, n), self.t, self.constants.ravel()]
         return call(*values)[0].reshape(n, -1).copy()
 
     def _solve(self, wanted: set[int]) -> None:
         """Make some algebraic unknowns right, and all that they need."""
         if not wanted:
             return
-        unknowns = self.compiled.dependence.closure(wanted)[0]
-        solved = self.solver(self.x, self._given, self.t, self.modes, wanted)
+        unknowns = self.compiled.dependence.needed(wanted)[0]
+        solved = self.solver(self.x, self._given, self.t, self.constants, wanted)
         self.z = self.z.copy()
         self.z[:, unknowns] = solved[:, unknowns]
         self._solved.update(unknowns.tolist())

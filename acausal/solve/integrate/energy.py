@@ -13,10 +13,10 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.solve.events.hermite import cubic
-from acausal.solve.events.looks import GOLDEN
+from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import GOLDEN
 from acausal.solve.problem import Point
 from acausal.solve.start.newton import algebraic
 
@@ -36,7 +36,7 @@ Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def powers(
-    compiled: CompiledModel, solver: Consistent, x: np.ndarray, z: np.ndarray, t: np.ndarray, modes: np.ndarray
+    compiled: CompiledModel, solver: Consistent, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray
 ) -> np.ndarray:
     """Supplied and dissipated power in W at n times, shape (n, 2).
 
@@ -48,13 +48,13 @@ def powers(
         Makes what the powers need of z right.
     x, z, t : arrays, shapes (n, nx), (n, nz), (n,)
         States, algebraic unknowns nearly right, and times in s.
-    modes : array
+    constants : array
         Constants of the segment.
     """
     wanted = compiled.dependence.inside(compiled.powers)
-    z = solver(x, z, t, modes, wanted)
+    z = solver(x, z, t, constants, wanted)
     solver.unsolved.clear()
-    return compiled.power(x, z, solver.p, t, modes)
+    return compiled.power(x, z, solver.p, t, constants)
 
 
 def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -82,7 +82,7 @@ def refined(
     compiled, solver
         As of `powers`.
     rows : tuple of arrays
-        x, z, t, modes of n rows, as of `powers`.
+        x, z, t, constants of n rows, as of `powers`.
     given : array, shape (n, 2)
         What the integrator found, in J.
     tolerance : float
@@ -90,12 +90,12 @@ def refined(
     smooth : bool
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
-    x, z, t, modes = rows
+    x, z, t, constants = rows
     count, last = min(FEWEST, len(t) - 1), len(t) - 1
     least = tolerance * _exchanged(compiled, solver, rows) / len(t)
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
-        power = powers(compiled, solver, x[some], z[some], t[some], modes)
+        power = powers(compiled, solver, x[some], z[some], t[some], constants)
         if not np.all(np.isfinite(power)):
             return given, False
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
@@ -122,16 +122,16 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
     compiled, solver, rows, tolerance
         As of `refined`.
     """
-    x, z, t, modes = rows
-    z = solver(x, z, t, modes)
-    rows, n, agreed = (x, z, t, modes), len(t) - 1, 0
-    rates = solver.rates(x, z, t, modes)
+    x, z, t, constants = rows
+    z = solver(x, z, t, constants)
+    rows, n, agreed = (x, z, t, constants), len(t) - 1, 0
+    rates = solver.rates(x, z, t, constants)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
     exchanged = _exchanged(compiled, solver, rows)
     parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
     while n * parts <= MOST:
         xs, zs, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
-        power = powers(compiled, solver, xs, zs, t[0] + since, modes)
+        power = powers(compiled, solver, xs, zs, t[0] + since, constants)
         if not np.all(np.isfinite(power)):
             break
         before, found = found, work(since, power, t - t[0])
@@ -148,9 +148,9 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
 
 def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
     """By how much the stored energy varies: a power that is next to nothing need not be known to its own tolerance."""
-    x, z, t, modes = rows
+    x, z, t, constants = rows
     some = np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int))
-    return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], modes)[0][0] for k in some]))
+    return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))
 
 
 def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -175,17 +175,17 @@ def _seen(
     rates: np.ndarray | None = None,
 ) -> bool:
     """Whether a spline of the power, over times since the first row, is right beside its nodes."""
-    x, z, t, modes = rows
+    x, z, t, constants = rows
     s = (np.arange(1, PROBES + 1) * GOLDEN) % 1 * (len(t) - 1)
     if rates is None:
         k = np.minimum(s.astype(int), len(t) - 2)
         ends = np.unique([k, k + 1])
         z = z.copy()
-        z[ends] = solver(x[ends], z[ends], t[ends], modes)
+        z[ends] = solver(x[ends], z[ends], t[ends], constants)
         rates = np.zeros(x.shape)
-        rates[ends] = solver.rates(x[ends], z[ends], t[ends], modes)
-    probes = _inside((x, z, t, modes), rates, s)
-    true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], modes)
+        rates[ends] = solver.rates(x[ends], z[ends], t[ends], constants)
+    probes = _inside((x, z, t, constants), rates, s)
+    true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], constants)
     missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(probes[2]) - true)
     return bool(np.all(missed <= ALIKE * np.max(np.abs(power), axis=0)))
 

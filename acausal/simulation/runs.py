@@ -21,7 +21,7 @@ COUNTS = ("states", "steps", "factorisations", "residual_evaluations", "solve_se
 
 
 @dataclass(frozen=True)
-class Choice:
+class Numerics:
     """How to run: elements or volumes of each adaptive beam (0: none is adaptive), tolerance, method, order limit."""
 
     number: int
@@ -30,7 +30,7 @@ class Choice:
     max_order: int | None
 
 
-class Trials:
+class Runs:
     """Runs of a model.
 
     Parameters
@@ -40,7 +40,7 @@ class Trials:
     parameters : mapping of str to value or None
         As of `simulate`.
     task : Task
-        What to run; tolerance, method and order limit are those of each choice.
+        What to run; tolerance, method and order limit are those of the numerics.
     """
 
     def __init__(self, model: Component | CompiledModel, parameters: Mapping[str, Any] | None, task: Task) -> None:
@@ -61,21 +61,21 @@ class Trials:
                 f'simulate(model, accuracy=...), or compile with parameters={{"{_beam(path)}.adaptive": False}}.'
             )
         self.compiled: dict[int, CompiledModel] = {}
-        self.results: dict[Choice, Result | SimulationError] = {}
+        self.results: dict[Numerics, Result | SimulationError] = {}
         self.done: list[dict[str, Any]] = []
 
-    def __call__(self, choice: Choice) -> Result | SimulationError:
-        """Return the result of a choice, or how it failed."""
-        if choice not in self.results:
-            compiled, p = self._compile(choice.number)
-            how = {"tolerance": choice.tolerance, "method": choice.method, "max_order": choice.max_order}
+    def __call__(self, numerics: Numerics) -> Result | SimulationError:
+        """Return the result of a run with these numerics, or how it failed."""
+        if numerics not in self.results:
+            compiled, p = self._compile(numerics.number)
+            how = {"tolerance": numerics.tolerance, "method": numerics.method, "max_order": numerics.max_order}
             try:
                 found: Any = run(compiled, p, replace(self.task, **how))
             except SimulationError as failure:
                 found = failure
-            self.results[choice] = found
-            self._note(choice, found if isinstance(found, Result) else found.result, str(found))
-        return self.results[choice]
+            self.results[numerics] = found
+            self._note(numerics, found if isinstance(found, Result) else found.result, str(found))
+        return self.results[numerics]
 
     def sizes(self, number: int) -> dict[str, int]:
         """Return elements or volumes by path."""
@@ -85,7 +85,7 @@ class Trials:
         """Return seconds of compiling and solving, all runs together."""
         return {
             "compile_seconds": sum(sum(c.seconds.values()) for c in self.compiled.values()),
-            "solve_seconds": sum(trial["solve_seconds"] for trial in self.done),
+            "solve_seconds": sum(run["solve_seconds"] for run in self.done),
         }
 
     def _compile(self, number: int) -> tuple[CompiledModel, np.ndarray]:
@@ -96,16 +96,16 @@ class Trials:
             self.compiled[number] = compile(self.model, {**self.parameters, **self.sizes(number)})
         return self.compiled[number], self.compiled[number].parameter_values(None)
 
-    def _note(self, choice: Choice, result: Any, text: str) -> None:
+    def _note(self, numerics: Numerics, result: Any, text: str) -> None:
         stats = result.stats
         self.done.append(
             {
-                "tolerance": choice.tolerance,
+                "tolerance": numerics.tolerance,
                 "max_order": stats.max_order,
                 "method": stats.method,
-                "sizes": self.sizes(choice.number),
+                "sizes": self.sizes(numerics.number),
                 **{name: stats[name] for name in COUNTS},
-                "failed": "" if isinstance(self.results[choice], Result) else text,
+                "failed": "" if isinstance(self.results[numerics], Result) else text,
             }
         )
 

@@ -1,4 +1,4 @@
-"""Points have names that last, and what goes wrong in one of them is told."""
+"""Cases have names that last, and what goes wrong in one of them is told."""
 
 import subprocess
 import sys
@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from acausal import Model, Scalar, der, output, sqrt, time, variable
-from acausal.study import Job, Point, measure, pack
+from acausal.study import Case, Job, measure, pack
 from tests.acausal.study.decay import Decay
 
-POINT = Point("square", {"kind": "square", "n": 4, "axis": np.array([0.0, 1.0])}, "4", 1e-6)
+CASE = Case("square", {"kind": "square", "n": 4, "axis": np.array([0.0, 1.0])}, "4", 1e-6)
 
 
 def test_key_is_the_same_in_every_session():
     code = (
-        "import numpy as np; from acausal.study import Point; "
-        "print(Point('square', {'axis': (0.0, 1.0), 'n': 4, 'kind': 'square'}, '4', 1e-6).key)"
+        "import numpy as np; from acausal.study import Case; "
+        "print(Case('square', {'axis': (0.0, 1.0), 'n': 4, 'kind': 'square'}, '4', 1e-6).key)"
     )
-    assert subprocess.check_output([sys.executable, "-c", code], text=True).strip() == POINT.key
+    assert subprocess.check_output([sys.executable, "-c", code], text=True).strip() == CASE.key
 
 
 @pytest.mark.parametrize(
@@ -35,19 +35,19 @@ def test_key_is_the_same_in_every_session():
     ],
 )
 def test_key_has_everything(change):
-    assert replace(POINT, **change) != POINT
-    assert replace(POINT, **change).key != POINT.key
+    assert replace(CASE, **change) != CASE
+    assert replace(CASE, **change).key != CASE.key
 
 
 def test_measurement():
-    found = measure(Job(pack(Decay(rate=2.0)), Point(settings={"n": 2}, tolerance=1e-8), 1.0, 10, repeats=3))
+    found = measure(Job(pack(Decay(rate=2.0)), Case(settings={"n": 2}, tolerance=1e-8), 1.0, 10, repeats=3))
     assert found.error == ""
     assert found.values["x"] == pytest.approx(1.25 * np.exp(-2 * np.linspace(0, 1, 11)), rel=1e-5)
     assert min(found.compile_seconds, found.solve_seconds, found.steps, found.factorisations, found.operations) > 0
 
 
 def test_a_wrong_point_tells_why():
-    found = measure(Job(pack(Decay()), Point(settings={"n": 0}), 1.0))
+    found = measure(Job(pack(Decay()), Case(settings={"n": 0}), 1.0))
     assert found.error == "`n` of Decay is 0; it must be a number of at least 1."
 
 
@@ -64,7 +64,7 @@ class Ends(Model):
 
 
 def test_a_failing_run_tells_when():
-    found = measure(Job(pack(Ends()), Point(), 2.0))
+    found = measure(Job(pack(Ends()), Case(), 2.0))
     assert "the integration stopped at t = 1 s" in found.error
     assert not found.values
 
@@ -84,5 +84,5 @@ class Swings(Model):
 
 @pytest.mark.parametrize("intervals", [1, 1000])
 def test_a_run_that_takes_too_long_is_stopped(intervals):
-    found = measure(Job(pack(Swings()), Point(tolerance=1e-12), 1e7, intervals, limit=0.5))
+    found = measure(Job(pack(Swings()), Case(tolerance=1e-12), 1e7, intervals, limit=0.5))
     assert found.error == "it was stopped after 0.5 s"

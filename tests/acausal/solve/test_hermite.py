@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from acausal.solve.events.hermite import coefficients, cubic
+from acausal.solve.hermite import coefficients, cubic
 
 
 @pytest.mark.parametrize("seed", range(10))

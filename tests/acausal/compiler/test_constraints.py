@@ -29,7 +29,7 @@ def test_residuals_and_their_jacobian_at_both_levels(x, y, u, v):
 
 def test_each_level_holds_coordinates_of_its_own():
     """The rates are left to the level of rates, although positions enter there too."""
-    c, p = compiled().closing, problem().p
+    c, p = compiled().constraints, problem().p
     at = [point(*place) for place in PLACES]
     held = c.held(np.array([a.x for a in at]), p, np.zeros(3), at[0].constants.vector)
     for J, (x, y, _, _) in zip(held, PLACES, strict=True):
@@ -37,7 +37,7 @@ def test_each_level_holds_coordinates_of_its_own():
 
 
 def test_places():
-    c = compiled().closing
+    c = compiled().constraints
     assert (c.size, c.rows, c.closures) == (2, [(0, 1)], [])
     assert c.states.tolist() == [0, 1, 2, 3]
     level = {(0, "x"), (0, "y"), (1, "u"), (1, "v")}
@@ -50,7 +50,7 @@ def test_projected_coordinates_are_on_the_circle(r):
     """Along the Jacobian at the nearest point; where y follows, at the same x."""
     at = point(0.6 * r, 0.8 * r, 0.8, -0.6)
     for moves, follows, expected in ((True, "xyuv", (0.6, 0.8)), (False, "yv", (0.6 * r, (1 - 0.36 * r**2) ** 0.5))):
-        D = np.array([float(compiled().states[k] in follows) for k in compiled().closing.entries[1]])
+        D = np.array([float(compiled().states[k] in follows) for k in compiled().constraints.entries[1]])
         start = problem().completed(replace(at, constants=replace(at.constants, moves=moves, D=D)))
         found = problem().projected(algebraic(problem(), start))
         np.testing.assert_allclose(plane(found.x)[:2], expected, atol=1e-12)
@@ -58,7 +58,7 @@ def test_projected_coordinates_are_on_the_circle(r):
 
 
 def test_guesses_of_projected_coordinates_are_what_is_integrated():
-    c, at = compiled().closing, point(3, 4, 5, 6)
+    c, at = compiled().constraints, point(3, 4, 5, 6)
     z = c.guess(at.x, at.z, problem().p, 0.0, at.constants.vector)
     found = dict(zip(compiled().algebraic, z, strict=True))
     for name, value in zip("xyuv", (3, 4, 5, 6), strict=True):

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
 
-from acausal.study.switching.rows import Row
+from acausal.study.effects.rows import EffectRow
 
-Search = Generator[Mapping[str, Any], Row, Row]
+Search = Generator[Mapping[str, Any], EffectRow, EffectRow]
 
 
 def search(
-    singles: Sequence[Row],
-    reference: Row,
-    standing: Row,
+    singles: Sequence[EffectRow],
+    reference: EffectRow,
+    standing: EffectRow,
     outputs: Sequence[str],
     accuracy: float,
     fits: Callable[[Mapping[str, Any]], dict[str, Any]],
@@ -25,9 +25,9 @@ def search(
 
     Parameters
     ----------
-    singles : sequence of Row
+    singles : sequence of EffectRow
         One effect switched each.
-    reference, standing : Row
+    reference, standing : EffectRow
         The reference, and the scene as it stands.
     outputs : sequence of str
         Which outputs must stay within the accuracy.
@@ -37,7 +37,7 @@ def search(
         Takes choices and returns those whose part exists with the others.
     """
 
-    def is_good(row: Row) -> bool:
+    def is_good(row: EffectRow) -> bool:
         return not row.error and row.change(outputs) <= accuracy
 
     best = reference
@@ -53,7 +53,9 @@ def search(
     return standing if is_good(standing) and standing.cheaper(best) else best
 
 
-def cheapest(searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[Row]]) -> dict[str, Row]:
+def cheapest(
+    searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[EffectRow]]
+) -> dict[str, EffectRow]:
     """Carry out searches side by side and return what each found.
 
     Parameters
@@ -63,7 +65,7 @@ def cheapest(searches: Mapping[str, Search], measure: Callable[[list[Mapping[str
     measure : callable
         Returns a row for each of some choices.
     """
-    found: dict[str, Row] = {}
+    found: dict[str, EffectRow] = {}
     answers: dict[str, Any] = dict.fromkeys(searches)
     while answers:
         asked = {}

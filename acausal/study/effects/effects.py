@@ -12,16 +12,16 @@ import numpy as np
 from acausal.compiler import compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
+from acausal.study.effects.cheapest import cheapest, search
+from acausal.study.effects.listing import Effect, fullest, same
+from acausal.study.effects.result import Effects
+from acausal.study.effects.rows import ALL, EffectRow, Interaction, interaction, row
+from acausal.study.effects.variants import Choices, Variants
 from acausal.study.measuring.arguments import check_counts, check_run, check_shares, outputs_of, stop_time_of
-from acausal.study.measuring.point import Job, Measurement, Point
+from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
 from acausal.study.measuring.shipping import pack
-from acausal.study.switching.cheapest import cheapest, search
-from acausal.study.switching.listing import Effect, fullest, same
-from acausal.study.switching.result import Effects
-from acausal.study.switching.rows import ALL, Interaction, Row, interaction, row
-from acausal.study.switching.trials import Choices, Trials
 
 # An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
 # changes more than this part of a range: what is left without it is another scene.
@@ -105,20 +105,20 @@ def effects(
         raise DeclarationError(
             f"{type(model).__name__} has no effects: none of its fields, and none of its parts', is an effect(...)."
         )
-    point = Point(tolerance=tolerance, method=method)
-    job = Job(pack(model), point, stop, intervals, names, repeats, limit, initial)
+    case = Case(tolerance=tolerance, method=method)
+    job = Job(pack(model), case, stop, intervals, names, repeats, limit, initial)
     with executor_of(executor, workers) as where:
-        trials = Trials(model, given, job, where, progress)
-        return _Study(trials, found, full, accuracy).result(pairs)
+        variants = Variants(model, given, job, where, progress)
+        return _Study(variants, found, full, accuracy).result(pairs)
 
 
 class _Study:
     """The course of one study, from the reference to the cheapest sets."""
 
-    def __init__(self, trials: Trials, found: tuple[Effect, ...], full: Choices, accuracy: float) -> None:
-        self.trials, self.effects, self.accuracy = trials, found, accuracy
-        self.tolerance = trials.job.point.tolerance
-        full_run, stands_run = trials.measure([full, {}], "reference")
+    def __init__(self, variants: Variants, found: tuple[Effect, ...], full: Choices, accuracy: float) -> None:
+        self.variants, self.effects, self.accuracy = variants, found, accuracy
+        self.tolerance = variants.job.case.tolerance
+        full_run, stands_run = variants.measure([full, {}], "reference")
         self.refused = full_run.error
         if full_run.error and stands_run.error:
             raise SimulationError(
@@ -133,12 +133,12 @@ class _Study:
         """Switch effects, pairs of them, and find the cheapest sets."""
         singles, idle = self._singles()
         rows = self._rows(singles, "effects")
-        fine = self.trials.measure([self.base], "integration error", self.tolerance / 10)
+        fine = self.variants.measure([self.base], "integration error", self.tolerance / 10)
         floor = row({}, fine[0], self.reference)
         together, left = self._pairs(rows, pairs)
         sets = self._cheapest(rows)
         return Effects(
-            scene=type(self.trials.model).__name__,
+            scene=type(self.variants.model).__name__,
             accuracy=self.accuracy,
             tolerance=self.tolerance,
             effects=self.effects,
@@ -159,7 +159,7 @@ class _Study:
         return {effect.path: effect.value for effect in self.effects if effect.path in paths}
 
     def _difference(self, choices: Choices) -> dict[str, Any]:
-        """Choices that a trial makes other than the reference, of effects that both have."""
+        """Choices that a variant makes other than the reference, of effects that both have."""
         return {
             effect.path: value
             for effect in self.effects
@@ -175,7 +175,7 @@ class _Study:
             for choice in effect.tries
             if effect.path in self.base and not same(choice, self.base[effect.path])
         ]
-        reference, *prints = self.trials.fingerprints([self.base, *[self._with(choices) for choices in wanted]])
+        reference, *prints = self.variants.fingerprints([self.base, *[self._with(choices) for choices in wanted]])
         idle = [choices for choices, print_ in zip(wanted, prints, strict=True) if print_ == reference]
         return [choices for choices in wanted if choices not in idle], idle
 
@@ -183,17 +183,17 @@ class _Study:
         return {**self.base, **choices}
 
     def _measured(self, wanted: Sequence[Choices], what: str) -> list[Measurement]:
-        return self.trials.measure([self._with(choices) for choices in wanted], what)
+        return self.variants.measure([self._with(choices) for choices in wanted], what)
 
-    def _rows(self, wanted: Sequence[Choices], what: str) -> list[Row]:
+    def _rows(self, wanted: Sequence[Choices], what: str) -> list[EffectRow]:
         found = self._measured(wanted, what)
         return [row(choices, run, self.reference) for choices, run in zip(wanted, found, strict=True)]
 
     def _fits(self, choices: Choices) -> dict[str, Any]:
-        there = self.trials.fitting(self._with(choices))
+        there = self.variants.fitting(self._with(choices))
         return {path: value for path, value in choices.items() if path in there}
 
-    def _pairs(self, rows: Sequence[Row], most: int) -> tuple[list[Interaction], int]:
+    def _pairs(self, rows: Sequence[EffectRow], most: int) -> tuple[list[Interaction], int]:
         """Pairs of effects that matter or save time, as many as wanted; and how many were left out."""
         counts = [
             r
@@ -216,7 +216,7 @@ class _Study:
         ]
         return found, left
 
-    def _cheapest(self, rows: Sequence[Row]) -> dict[str, Row]:
+    def _cheapest(self, rows: Sequence[EffectRow]) -> dict[str, EffectRow]:
         """The cheapest set for all outputs together, and for each alone."""
         names = list(self.reference.values)
         targets = {ALL: names} | ({name: [name] for name in names} if len(names) > 1 else {})
@@ -236,7 +236,7 @@ class _Study:
 
 
 def _same(one: Measurement, other: Measurement) -> bool:
-    """Tell whether two trials have the same equations: one effect leaves nothing of the other."""
+    """Tell whether two variants have the same equations: one effect leaves nothing of the other."""
     return one.operations == other.operations and all(
         np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
     )

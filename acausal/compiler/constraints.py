@@ -10,7 +10,7 @@ from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 
 
-class Closing:
+class Constraints:
     """Residuals and Jacobian of the constraints by the states, and the layout of what is chosen for them.
 
     Parameters
@@ -25,7 +25,7 @@ class Closing:
     multipliers : array of int
         Position of the multiplier of each residual among the algebraic unknowns.
     closures : list of int
-        Constraint of each switch.
+        Constraint of each closure.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
     """
@@ -49,11 +49,11 @@ class Closing:
         self._many: dict[int, Call] = {}
         column = reduced.running.constraints
         r = reduced
-        arguments = [r.x, r.p, time.sx, r.modes]
+        arguments = [r.x, r.p, time.sx, r.constants]
         J = ca.densify(ca.jacobian(column, r.x))
-        self.function = ca.Function("closing", arguments, [ca.densify(column), J])
+        self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
-        coordinates = r.resolve(r.closing.coordinates)
+        coordinates = r.resolve(r.projections.coordinates)
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._guessed = np.array([place for place, _ in found], dtype=int)
@@ -65,19 +65,19 @@ class Closing:
         self._kept = np.array(same, dtype=int).reshape(-1, 2).T
         self._places = [states[p.state] for p in constrained.projections]
 
-    def __call__(self, x: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def __call__(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
-        value, J = self._call(x, p, t, modes)
+        value, J = self._call(x, p, t, constants)
         return value.copy(), J.reshape(len(x), self.size).T.copy()
 
-    def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Jacobian of the constraints by the coordinates that each holds at its level, at n points.
 
         Parameters
         ----------
         x : array, shape (n, nx)
             States.
-        p, modes : arrays
+        p, constants : arrays
             Parameters and constants of the segment.
         t : array, shape (n,)
             Times.
@@ -89,23 +89,23 @@ class Closing:
         n, nx = x.shape
         if n not in self._many:
             self._many[n] = Call(self.function.map(n))
-        _, J = self._many[n](x.ravel(), np.tile(p, n), t, np.tile(modes, n))
+        _, J = self._many[n](x.ravel(), np.tile(p, n), t, np.tile(constants, n))
         full = J.reshape(n, nx, self.size).transpose(0, 2, 1)
         found = np.zeros_like(full)
         rows, columns = self.entries
         found[:, rows, columns] = full[:, rows, columns]
         return found
 
-    def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+    def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the states with every coordinate where the constraints have it."""
         projected = x.copy()
         if self.size:
-            projected[self._places] = self._coordinates(x, z, p, t, modes)[0]
+            projected[self._places] = self._coordinates(x, z, p, t, constants)[0]
         return projected
 
-    def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, modes: np.ndarray) -> np.ndarray:
+    def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""
         z = z.copy()
-        z[self._guessed] = self._following(x, p, t, modes)[0]
+        z[self._guessed] = self._following(x, p, t, constants)[0]
         z[self._kept[0]] = x[self._kept[1]]
         return z

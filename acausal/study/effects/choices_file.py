@@ -10,9 +10,9 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import unknown_name
 from acausal.language.component import Component
-from acausal.study.switching.listing import effects_of, fitting
-from acausal.study.switching.result import Effects
-from acausal.study.switching.rows import ALL
+from acausal.study.effects.listing import effects_of, fitting
+from acausal.study.effects.result import Effects
+from acausal.study.effects.rows import ALL
 
 
 def choices_document(found: Effects, scene: str, settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A point of a study, the job that a worker gets of it, and the measurement that comes back."""
+"""A case of a study, the job that a worker gets of it, and the measurement that comes back."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
-class Point:
+class Case:
     """One way of computing a model.
 
     Parameters
@@ -41,14 +42,14 @@ class Point:
     method: str | None = None
     constraints: str = "auto"
 
-    @property
+    @cached_property
     def structure(self) -> str:
-        """Text that is the same for points that share a compiled model, in every session."""
+        """Text that is the same for cases that share a compiled model, in every session."""
         return json.dumps(_plain(self.settings), sort_keys=True)
 
-    @property
+    @cached_property
     def key(self) -> str:
-        """Hash of everything in the point, the same in every session."""
+        """Hash of everything in the case, the same in every session."""
         return hashlib.sha256(json.dumps(_plain(asdict(self)), sort_keys=True).encode()).hexdigest()
 
     def __str__(self) -> str:
@@ -58,7 +59,7 @@ class Point:
         return ", ".join(filter(None, words))
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Point) and self.key == other.key
+        return isinstance(other, Case) and self.key == other.key
 
     def __hash__(self) -> int:
         return hash(self.key)
@@ -66,13 +67,13 @@ class Point:
 
 @dataclass(frozen=True)
 class Job:
-    """What a worker gets: a model, a point and how to run it.
+    """What a worker gets: a model, a case and how to run it.
 
     Parameters
     ----------
     model : bytes
         From `pack`.
-    point : Point
+    case : Case
         What to measure.
     stop_time : float
         In s.
@@ -89,7 +90,7 @@ class Job:
     """
 
     model: bytes
-    point: Point
+    case: Case
     stop_time: float
     intervals: int = 400
     outputs: tuple[str, ...] = ()
@@ -100,11 +101,11 @@ class Job:
 
 @dataclass(frozen=True)
 class Measurement:
-    """What a point gave.
+    """What a case gave.
 
     Parameters
     ----------
-    point : Point
+    case : Case
         What was run.
     times : array, shape (times,)
         In s; empty where it failed.
@@ -129,7 +130,7 @@ class Measurement:
         Why there are no values; "" if there are.
     """
 
-    point: Point
+    case: Case
     times: np.ndarray = field(default_factory=lambda: np.empty(0))
     values: Mapping[str, np.ndarray] = field(default_factory=dict)
     compile_seconds: float = 0.0
