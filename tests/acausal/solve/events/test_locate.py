@@ -9,8 +9,8 @@ import pytest
 
 from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
-from acausal.solve.looks import uneven
 from acausal.solve.integrate.trace import Stretch
+from acausal.solve.looks import uneven
 from acausal.solve.problem import Point
 
 NOTHING = Layout(0, 0, 0, 0, 0).constants(np.zeros(0))
@@ -24,10 +24,12 @@ class Motion:
     ----------
     trials : int
         How often it was asked to integrate.
+    looks : int
+        How often conditions were asked for, at one time or at many.
     """
 
     def __init__(self, *functions) -> None:
-        self.functions, self.trials = functions, 0
+        self.functions, self.trials, self.looks = functions, 0, 0
         self.problem, self.compiled, self.tolerance = SimpleNamespace(p=None), SimpleNamespace(nx=1), 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
         self.consistent, self.unsolved = self, []
@@ -43,6 +45,7 @@ class Motion:
         return stretch(times[1:])
 
     def along(self, x, z, p, t, modes):
+        self.looks += 1
         found = [f(x[:, 0]) for f in self.functions]
         return tuple(np.column_stack(column) for column in zip(*found, strict=True))
 
@@ -90,6 +93,14 @@ def test_nothing_is_integrated_anew_where_the_cubic_is_the_motion():
     motion = Motion(below(1.7))
     first(motion, GRID)
     assert motion.trials == 0
+
+
+@pytest.mark.parametrize("functions", [(below(1.7),), (below(1.7), below(1.72)), (below(1.74), below(1.7))])
+def test_few_looks_narrow_it_down(functions):
+    """Bisection would take 35."""
+    motion = Motion(*functions)
+    assert first(motion, GRID).after.time == pytest.approx(1.7, abs=1e-11)
+    assert motion.looks <= 12
 
 
 def test_the_side_counts_and_not_the_sign():

@@ -82,9 +82,10 @@ def spread(slow: complex, fast: complex, n: int) -> np.ndarray:
 def test_of_a_large_system_the_slowest_and_the_fastest_pair_are_found(fast):
     slow = -0.01 + 0.1j
     A = spread(slow, fast, DENSE)
-    mixed = np.linalg.qr(np.random.default_rng(0).standard_normal(A.shape))[0]
-    nz = 3
-    whole = scipy.linalg.block_diag(mixed @ A @ mixed.T, np.eye(nz))
+    random, n = np.random.default_rng(0), len(A)
+    mixed = np.linalg.qr(random.standard_normal(A.shape))[0]
+    by_z, of_x, inner = random.standard_normal((n, 3)), random.standard_normal((3, n)), random.standard_normal((3, 3))
+    whole = np.block([[mixed @ A @ mixed.T + by_z @ np.linalg.solve(inner, of_x), by_z], [of_x, inner]])
     problem = linear(whole, len(A))
     found = eigenvalues_of(problem, problem.at(*np.zeros(len(whole))))
     assert len(found) == 4
