@@ -1,5 +1,7 @@
 """What beams tell of their range while they move."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -26,19 +28,25 @@ from components import (
     rotational,
 )
 from models import FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
-from tests.components.test_beam_range import AXIAL, SECTION, SLOPE, check, doubts, tip_error
+from tests.components.test_beam_range import AXIAL, SECTION, SLOPE, Cantilever, check, doubts, tip_error
+from tests.shared import compiled
+
+
+@cache
+def stiffened(scene):
+    formulation = {"formulation": "fem"} if scene is SpinUp else {}
+    return ac.compile(scene(**formulation), {"beam.geometric_stiffness": True})
 
 
 def spin_up(omega, **values):
-    return doubts(SpinUp(omega=omega, **values), stop_time=9.0, tolerance=1e-5)
+    return doubts(compiled(SpinUp, **values), parameters={"omega": omega}, stop_time=9.0, tolerance=1e-5)
 
 
 @pytest.mark.parametrize(("omega", "warns"), [(0.2, False), (2, True), (4, True)])
 def test_one_frame_that_turns(omega, warns):
     texts, linear = spin_up(omega, formulation="fem")
     assert any(AXIAL in text for text in texts) == warns
-    stiffened = ac.compile(SpinUp(formulation="fem", omega=omega), {"beam.geometric_stiffness": True})
-    quiet, right = doubts(stiffened, stop_time=9.0, tolerance=1e-5)
+    quiet, right = doubts(stiffened(SpinUp), parameters={"omega": omega}, stop_time=9.0, tolerance=1e-5)
     assert not quiet
     error = np.abs(linear["tip_deflection"] - right["tip_deflection"]).max() / np.abs(right["tip_deflection"]).max()
     assert error > 0.1 if warns else error < 0.01
@@ -66,8 +74,7 @@ def test_told_size_of_one_frame_that_turns(scene, ends, omega):
     formulation = {"formulation": "fem"} if scene is SpinUp else {}
     options = {"stop_time": 9.0, "tolerance": 1e-6}
     texts, linear = doubts(scene(omega=omega, **formulation), **options)
-    stiffened = ac.compile(scene(omega=omega, **formulation), {"beam.geometric_stiffness": True})
-    right = free_end(doubts(stiffened, **options)[1], *ends)
+    right = free_end(doubts(stiffened(scene), parameters={"omega": omega}, **options)[1], *ends)
     error = np.abs(free_end(linear, *ends) - right).max() / np.abs(right).max()
     assert error > 0.02
     check(texts, error)
@@ -111,14 +118,19 @@ class Pendulum(FlexiblePendulum):
     beam = FlexibleBeam(length=0.4, E=1e9, A=18e-4, J=1.215e-8, rho=5540)
 
 
+@cache
+def pendulum(beam, **values):
+    section: dict = {"length": 0.4, "E": 1e9, "A": 18e-4, "J": 1.215e-8, "rho": 5540, "beta": 2.5e-3}
+    return ac.compile(Pendulum(beam=beam(initial="static", nominal_rate=68, **section, **values)))
+
+
 @pytest.mark.parametrize("E", [1e9, 8e9, 3e10])
 def test_pendulum(E):
-    section: dict = {"length": 0.4, "E": E, "A": 18e-4, "J": 1.215e-8, "rho": 5540, "beta": 2e6 / E + 5e-4}
-    section |= {"initial": "static", "nominal_rate": 68}
-    options = {"stop_time": 0.7, "tolerance": 1e-6, "intervals": 200}
-    texts, linear = doubts(Pendulum(beam=FlexibleBeam(elements=6, **section)), **options)
-    fine = SubstructuredBeam(volumes=6, geometric_stiffness=True, **section)
-    right = doubts(Pendulum(beam=fine), **options)[1]["tip_deflection"]
+    values = {"beam.E": E, "beam.beta": 2e6 / E + 5e-4}
+    options = {"stop_time": 0.7, "tolerance": 1e-6, "intervals": 200, "parameters": values}
+    texts, linear = doubts(pendulum(FlexibleBeam, elements=6), **options)
+    fine = pendulum(SubstructuredBeam, volumes=6, geometric_stiffness=True)
+    right = doubts(fine, **options)[1]["tip_deflection"]
     check(texts, np.abs(linear["tip_deflection"] - right).max() / np.abs(right).max())
 
 
@@ -159,9 +171,9 @@ class Coupler(Model):
 
 @pytest.mark.parametrize(("speed", "warns"), [(1, False), (20, True), (30, True)])
 def test_coupler(speed, warns):
-    options = {"stop_time": 12 / speed, "tolerance": 1e-5}
-    texts, linear = doubts(Coupler(speed=speed), **options)
-    quiet, right = doubts(Coupler(speed=speed, stiff=True), **options)
+    options = {"stop_time": 12 / speed, "tolerance": 1e-5, "parameters": {"speed": speed}}
+    texts, linear = doubts(compiled(Coupler), **options)
+    quiet, right = doubts(compiled(Coupler, stiff=True), **options)
     assert not quiet
     assert any(AXIAL in text for text in texts) == warns
     bends = [r["rod.middle_deflection"] for r in (linear, right)]
@@ -175,4 +187,4 @@ def test_small_vibration_is_quiet_and_a_large_one_is_not():
 
 @pytest.mark.parametrize("kind", [FlexibleBeam, SubstructuredBeam])
 def test_warnings_can_be_switched_off(kind):
-    assert not tip_error(kind(check_range=False, **SECTION), 3)[0]
+    assert not tip_error(ac.compile(Cantilever(beam=kind(check_range=False, **SECTION))), 3)[0]
