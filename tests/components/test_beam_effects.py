@@ -228,7 +228,7 @@ def test_forces_of_a_turning_frame_vanish_with_its_speed(effect):
 
     class Falling(Model):
         bar: Component = structural("the beam", default=None)
-        speed = structural("speed of the hub", default=0.0)
+        speed: ac.Scalar = ac.parameter("speed of the hub", unit="rad/s", default=1.0)
         world, hub = World(), Revolute(use_axis_flange=True)
         drive, tip = rotational.Position(phi_ref=speed * time), Body(m=TIP_MASS)
 
@@ -240,13 +240,12 @@ def test_forces_of_a_turning_frame_vanish_with_its_speed(effect):
             yield chain(self.world, self.hub, self.beam, self.tip)
             yield connect(self.drive.flange, self.hub.axis)
 
+    kind: dict = {"elements": 2, "geometric_stiffness": True}
+    models = [ac.compile(Falling(bar=make(**kind | effects))) for effects in ({}, {effect: False})]
     differences = []
     for speed in (0.0, 0.5, 1.0):
-        kind = {"elements": 2, "geometric_stiffness": True}
-        full, without = (
-            ac.simulate(Falling(bar=make(**kind | effects), speed=speed), stop_time=0.2, tolerance=1e-9, intervals=5)
-            for effects in ({}, {effect: False})
-        )
+        how = {"parameters": {"speed": speed}, "stop_time": 0.2, "tolerance": 1e-9, "intervals": 5}
+        full, without = (ac.simulate(model, **how) for model in models)
         differences.append(np.abs(full["beam.q"] - without["beam.q"]).max())
     assert differences[0] < 1e-9
     assert 1e-6 < differences[1] < 0.6 * differences[2]
