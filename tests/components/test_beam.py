@@ -21,10 +21,12 @@ from components import (
 )
 from models import FreeVibration
 from tests.reference import cantilever
+from tests.shared import pairwise
 
 LENGTH, E, RHO, A, J = 2.0, 72e9, 2700.0, 1e-4, 1e-8 / 12
 ALUMINIUM = {"length": LENGTH, "E": E, "rho": RHO, "A": A, "J": J}
 RUBBER = {"length": 1.0, "E": 1e7, "rho": 1000.0, "A": 1e-3, "J": 1e-7}
+SIDES = ("tangent", "pinned"), (False, True)
 MASS = RUBBER["rho"] * RUBBER["A"] * RUBBER["length"]
 
 
@@ -81,9 +83,14 @@ def test_frequencies_converge_with_the_fourth_power_of_the_element():
     assert errors[-1, 0] < 2e-7
 
 
-@pytest.mark.parametrize("reference", ["tangent", "pinned"])
-@pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize("shape", [{"elements": 4}, {"volumes": 4}, {"volumes": 2, "elements_per_volume": 2}])
+@pytest.mark.parametrize(
+    ("reference", "turned", "shape"),
+    pairwise(
+        ("tangent", "pinned"),
+        (False, True),
+        ({"elements": 4}, {"volumes": 4}, {"volumes": 2, "elements_per_volume": 2}),
+    ),
+)
 def test_reference_direction_and_substructuring_do_not_change_frequencies(reference, turned, shape):
     expected = cantilever.element_frequencies(LENGTH, RHO * A, E * J, 4)[:4] / (2 * np.pi)
     np.testing.assert_allclose(bending(4, reference=reference, turned=turned, **shape), expected, rtol=1e-7)
@@ -121,9 +128,14 @@ def test_static_deflection():
     np.testing.assert_allclose(result["beam.node_r_0"][0][:, 1], v, atol=1e-12)
 
 
-@pytest.mark.parametrize("reference", ["tangent", "pinned"])
-@pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize("shape", [{"elements": 3}, {"volumes": 3}, {"volumes": 2, "elements_per_volume": 2}])
+@pytest.mark.parametrize(
+    ("reference", "turned", "shape"),
+    pairwise(
+        ("tangent", "pinned"),
+        (False, True),
+        ({"elements": 3}, {"volumes": 3}, {"volumes": 2, "elements_per_volume": 2}),
+    ),
+)
 def test_static_node_forces_and_moments(reference, turned, shape):
     """The part towards the clamp bears the load, about each node in its deflected place."""
     result = loaded(reference=reference, turned=turned, **shape)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from components import (
     WorldForce,
     rotational,
 )
+from tests.shared import pairwise
 
 RUBBER = {"length": 1.0, "E": 1e7, "rho": 1000.0, "A": 1e-3, "J": 2e-7, "J_y": 3e-7, "torsional_inertia": 1e-2}
 DAMPED = {"alpha": 0.5, "beta": 1e-3}
@@ -56,7 +56,7 @@ def driven(tolerance: float = 1e-8, **kind: Any) -> ac.Result:
     return ac.simulate(Driven(bar=make(**kind)), stop_time=0.3, tolerance=tolerance, intervals=6, energy=True)
 
 
-CHOICES = list(product(("dynamic", "quasi_static", "none"), (False, True), (False, True), ("tangent", "pinned")))
+CHOICES = pairwise(("dynamic", "quasi_static", "none"), (False, True), (False, True), ("tangent", "pinned"))
 
 
 @pytest.mark.parametrize(("axial", "geometric_stiffness", "rotary_inertia", "reference"), CHOICES)
