@@ -1,4 +1,4 @@
-"""Errors of acausal: what is wrong in the user's names, where, why, and the mend."""
+"""Errors of acausal: what is wrong in the user's names, where, why, and the remedy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class AcausalError(Exception):
     Parameters
     ----------
     message : str
-        What is wrong, in the user's names; where; the likely cause; the mend as code.
+        What is wrong, in the user's names; where; the likely cause; the remedy as code.
     """
 
 
@@ -45,7 +45,7 @@ class SimulationError(AcausalError):
     Parameters
     ----------
     message : str
-        Time of the failure, the worst residuals by component, and the mend.
+        Time of the failure, the worst residuals by component, and the remedy.
     result : Result, optional
         The part of the simulation before the failure.
     """
@@ -64,16 +64,16 @@ class ExportError(AcausalError):
 
 
 class AcausalWarning(UserWarning):
-    """A result is right for the equations, but may not be what the user wants; or a setting has no effect."""
+    """The result solves the equations but may not be what the user wants; or a setting has no effect."""
 
 
 def caution(text: str) -> None:
-    """Warn with the user's line: the innermost one outside of this package.
+    """Warn with the user's line: the innermost one outside this package.
 
     Parameters
     ----------
     text : str
-        What is doubtful, in the user's names; where; the mend.
+        What is doubtful, in the user's names; where; the remedy.
     """
     level, frame = 2, sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):

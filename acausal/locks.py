@@ -1,4 +1,4 @@
-"""One thread at a time: what models share in a process is not made for two."""
+"""One thread at a time: what models share in a process is not thread-safe."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ R = TypeVar("R")
 # Of the whole process, not of a model: a call binds memory of its own model, but also takes the standard error stream.
 LOCK = RLock()
 if hasattr(os, "register_at_fork"):
-    # A child has no other threads: one that held the lock would hold it for ever there.
+    # A child has no other threads: one that held the lock would hold it forever there.
     os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=LOCK.release)
 
 

@@ -46,7 +46,7 @@ class Body(Component):
         "inertia tensor about the centre of mass",
         unit="kg.m2",
         default=np.zeros((3, 3)),
-        doc="Resolved in frame_a. It must be that of some body, but moments about axes that the body does not "
+        doc="Resolved in frame_a. It must be physically possible, but moments about axes that the body does not "
         "turn about may be left 0.",
     )
     angles_start: Any = structural(
@@ -61,8 +61,8 @@ class Body(Component):
     gyroscopic: bool = effect(
         "gyroscopic torque w x I w",
         default=True,
-        doc="False is valid where w stays along a principal axis, or where that torque is small against the "
-        "others: in other motions the energy is no longer balanced, as a turning body does not precess.",
+        doc="False is valid where w stays along a principal axis, or where that torque is small compared with the "
+        "others; in other motions energy is not conserved, as a turning body does not precess.",
     )
     world: World = outer(World)
     r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")

@@ -12,7 +12,7 @@ class Damper(LineForce):
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
 
     def law(self):
-        """Force in proportion to the speed."""
+        """Force proportional to the speed."""
         yield self.f == self.d * self.v
 
     def dissipated_power(self):

@@ -19,11 +19,11 @@ class LineForce(TwoFrames):
     """
 
     s_small: Scalar = parameter(
-        "least length that is divided by",
+        "smallest length used as a divisor",
         unit="m",
         default=1e-10,
         positive=True,
-        doc="The direction of the line is divided by no less.",
+        doc="Shorter lengths are replaced by it where the direction of the line is computed.",
     )
     s: Scalar = variable("length of the line", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
@@ -57,7 +57,7 @@ class LineForce(TwoFrames):
             self.frame_b.r_0 - self.frame_a.r_0,
             self.v,
             self.f,
-            "its ends meet, where its force has no direction and turns over. Let them pass beside each other, for instance by "
+            "its ends meet, where its force has no direction and reverses. Let them pass beside each other, for instance by "
             "FixedTranslation(r=...) at one end, hold them apart by a stop that acts before, or use a law whose force is 0 "
             "where they meet (s_unstretched=0). A spring along a guide, in both directions, acts on the axis of its joint: "
             "Prismatic(use_axis_flange=True)",

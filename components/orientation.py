@@ -12,9 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, sin, variable
-
-FEEDBACK = 1.0  # in 1/s
+from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, feedback, sin, variable
 
 
 @dataclass(frozen=True)
@@ -120,9 +118,9 @@ def quaternion_rate(Q: Any, w: Any) -> tuple[Expr, Expr]:
 def quaternion_equations(Q: Any, w: Any) -> Iterator[Any]:
     """Equations of a quaternion as state; the feedback keeps its norm at 1 (Baumgarte)."""
     e, s = quaternion_rate(Q, w)
-    feedback = FEEDBACK * (1 - Q @ Q)
-    yield der(Q[:3]) == e + feedback * Q[:3]
-    yield der(Q[3]) == s + feedback * Q[3]
+    back = feedback * (1 - Q @ Q)
+    yield der(Q[:3]) == e + back * Q[:3]
+    yield der(Q[3]) == s + back * Q[3]
 
 
 def quaternion_of(T: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ UNEQUAL = 1e-6  # of that sum: products of inertia that should be the same
 
 
 def wrong_inertia(I: np.ndarray) -> str:
-    """Say what is wrong with the inertia tensor of a body, "" if nothing is.
+    """Return what is wrong with the inertia tensor of a body, "" if nothing is.
 
     I is the inertia of a mass distribution if it is symmetric and trace(I) / 2 E - I, the second moments of the mass, has
     no negative eigenvalue: that is the triangle inequality in principal axes, and no moment is negative then. Of a body
@@ -22,7 +22,7 @@ def wrong_inertia(I: np.ndarray) -> str:
     """
     moments, trace = np.diag(I), np.trace(I)
     if not np.all(np.isfinite(I)):
-        return "has entries that are no numbers; a length or a direction that it follows from is 0"
+        return "has entries that are not numbers; a length or a direction that it follows from is 0"
     if np.any(moments < 0):
         return f"has a negative moment of inertia about {'xyz'[int(np.argmin(moments))]}"
     if np.any(np.abs(I - I.T) > UNEQUAL * trace):
@@ -33,6 +33,6 @@ def wrong_inertia(I: np.ndarray) -> str:
         return ""
     principal = ", ".join(f"{moment:.4g}" for moment in np.linalg.eigvalsh(I))
     return (
-        f"is the inertia of no body: of its principal moments, {principal} kg.m2, none may be more than the sum of the "
+        f"is not the inertia of a body: of its principal moments, {principal} kg.m2, none may exceed the sum of the "
         "other two. Check its entries and the signs of its products, and that it is about the centre of mass"
     )

@@ -1,4 +1,4 @@
-"""SpringDamperParallel: a spring and a damper side by side between two frames."""
+"""SpringDamperParallel: a spring and a damper in parallel between two frames."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class SpringDamperParallel(LineForce):
     )
 
     def law(self):
-        """Hooke's law, and a force in proportion to the speed."""
+        """Hooke's law, and a force proportional to the speed."""
         yield self.f == self.c * (self.s - self.s_unstretched) + self.d * self.v
 
     def stored_energy(self):

@@ -8,7 +8,7 @@ from components.orientation import resolve2
 
 
 class WorldForce(Component):
-    """Force from outside of the model that acts at the origin of frame_b."""
+    """Force from outside the model that acts at the origin of frame_b."""
 
     ends = ("frame_b", "frame_b")
     force: Vector3 = input("force, resolved in resolve_in_frame", unit="N")

@@ -8,7 +8,7 @@ from components.orientation import resolve2
 
 
 class WorldTorque(Component):
-    """Torque from outside of the model that acts at frame_b."""
+    """Torque from outside the model that acts at frame_b."""
 
     ends = ("frame_b", "frame_b")
     torque: Vector3 = input("torque, resolved in resolve_in_frame", unit="N.m")

@@ -12,7 +12,7 @@ class FreeVibration(Model):
     """Cantilever of aluminium, 2 m long, of square section, released with the deflection tip."""
 
     stop_time = 1.0
-    method = "resolve"  # its vibrations are what is looked at: follow them, do not damp them
+    method = "resolve"  # its vibrations are of interest: follow them, do not damp them
     formulations = ac.with_and_without(
         ac.Formulation("one frame", {"formulation": "fem"}, {"elements": (2, 4, 8)}),
         ac.Formulation("volumes", {**CHAIN, "elements_per_volume": 1}, {"volumes": (2, 4, 8)}, exact=True),

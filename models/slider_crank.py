@@ -42,7 +42,7 @@ class SliderCrank(Model):
     def rod_bar(self):
         n, rest = divmod(self.rod_elements, self.rod_volumes)
         if rest:
-            raise ac.DeclarationError("rod_elements is no multiple of rod_volumes; try rod_elements=8, rod_volumes=4.")
+            raise ac.DeclarationError("rod_volumes must divide rod_elements; try rod_elements=8, rod_volumes=4.")
         beam = SubstructuredBeam(length=0.304, E=5e7, rho=D, A=A, J=J, volumes=self.rod_volumes, elements_per_volume=n)
         return beam if self.rod == "elastic" else BodyRod(r=(0.304, 0, 0), m=D * A * 0.304)
 

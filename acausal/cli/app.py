@@ -74,8 +74,8 @@ def simulate(
     accuracy: Annotated[
         float | None,
         typer.Option(
-            help="Instead of a tolerance: largest error of the outputs in parts of their ranges; chooses tolerance and "
-            "order, and the elements of adaptive beams.",
+            help="Instead of a tolerance: largest error of the outputs as a fraction of their ranges; chooses "
+            "tolerance and order, and the elements of adaptive beams.",
             metavar="R",
             show_default=False,
         ),
@@ -99,11 +99,11 @@ def simulate(
     ] = None,
     initial: Initial = None,
     csv: Annotated[str | None, typer.Option(help="Write time and outputs.", metavar="FILE")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw the outputs.", metavar="FILE.png")] = None,
+    plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
     json: Json = None,
     variables: Annotated[
         list[str] | None,
-        typer.Option(help="More columns: paths with * and ?; drawn instead of outputs.", metavar="PATTERN"),
+        typer.Option(help="More columns: paths with * and ?; plotted instead of the outputs.", metavar="PATTERN"),
     ] = None,
     quiet: Quiet = False,
 ) -> None:
@@ -146,7 +146,7 @@ def simulate(
 
 @app.command()
 def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
-    """Compile a scene and tell what the compiler did: equations and unknowns, states, what was removed, seconds."""
+    """Compile a scene and report what the compiler did: equations and unknowns, states, what was removed, seconds."""
     with running(json) as standard_output:
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
         found = _at_start(compiled)
@@ -173,7 +173,7 @@ def linearize(
 
 
 def _at_start(compiled: CompiledModel) -> AtStart | None:
-    """What the ranks of loops tell, which need consistent positions."""
+    """What the ranks of loops show; they need consistent positions."""
     from acausal.solve.problem import Problem
     from acausal.solve.start.start import start
 
@@ -198,7 +198,7 @@ def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
 
 
 def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[str] | None, quiet: bool) -> Result:
-    """Run a simulation; where it fails or is interrupted, write what it has computed until then."""
+    """Run a simulation; where it fails or is interrupted, write what it has computed so far."""
     try:
         with progress_bar(not quiet) as show:
             return compute(show)

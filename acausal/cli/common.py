@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
 FAILED, WRONG, INTERRUPTED, TERMINATED = 1, 2, 130, 143
-STOP_TIME = 1.0  # of a model that does not tell its own, in s
+STOP_TIME = 1.0  # of a model that declares none, in s
 
 Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
 Set = Annotated[
@@ -47,7 +47,7 @@ Initial = Annotated[
     typer.Option(
         "--initial",
         metavar="fixed|guesses|steady",
-        help="What to do with states that no condition fixes; fixed if neither this nor the scene tells.",
+        help="What to do with states that no condition fixes; fixed if the scene says nothing else.",
         show_default=False,
     ),
 ]
@@ -59,7 +59,7 @@ Quiet = Annotated[bool, typer.Option("--quiet", help="Print nothing but errors."
 
 @contextmanager
 def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
-    """Turn errors into a message and an exit status; give the stream for a JSON document.
+    """Turn errors into a message and an exit status; yield the stream for a JSON document.
 
     With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
     """
@@ -80,12 +80,12 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
 
 
 class Terminated(KeyboardInterrupt):
-    """The process was asked to end: what was computed is kept, as after an interrupt."""
+    """The process was asked to end; what was computed is kept, as after an interrupt."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Take SIGTERM like an interrupt from the keyboard, once: the second one ends the process at once."""
+    """Treat the first SIGTERM like an interrupt from the keyboard; the second one ends the process at once."""
 
     def terminate(*_: Any) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -122,7 +122,7 @@ def _told(quiet: bool) -> Iterator[None]:
 
 @contextmanager
 def blaming(cls: type[Model]) -> Iterator[None]:
-    """Tell the line of the user's file where Python's own errors come from it."""
+    """Name the line of the user's file where Python's own errors come from it."""
     try:
         yield
     except AcausalError:
@@ -130,7 +130,7 @@ def blaming(cls: type[Model]) -> Iterator[None]:
     except Exception as error:
         place = place_in(error, Path(inspect.getfile(cls)))
         if not place:
-            raise  # no fault of the user's file: whoever mends the engine needs the traceback
+            raise  # not the user's fault: whoever repairs the engine needs the traceback
         raise DeclarationError(f"{place}: {brief(error)}") from error
     except SystemExit as error:
         raise ended(error, Path(inspect.getfile(cls))) from None

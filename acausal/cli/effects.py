@@ -18,7 +18,7 @@ def effects(
     scene: Scene,
     settings: Set = None,
     accuracy: Annotated[
-        float, typer.Option(help="Largest change of the outputs, in parts of their ranges.", metavar="R")
+        float, typer.Option(help="Largest change of the outputs, as a fraction of their ranges.", metavar="R")
     ] = 1e-2,
     apply: Annotated[
         str | None,
@@ -33,17 +33,17 @@ def effects(
     ] = None,
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of a step.", metavar="R")] = 1e-6,
     stop_time: StopTime = None,
-    pairs: Annotated[int, typer.Option(help="Pairs of effects that are tried at most.", metavar="N")] = 15,
+    pairs: Annotated[int, typer.Option(help="Largest number of pairs of effects to try.", metavar="N")] = 15,
     limit: Annotated[float, typer.Option(help="Seconds after which a run is stopped.", metavar="S")] = 60.0,
     workers: Annotated[
-        int | None, typer.Option(help="Processes side by side; one for each core if not given.", metavar="N")
+        int | None, typer.Option(help="Parallel processes; one per core if not given.", metavar="N")
     ] = None,
-    csv: Annotated[str | None, typer.Option(help="Write a row for each trial.", metavar="FILE")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write a row for each variant.", metavar="FILE")] = None,
     markdown: Annotated[str | None, typer.Option(help="Write the tables in Markdown.", metavar="FILE")] = None,
     json: Json = None,
     quiet: Quiet = False,
 ) -> None:
-    """Tell what each effect of a scene changes and costs, and the cheapest set that stays within an accuracy."""
+    """Show what each effect of a scene changes and costs, and the cheapest set within an accuracy."""
     with running(json) as standard_output:
         from acausal.study import effects as study
         from acausal.study.effects.choices_file import choices_document

@@ -20,7 +20,7 @@ from acausal.simulation.accuracy import chosen_text
 from acausal.units import parse
 
 FINAL_VALUES = 20
-# Of the size of states: outputs below it are known ten times less than the relative tolerance says, or worse.
+# Of the size of states: the relative error of smaller outputs is ten times the tolerance or more.
 SMALL = 0.1
 ROUNDING = 1e-12
 Progress = Callable[[float, int], None] | None
@@ -47,7 +47,7 @@ class Files:
     standard_output: IO[str]
 
     def check(self) -> None:
-        """Refuse what cannot be written before any work is done."""
+        """Refuse impossible output files before any work is done."""
         if self.csv is not None:
             check_writable(self.csv)
         if self.plot is not None:
@@ -93,7 +93,7 @@ def plain(value: Any) -> Any:
 
 
 def summary(result: Result) -> str:
-    """Return what a run did and where it ended, a few lines for people."""
+    """Return what a run did and where it ended, as a few lines of text."""
     stats, time = result.stats, result.time
     lines = [
         f"{result.title}: {time[0]:g} s to {time[-1]:g} s, {time.size} points",
@@ -117,15 +117,15 @@ def summary(result: Result) -> str:
 
 
 def _small(stats: Statistics, series: list[Series]) -> list[str]:
-    """Say which outputs are so small that the absolute part of the tolerance decides at most times."""
+    """Name the outputs that are so small that mostly the absolute part of the tolerance applies."""
     lines = []
     for s in series[:FINAL_VALUES]:
         size = stats.sizes.get(str(parse(s.unit or "1")), 0.0)
         usual = float(np.median(np.abs(s.values)))
         if 0 < usual < SMALL * size:
             lines.append(
-                f"  {s.name} is about {usual:.2g}, but the tolerance counts from {size:g} {s.unit}: for more digits of it take a "
-                "smaller tolerance, or give the states behind it a nominal value"
+                f"  {s.name} is about {usual:.2g}, but the tolerance is absolute below {size:g} {s.unit}: for more digits take a "
+                "smaller tolerance, or give its states a nominal value"
             )
     return lines
 
@@ -139,7 +139,7 @@ def _method(stats: Statistics) -> str:
 
 
 def _events(stats: Statistics) -> list[str]:
-    """Return what happened on the way, and where the energy went."""
+    """Return breaks, events and the energy balance."""
     lines = []
     if stats.break_times:
         lines.append(f"  breaks at {', '.join(f'{t:g}' for t in stats.break_times[:FINAL_VALUES])} s")
@@ -147,8 +147,8 @@ def _events(stats: Statistics) -> list[str]:
         lines.append(f"  {stats.events} events, the first at {stats.event_times[0]:g} s")
     if stats.energy_supplied or stats.energy_stored_change:
         lines.append(
-            f"  energy: supplied {stats.energy_supplied:.6g} J, stored {stats.energy_stored_change:.6g} J more, "
-            f"dissipated {stats.energy_dissipated:.3g} J, by the method itself {stats.energy_method:.3g} J"
+            f"  energy: supplied {stats.energy_supplied:.6g} J, stored energy changed by {stats.energy_stored_change:.6g} J, "
+            f"dissipated {stats.energy_dissipated:.3g} J, lost by the method {stats.energy_method:.3g} J"
         )
     return lines
 
@@ -206,7 +206,7 @@ def _bar(wanted: bool) -> Iterator[Callable[[float, float, str], None] | None]:
     task = bar.add_task("", total=1.0)
 
     def show(done: float, total: float, what: str) -> None:
-        bar.start()  # a short run never calls and shows nothing
+        bar.start()  # a short run never calls it and shows nothing
         bar.update(task, completed=done, total=total, description=what)
 
     try:

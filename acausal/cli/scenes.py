@@ -33,7 +33,7 @@ def find_scene(name: str) -> type[Model]:
     Raises
     ------
     DeclarationError
-        If there is none; the message tells the nearest names.
+        If there is none; the message names the nearest ones.
     """
     path, _, cls = name.rpartition(":") if ".py:" in name else (name, "", "")
     if path.endswith(".py"):
@@ -50,7 +50,7 @@ def find_scene(name: str) -> type[Model]:
 
 
 def place_in(error: BaseException, path: Path) -> str:
-    """Return "file:line" of the innermost line of a file that an error passed, "" if there is none."""
+    """Return "file:line" of the innermost line of a file in an error's traceback, "" if there is none."""
     if isinstance(error, SyntaxError) and error.filename == str(path):
         return f"{path}:{error.lineno}"
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
@@ -58,10 +58,10 @@ def place_in(error: BaseException, path: Path) -> str:
 
 
 def ended(error: SystemExit, path: Path) -> DeclarationError:
-    """Return the error for a file that ends the program while it is read."""
+    """Return the error for a file that exits while it is read."""
     return DeclarationError(
-        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it is only to "
-        'tell a model. Put what runs, sys.exit as well, under `if __name__ == "__main__":`.'
+        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "
+        'only define a model. Put code that runs, sys.exit included, under `if __name__ == "__main__":`.'
     )
 
 
@@ -84,7 +84,7 @@ def read_settings(texts: Iterable[str]) -> dict[str, Any]:
     Raises
     ------
     DeclarationError
-        If a text is no such pair.
+        If a text is not such a pair.
     """
     values: dict[str, Any] = {}
     for text in texts:
@@ -128,7 +128,7 @@ def _is_model(value: Any) -> TypeGuard[type[Model]]:
 
 
 def _load(path: Path) -> ModuleType:
-    """Run a file as a module that can import its neighbours."""
+    """Run a file as a module that can import the files beside it."""
     name = f"scene_{path.stem}"
     module = ModuleType(name)
     module.__file__ = str(path)

@@ -22,13 +22,13 @@ def study(
     settings: Set = None,
     formulations: Annotated[
         list[str] | None,
-        typer.Option("--formulation", metavar="NAME", help="Try these only; all of the scene if not given."),
+        typer.Option("--formulation", metavar="NAME", help="Only these formulations; all of the scene's if not given."),
     ] = None,
     tolerances: Annotated[
         str, typer.Option(metavar="R,R,...", help="Relative tolerances of a step.")
     ] = "1e-3,1e-4,1e-5,1e-6,1e-7",
     max_orders: Annotated[
-        str, typer.Option(metavar="N,N,...", help="Limits of the order; auto is chosen by the run.")
+        str, typer.Option(metavar="N,N,...", help="Limits of the order; auto lets the run choose.")
     ] = "auto",
     methods: Annotated[
         str | None, typer.Option(metavar="NAME,...", help="Methods of simulate; the scene's own if not given.")
@@ -38,7 +38,7 @@ def study(
     ] = None,
     switches: Annotated[
         list[str] | None,
-        typer.Option("--switch", metavar="NAME=VALUE,VALUE", help="Another parameter that is varied."),
+        typer.Option("--switch", metavar="NAME=VALUE,VALUE", help="Another parameter to vary."),
     ] = None,
     outputs: Annotated[
         list[str] | None,
@@ -46,18 +46,18 @@ def study(
     ] = None,
     reference: Annotated[
         str | None,
-        typer.Option(metavar="FILE.csv", help="Compare with this table of simulate --csv; made if not given."),
+        typer.Option(metavar="FILE.csv", help="Table of simulate --csv to compare with; computed if not given."),
     ] = None,
     accuracy: Annotated[
-        float, typer.Option(metavar="R", help="How well the reference is to be known, in parts of the range.")
+        float, typer.Option(metavar="R", help="Required accuracy of the reference, as a fraction of the range.")
     ] = 1e-4,
     stop_time: StopTime = None,
     intervals: Annotated[int, typer.Option(help="Every run has N + 1 points.", metavar="N")] = 400,
     initial: Initial = None,
-    repeats: Annotated[int, typer.Option(help="Runs of a point whose median counts.", metavar="N")] = 3,
-    limit: Annotated[float, typer.Option(help="Seconds after which a point is stopped.", metavar="S")] = 60.0,
+    repeats: Annotated[int, typer.Option(help="Runs per case; their median counts.", metavar="N")] = 3,
+    limit: Annotated[float, typer.Option(help="Seconds after which a case is stopped.", metavar="S")] = 60.0,
     workers: Annotated[
-        int | None, typer.Option(help="Processes side by side; one for each core if not given.", metavar="N")
+        int | None, typer.Option(help="Parallel processes; one per core if not given.", metavar="N")
     ] = None,
     cluster: Annotated[
         str | None,
@@ -65,10 +65,10 @@ def study(
     ] = None,
     csv: Annotated[
         str | None,
-        typer.Option(help="Write every figure of every point; an interrupted study goes on.", metavar="FILE"),
+        typer.Option(help="Write every figure of every case; an interrupted study continues.", metavar="FILE"),
     ] = None,
     markdown: Annotated[str | None, typer.Option(help="Write the table in Markdown.", metavar="FILE")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw error over time.", metavar="FILE.png")] = None,
+    plot: Annotated[str | None, typer.Option(help="Plot error over time.", metavar="FILE.png")] = None,
     json: Json = None,
     quiet: Quiet = False,
 ) -> None:
@@ -109,9 +109,9 @@ def study(
                     **numbers,
                 )
         except KeyboardInterrupt:
-            kept = f"what is done is kept in {journal}: the same command goes on from it"
+            kept = f"finished cases are kept in {journal}: the same command continues from there"
             typer.echo(
-                kept if journal else "nothing is kept; with --csv FILE a study goes on where it stopped", err=True
+                kept if journal else "nothing is kept; with --csv FILE a study can continue where it stopped", err=True
             )
             raise
         if csv:
@@ -130,7 +130,7 @@ def _list(text: str, read: Callable[[str], Any], option: str) -> tuple[Any, ...]
     try:
         return tuple(read(part.strip()) for part in text.split(","))
     except ValueError:
-        raise DeclarationError(f"--{option} takes values with commas between them, not `{text}`.") from None
+        raise DeclarationError(f"--{option} takes comma-separated values, not `{text}`.") from None
 
 
 def _switches(texts: list[str] | tuple[()]) -> dict[str, list[Any]]:

@@ -16,7 +16,7 @@ from acausal.compiler.signals import Signals
 
 
 class _Noise(io.StringIO):
-    """Keeps what this thread writes; what others write meanwhile goes where it always goes."""
+    """Captures what this thread writes; the output of other threads passes through."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class _Noise(io.StringIO):
 
 @contextlib.contextmanager
 def quiet() -> Iterator[io.StringIO]:
-    """Keep from the terminal what solvers write, and from solvers the interrupts that they would take for failures."""
+    """Hide the output of solvers from the terminal, and from solvers the interrupts that they would take for failures."""
     noise = _Noise()
     with Signals(), contextlib.redirect_stderr(noise):
         yield noise
@@ -65,7 +65,7 @@ class Call:
         return self.outputs
 
     def clear(self) -> None:
-        """Make all outputs NaN: those that an evaluation does not reach, because of a failure or an interrupt, stay so."""
+        """Make all outputs NaN: those that an evaluation does not reach, because of a failure or an interrupt, remain NaN."""
         for array in self.outputs:
             array.fill(np.nan)
 
@@ -78,7 +78,7 @@ class Call:
         return not self.buffer.ret()
 
     def attempt(self) -> tuple[bool, str]:
-        """Evaluate in place; return whether that worked, and what the solver complained about."""
+        """Evaluate in place; return whether that worked, and the solver's messages."""
         with quiet() as noise:
             done = self.succeeds()
         return done, noise.getvalue()

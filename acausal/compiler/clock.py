@@ -1,4 +1,4 @@
-"""Comparisons of time with parameters inside of joined conditions: each switches by the clock, at a break time.
+"""Comparisons of time with parameters inside joined conditions: each switches by the clock, at a break time.
 
 A condition that also compares other things is watched, but what the clock decides in it must not be left to a search: a
 pulse may begin and end between two looks. So each such comparison becomes a switch of its own, whose instants are
@@ -22,9 +22,9 @@ from acausal.symbols import scalars
 
 
 def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
-    """Tell which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
+    """Return which comparisons hold time and parameters alone, which of these are curved, and their excesses, a column.
 
-    The instants of the others are known from parameters, those of curved ones can be found for sure.
+    The instants of the others are known from parameters, those of curved ones can be found reliably.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _what_is_left(condition: Condition, switches: dict[int, ca.SX]) -> _Left:
     no = ca.fmax(a.no, b.no) if every else a.no * b.no
     if a.rest is None or b.rest is None:
         return _Left(yes, no, b.rest if a.rest is None else a.rest)
-    # One that is settled without settling the whole has no say.
+    # A part that is settled without settling the whole does not matter.
     silent_a, silent_b = (a.yes, b.yes) if every else (a.no, b.no)
     both = Joined(a.rest, b.rest, every)
     excess = ca.if_else(silent_a, b.rest.excess.sx, ca.if_else(silent_b, a.rest.excess.sx, both.excess.sx))

@@ -49,7 +49,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         started = now
 
     flat = flatten(model, parameters)
-    Settable(flat).values(None)  # a length of 0 also breaks the structure: say first what is wrong
+    Settable(flat).values(None)  # a length of 0 also breaks the structure: report the cause first
     lap("flatten")
     try:
         plan, linear = plan_of(flat)
@@ -67,7 +67,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         compiled.values,
         compiled.start,
         compiled.guards.breaks,
-        compiled.guards.guess,
+        compiled.guards.estimate,
         compiled.hoist,
         compiled.constraints,
     )

@@ -67,7 +67,7 @@ class CompiledModel:
         return pickled(self.source)
 
     def __copy__(self) -> CompiledModel:
-        # The equations are never changed; everything that is computed from them is made anew.
+        # The equations never change; everything that is computed from them is recomputed.
         return CompiledModel(self.reduced, dict(self.seconds), self.source)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
@@ -207,7 +207,7 @@ class CompiledModel:
     def layout(self) -> Layout:
         """How many constants a segment has."""
         guards, constraints = self.guards, self.constraints
-        moves = self.reduced.constants.numel() > guards.n_switches + guards.n_discretes
+        moves = self.reduced.projections.choice.numel() > 0
         return Layout(
             guards.n_switches, guards.n_discretes, len(constraints.closures), int(moves), constraints.entries.shape[1]
         )

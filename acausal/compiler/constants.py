@@ -22,6 +22,8 @@ class Constants:
         1 where the constraints of a closure count, 0 where they are redundant.
     moves : bool or None
         Whether D are factors of the constraint Jacobian, which moves along, or numbers; None where nothing is constrained.
+    feedback : float
+        How fast states return to invariants, in 1/s.
     D : array
         Directions along which coordinates are projected on the constraints, see `Constraints.entries`.
     """
@@ -31,12 +33,13 @@ class Constants:
     closures: np.ndarray
     moves: bool | None
     D: np.ndarray
+    feedback: float = 1.0
 
     @cached_property
     def vector(self) -> np.ndarray:
         """All of them, in the order of `ReducedModel.constants`."""
         moves = [] if self.moves is None else [float(self.moves)]
-        return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D])
+        return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D, [self.feedback]])
 
     def switched(self, places: np.ndarray | list[int], on: np.ndarray | list[bool]) -> Constants:
         """Return the constants with some switches on or off."""
@@ -55,12 +58,17 @@ class Layout:
     moves: int
     D: int
 
+    def begin(self, head: np.ndarray, feedback: float) -> Constants:
+        """Return constants with which all closures count, without D, from switches and discrete variables."""
+        switches, discretes = np.split(head, [self.switches])
+        return Constants(
+            switches, discretes, np.ones(self.closures), False if self.moves else None, np.ones(self.D), feedback
+        )
+
     def constants(self, vector: np.ndarray) -> Constants:
-        """Return the constants in a vector; one that ends before the closures lets all of them count, without D."""
+        """Return the constants in a vector."""
         head = self.switches + self.discretes
         first = head + self.closures + self.moves
-        if len(vector) == head:
-            vector = np.concatenate([vector, np.ones(self.closures), np.zeros(self.moves), np.ones(self.D)])
-        closures, D = vector[head : head + self.closures], vector[first:]
+        closures, D = vector[head : head + self.closures], vector[first:-1]
         moves = bool(vector[first - 1]) if self.moves else None
-        return Constants(vector[: self.switches], vector[self.switches : head], closures, moves, D)
+        return Constants(vector[: self.switches], vector[self.switches : head], closures, moves, D, float(vector[-1]))

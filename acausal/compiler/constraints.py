@@ -26,6 +26,8 @@ class Constraints:
         Position of the multiplier of each residual among the algebraic unknowns.
     closures : list of int
         Constraint of each closure.
+    kinds : array of int
+        Residuals that are entries of one equation, or the same time derivative of it, have one number.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
     """
@@ -41,6 +43,9 @@ class Constraints:
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
+        said = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
+        kinds = [(said.get(k, -1 - k), level) for k, rows in enumerate(self.rows) for level in range(len(rows))]
+        self.kinds = np.unique(np.array(kinds).reshape(-1, 2), axis=0, return_inverse=True)[1].ravel()
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)
@@ -56,7 +61,7 @@ class Constraints:
         coordinates = r.resolve(r.projections.coordinates)
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
-        self._guessed = np.array([place for place, _ in found], dtype=int)
+        self._follows = np.array([place for place, _ in found], dtype=int)
         following = ca.vertcat(ca.SX(0, 1), *[r.running.following[k] for _, k in found])
         self._following = Call(ca.Function("following", arguments, [ca.densify(following)]))
         same = [
@@ -103,9 +108,9 @@ class Constraints:
             projected[self._places] = self._coordinates(x, z, p, t, constants)[0]
         return projected
 
-    def guess(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
+    def complete(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the algebraic unknowns with all those in place that follow from the states."""
         z = z.copy()
-        z[self._guessed] = self._following(x, p, t, constants)[0]
+        z[self._follows] = self._following(x, p, t, constants)[0]
         z[self._kept[0]] = x[self._kept[1]]
         return z

@@ -118,7 +118,7 @@ class Guards:
         return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
 
     @cached_property
-    def guess(self) -> Call:
+    def estimate(self) -> Call:
         """Function of parameters and time: switches and discrete variables, exact where only time decides."""
         r = self.reduced
         head = self._head()
@@ -129,7 +129,7 @@ class Guards:
                 known[k] = head[k]
         head = ca.substitute([head], [r.constants], [known])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
-        return Call(ca.Function("guess", [r.p, time.sx], [ca.densify(head)]))
+        return Call(ca.Function("estimate", [r.p, time.sx], [ca.densify(head)]))
 
     @cached_property
     def start(self) -> Call:
@@ -171,7 +171,7 @@ class Guards:
 
     @cached_property
     def _motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what tells the rates of these.
+        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what determines the rates of these.
 
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
@@ -246,5 +246,5 @@ class Guards:
         return (True, k), x[k] + (value - target) / slopes[0]
 
     def check(self) -> None:
-        """Raise DeclarationError if something jumps that cannot."""
+        """Raise DeclarationError if something jumps that cannot jump."""
         _ = self._jumps

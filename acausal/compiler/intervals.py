@@ -1,4 +1,4 @@
-"""Interval arithmetic: between which bounds a function of time lies while time lies between two bounds.
+"""Interval arithmetic: bounds of a function of time while time lies between two bounds.
 
 The instructions of a CasADi function are followed with a lower and an upper bound for every value, for many intervals of
 time at once. Bounds are never too narrow.
@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 Bounds = tuple[np.ndarray, np.ndarray]
-# Relative widening after each operation, so that rounding is inside of the bounds.
+# Relative widening after each operation, so that rounding is inside the bounds.
 ROUNDING = 4e-16
 _RISING: dict[int, Callable[[np.ndarray], np.ndarray]] = {
     ca.OP_ASSIGN: np.positive,
@@ -57,7 +57,7 @@ def bounds(function: ca.Function, p: np.ndarray, low: np.ndarray, high: np.ndarr
     -------
     bounds : two arrays, shape (n,)
     jumps : array of bool, shape (n,)
-        Where the function may jump, so that its derivative does not tell how it changes.
+        Where the function may jump, so that its derivative does not describe its change.
     """
     whole = np.full(len(low), np.inf)
     result, jumps = (-whole, whole), np.zeros(len(low), dtype=bool)

@@ -104,7 +104,7 @@ class Settable:
         if wrong.size:
             path, _, declared = own.limits[owners[wrong[0]]]
             if path in own.bound:
-                self.requirements.check(values)  # they know the cause, such as a wrong diameter of a negative mass
+                self.requirements.check(values)  # they know the cause, such as a wrong diameter
             bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
             raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
 

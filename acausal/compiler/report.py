@@ -17,12 +17,12 @@ SHOWN = 12
 
 @dataclass(frozen=True)
 class AtStart:
-    """What is known once a start was found.
+    """What is known once a start has been found.
 
     Parameters
     ----------
     dropped : tuple of int
-        Residuals that close loops and say nothing new, by rank.
+        Residuals that close loops and are redundant by rank.
     singular : bool
         Whether the start is a singular position.
     independent : tuple of str
@@ -74,12 +74,12 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
 
 
 def summary(r: Mapping[str, Any]) -> str:
-    """Return a report as text for people."""
+    """Return a report as text."""
     lines = [
         f"{r['model']}",
         f"  flattened     {r['equations_flat']:6d} equations, {r['unknowns_flat']} unknowns",
         f"  simplified    {r['equations_simplified']:6d} equations, {r['unknowns_simplified']} unknowns: removed "
-        f"{r['constants']} constants and {r['aliases']} aliases, {r['redundant']} equations said nothing new",
+        f"{r['constants']} constants and {r['aliases']} aliases, {r['redundant']} redundant equations",
         f"  reduced       {r['differentiated']:6d} equations differentiated, {r['assigned']} solved explicitly, "
         f"{r['observed']} only observed",
         f"  integrated    {r['equations_reduced']:6d} equations: {len(r['states'])} states, "
@@ -91,8 +91,8 @@ def summary(r: Mapping[str, Any]) -> str:
     lines += [f"  {loop['kind']:14}{_tell(loop)}" for loop in r["loops"]]
     if r["independent_states"]:
         lines.append(
-            f"  independent   {_list(r['independent_states'])}: the other states follow from the loops; chosen by the "
-            "pivots of their equations at the start, and again where these fall"
+            f"  independent   {_list(r['independent_states'])}: the other states follow from the loops; chosen by "
+            "pivoting at the start, and again where the pivots become small"
         )
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
@@ -138,9 +138,9 @@ def _tell(loop: dict[str, Any]) -> str:
     if loop["redundant_by_rank"]:
         text += f"; {loop['redundant_by_rank']} of them found by rank at the start"
     if loop["undetermined"]:
-        text += f"; undetermined, and set to 0 or the work of them is: {_list(loop['undetermined'])}"
+        text += f"; undetermined, and set to 0 or so that they do no work: {_list(loop['undetermined'])}"
     if loop["singular_start"]:
-        text += "; the start is a singular position: all constraints are kept, the velocity chooses the way on"
+        text += "; the start is a singular position: all constraints are kept, the velocity selects the branch"
     return text
 
 

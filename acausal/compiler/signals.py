@@ -11,7 +11,7 @@ WATCHED = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGALRM") if
 
 
 class Signals:
-    """Raises at the end of the block what a handler raised inside of it, whatever became of that meanwhile."""
+    """Raises at the end of the block what a handler raised inside it, whatever became of that meanwhile."""
 
     def __init__(self) -> None:
         self._before: dict[int, Any] = {}

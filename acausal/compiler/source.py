@@ -1,4 +1,4 @@
-"""What a compiled model was made from, and how it is made again where a pickle of it is read."""
+"""What a compiled model was made from, and how it is made again when a pickle of it is read."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def pickled(source: Source | None) -> tuple[Any, ...]:
         If another process could not import the model.
     """
     if source is None:
-        raise ExportError("this compiled model cannot be pickled: it was not made by ac.compile, so nobody knows how.")
+        raise ExportError("this compiled model cannot be pickled: it was not made by ac.compile.")
     for cls in {type(c) for c in _templates(source.model)}:
         _refuse_hidden(cls)
     try:
@@ -76,7 +76,7 @@ def _refuse_hidden(cls: type) -> None:
     """Raise ExportError for a class that another process cannot import."""
     name = cls.__qualname__
     if "<locals>" in name:
-        where, mend = f"inside of the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
+        where, mend = f"inside the function {name.partition('.<locals>')[0]}", "Move it to the top of its module"
     elif cls.__module__ in ("__main__", "__mp_main__"):
         where = "in the script that runs (__main__)"
         mend = f"Move it to a file of its own, and import it: from {name.lower()} import {name}"
@@ -87,7 +87,7 @@ def _refuse_hidden(cls: type) -> None:
         return
     raise ExportError(
         f"a compiled model with {cls.__name__} cannot be pickled: the class is defined {where}, where another process "
-        f"cannot import it. {mend}. A result can be pickled all the same."
+        f"cannot import it. {mend}. A result can be pickled nevertheless."
     )
 
 

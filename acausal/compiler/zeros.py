@@ -1,4 +1,4 @@
-"""Parameters that are 0 and so have left equations that a model needs: tried with other values, where it is incomplete."""
+"""Parameters whose value 0 removes terms that a model needs: where it is incomplete, they are tried with other values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST, SECONDS = 12, 5.0  # parameters that are tried, and how long
 
 
 def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError) -> str:
-    """Return a line that names the parameters whose zeros leave a model incomplete, "" where it is not for them.
+    """Return a line that names the parameters whose zeros leave a model incomplete, "" if they are not the cause.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     ends = clock.perf_counter() + SECONDS
 
     def completes(*tried: str) -> bool | None:
-        """Whether the model has as many equations as it needs, None where it does not take the values."""
+        """Whether the model has as many equations as it needs, None where it rejects the values."""
         try:
             plan_of(flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}}))
         except (UnbalancedModelError, StructurallySingularError):
@@ -55,13 +55,13 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
             needed = rest
     lines = [f"  {zeros[path][1]}" for path in alone or needed]
     which = " one of" if len(alone) > 1 else ""
-    return f"A parameter is 0, and what it multiplies has left the equations. The model is complete with{which}:\n" + (
+    return f"A parameter is 0, so the terms that it multiplies were removed. The model is complete with{which}:\n" + (
         "\n".join(lines)
     )
 
 
 def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
-    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the mend."""
+    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the remedy."""
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}

@@ -27,7 +27,7 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, column
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
 from acausal.flatten.tape import Linear, Tape
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars
 
 
@@ -60,12 +60,12 @@ class _Left:
 
 
 class Assembly:
-    """Simplify what was said and put the FlatModel together.
+    """Simplify the statements of the components and assemble the FlatModel.
 
     Parameters
     ----------
     raw : Said
-        What the components said.
+        What the components stated.
     chain : Derivatives
         Symbols of the variables and of their derivatives.
     resolved : callable
@@ -121,7 +121,8 @@ class Assembly:
     def _simplified(self) -> _Left:
         """Propagate constants and aliases."""
         own = column(self.raw.build.parameters.symbols)
-        tape = Tape(self.symbols, ca.vertcat(own, time.sx, initial.sx, self.discontinuities.constants), self.residuals)
+        given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
+        tape = Tape(self.symbols, given, self.residuals)
         present = set(tape.input) | self._asked()
         done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes).run()
         self._refuse_contradictions(done)
@@ -197,7 +198,7 @@ class Assembly:
         return {place[s] for s in asked if s in place}
 
     def _unused(self, done: Simplification) -> set[int]:
-        """Residuals that say nothing new, and substitutes of those that do."""
+        """Redundant residuals, and the substitutes of the others."""
         redundant = set(done.redundant)
         return redundant | {s for row, s in self.substitutes.items() if row not in redundant}
 

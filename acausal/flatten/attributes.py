@@ -22,7 +22,7 @@ SECOND = parse("s")
 class Attributes:
     """Attributes of one scalar unknown, with the words of `FlatUnknowns`.
 
-    `weight` is that of the start value: what an instance says counts before what a class says, and that before nothing.
+    `weight` is that of the start value: an instance takes precedence over its class, and that over nothing.
     """
 
     name: str
@@ -54,7 +54,7 @@ def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[i
     Parameters
     ----------
     raw : Said
-        What was said.
+        What the components stated.
     levels : int
         Times that variables are differentiated at most.
     jumping : iterable of int

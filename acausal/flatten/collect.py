@@ -1,4 +1,4 @@
-"""Collect the equations of all components, each entry with its origin, and form the derivatives they ask for."""
+"""Collect the equations of all components, each entry with its origin, and form the derivatives they request."""
 
 from __future__ import annotations
 
@@ -28,12 +28,13 @@ from acausal.symbols import scalars
 class Closure:
     """A scalar residual that closes a loop.
 
-    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual says nothing new.
+    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual is redundant.
     """
 
     row: int
     dual: ca.SX
     cut: Cut
+    statement: int
 
 
 @dataclass
@@ -57,7 +58,7 @@ class Equations:
 
 
 def collect(components: list[Component], graph: Graph, most: int) -> Equations:
-    """Return the equations of all components, at most so many of each, of connection sets, roots and cuts."""
+    """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
         _run(component, component.equations, found, most)
@@ -79,7 +80,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
 
 
 def collect_initial(components: list[Component], most: int) -> Equations:
-    """Return the initial equations of all components, at most so many of each."""
+    """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
         _run(component, component.initial_equations, found, most)
@@ -98,10 +99,11 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
             vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
     for statement, dual in bounded(sent.residual(b), a, "residual()"):
+        number = len(found.sides)
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
         for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
-            found.closures.append(Closure(row + k, entry, cut))
+            found.closures.append(Closure(row + k, entry, cut, number))
 
 
 def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:
@@ -144,7 +146,7 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
             if np.any(value != 0):
                 raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
-                raise DeclarationError(f"{origin}: this equation says nothing; its two sides are the same expression.")
+                raise DeclarationError(f"{origin}: this equation is empty: both sides are the same expression.")
         found.add(statement, origin)
 
 

@@ -1,4 +1,4 @@
-"""Form the derivatives that equations asked for with der(), all in a few calls."""
+"""Form the derivatives that equations request with der(), all in a few calls."""
 
 from __future__ import annotations
 

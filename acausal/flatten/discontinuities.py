@@ -79,7 +79,7 @@ class Guard:
 
 @dataclass(frozen=True)
 class Promise:
-    """A law that is said to be smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
+    """A law that is declared smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
 
     A case holds where the excess is negative, where it is 0 only if `inclusive`.
     """
@@ -134,7 +134,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     Parameters
     ----------
     pending : Pending
-        What equations asked for.
+        What equations requested.
     discretes : list of Discrete
         Which jumps are those of discrete variables.
     resolve : callable

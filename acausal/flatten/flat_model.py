@@ -33,19 +33,22 @@ class FlatClosure:
     row : int
         The residual.
     dual : casadi.SX
-        Flow that works on it, which is undetermined where the residual says nothing new.
+        Flow that works on it, undetermined where the residual is redundant.
     loop : int
         Number of its loop.
+    statement : int
+        Number of the equation of arrays that it is an entry of: these have one unit.
     """
 
     row: int
     dual: ca.SX
     loop: int
+    statement: int
 
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that is cut: the connection, its components, and what of its closures said nothing new.
+    """A loop that is cut: the connection, its components, and which of its closures were redundant.
 
     Parameters
     ----------
@@ -133,7 +136,7 @@ class FlatEquations:
     initial : tuple of Initial
         Fixed start values and initial equations.
     redundant : tuple of Origin
-        Equations that said nothing new.
+        Redundant equations.
     """
 
     residuals: ca.SX
@@ -190,7 +193,7 @@ class FlatDiscontinuities:
     continuous : tuple of (casadi.SX, Origin)
         Expressions that der() differentiates and that switches change: they must not jump.
     promises : tuple of Promise
-        Laws that are said to be smooth.
+        Laws that are declared smooth.
     """
 
     switches: tuple[ca.SX, ...]

@@ -1,5 +1,5 @@
 """Refuse what only CasADi knows: calls that cannot be written out, as the passes that follow see elementary operations
-only, and symbols that nobody declared.
+only, and symbols that were not declared.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def _undeclared(symbol: ca.SX) -> str:
     name = symbol.name()
     word = name if name.isidentifier() else "q"
     return (
-        f"`{name}` is no variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
+        f"`{name}` is not a variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
         f'Declare it in the class body, `{word}: Scalar = variable("...")` or `parameter("...")`, and use self.{word}.'
     )
 
@@ -75,7 +75,7 @@ def _undeclared(symbol: ca.SX) -> str:
 def _known(raw: Said) -> set[int]:
     """Hashes of all symbols that a model may use."""
     pending = raw.pending
-    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx]
+    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
     return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
 

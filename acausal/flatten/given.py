@@ -39,7 +39,7 @@ class Parameters:
 class Given:
     """Gives bound components the values of their structural parameters, parameters and inputs at the top.
 
-    A value is formed when it is asked for: defaults may use each other in any order, but not in a circle.
+    A value is formed when it is needed: defaults may use each other in any order, but not in a circle.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class Given:
         if here in self._open:
             circle = " -> ".join(n for _, n in (*self._open[self._open.index(here) :], here))
             raise DeclarationError(
-                f"the values of {owner_text(bound)} follow each other in a circle: {circle}. "
+                f"the values of {owner_text(bound)} depend on each other in a circle: {circle}. "
                 f"Give one of them: {type(bound).__name__}(..., {name}=...)."
             )
         self._open.append(here)
@@ -97,7 +97,7 @@ class Given:
         def call() -> Any:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
-        # A default that another one asked for is placed by that one.
+        # An error in a default that another one needs is located by that one.
         return call() if len(self._open) > 1 else with_place(call, Origin.of(bound, f"default of {name}"))
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
@@ -118,7 +118,7 @@ class Given:
         where = f"`{name}` of {owner_text(bound)}"
         if _symbolic(value):
             raise DeclarationError(
-                f"{where} is structural: it cannot follow the parameter {value!r}, which may change after compiling. "
+                f"{where} is structural: it cannot depend on the parameter {value!r}, which may change after compiling. "
                 "Declare that one structural(...) as well."
             )
         if declared.choices is not None and not any(value is c or value == c for c in declared.choices):

@@ -1,4 +1,4 @@
-"""Inputs of the whole model: parameters whose course in time, and so whose derivative, nobody knows here."""
+"""Inputs of the whole model: parameters whose variation with time, and so whose derivative, is unknown."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.language.component import Component
 from acausal.symbols import scalars
 
 MEND = (
-    "Let it pass a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
+    "Pass it through a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
     "or an equation such as T * der(y) == {name} - y."
 )
 
@@ -33,7 +33,7 @@ def refuse_rates_of_inputs(raw: Said) -> None:
     found = [inputs[s.element_hash()] for s in ca.symvar(column) if s.element_hash() in inputs]
     if found:
         raise DeclarationError(
-            f"der() is taken of something that holds the input `{found[0]}`; its course in time is not known, so it has no "
+            f"der() is applied to something that holds the input `{found[0]}`; its variation with time is unknown, so it has no "
             f"derivative. {MEND.format(name=found[0])}"
         )
 

@@ -15,7 +15,7 @@ from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
 
-DEEPEST = 100  # parts inside of parts; deeper, a component contains itself
+DEEPEST = 100  # parts inside parts; deeper, a component contains itself
 
 
 class Instantiation:
@@ -145,7 +145,7 @@ def unknown_name(name: str, known: list[str]) -> str:
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:
-    """Return the message for a name that is no parameter."""
+    """Return the message for a name that is not a parameter."""
     for component in walk(root):
         for own, declared in component.fields.items():
             if isinstance(declared, f.Variable) and name == join(component._path, own):

@@ -27,9 +27,9 @@ def loops_of(
     Parameters
     ----------
     raw : Said
-        What was said.
+        What the components stated.
     redundant : set of int
-        Residuals that say nothing new.
+        Redundant residuals.
     values : list of Linear
         What each unknown is.
     rows : list of int
@@ -44,7 +44,7 @@ def loops_of(
     cuts = raw.graph.cuts
     number = {id(cut): k for k, cut in enumerate(cuts)}
     closures = tuple(
-        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)])
+        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)], c.statement)
         for c in raw.equations.closures
         if c.row in place
     )

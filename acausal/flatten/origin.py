@@ -38,7 +38,7 @@ class Origin:
 
 
 def line_of(generator: Any) -> str:
-    """Return file and line where a generator stands, "" if it does not tell."""
+    """Return file and line of the current line of a generator, "" if unknown."""
     frame = getattr(generator, "gi_frame", None)
     return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else ""
 
@@ -50,22 +50,22 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
     except AcausalError as error:
         raise type(error)(f"{_place(error, origin)}: {error}") from None
     except RecursionError as error:
-        raise DeclarationError(f"{_place(error, origin)}: a call of itself without end.") from None
+        raise DeclarationError(f"{_place(error, origin)}: infinite recursion.") from None
     except Exception as error:
         raise DeclarationError(f"{_place(error, origin)}: {_brief(error)}") from error
 
 
 def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> None:
-    """Raise DeclarationError if one generator has said more than any component can mean."""
+    """Raise DeclarationError if a generator has yielded more than any component needs."""
     if count >= most:
         raise DeclarationError(
-            f"{origin}: {what} has {most:,} entries and goes on: a loop such as `while True` does not end. "
-            "Go through a range or a list of parts."
+            f"{origin}: {what} has {most:,} entries and continues: a loop such as `while True` does not end. "
+            "Iterate over a range or a list of parts."
         )
 
 
 def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[Any]:
-    """Yield what a generator of a component says, as long as that can be meant."""
+    """Yield from a generator of a component, up to the number that a component may need."""
     generator = iter(said)
     for count, item in enumerate(generator):
         here = Origin(component._path, type(component).__name__, line_of(generator) or component._origin)
@@ -91,7 +91,7 @@ def _brief(error: Exception) -> str:
 
 
 def _of_casadi(name: str) -> str:
-    """Return the mend for a function of CasADi that was called with expressions of this package."""
+    """Return the remedy for a function of CasADi that was called with expressions of this package."""
     what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
     return (
         f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "
@@ -101,7 +101,7 @@ def _of_casadi(name: str) -> str:
 
 
 def _place(error: BaseException, origin: Origin) -> Origin:
-    """Locate the innermost line outside of this package."""
+    """Locate the innermost line outside this package."""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
             return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")

@@ -1,4 +1,4 @@
-"""What the components of a model say, before anything is simplified."""
+"""What the components of a model state, before anything is simplified."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(ca.vec(a.expr.sx))}
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
-        # Far more statements than any component can mean, few enough to count them quickly.
+        # Far more statements than any component needs, few enough to count them quickly.
         most = 10_000 + 10 * sum(a.expr.sx.numel() for a in arrays)
         equations = collect(components, graph, most)
         starts = collect_initial(components, most)
@@ -100,14 +100,14 @@ def _power(component: Component, name: str) -> Expr:
 
 
 def _look_at_observed(components: list[Component]) -> None:
-    """Raise UnitsError for observed quantities whose units contradict each other, looked at once for each class.
+    """Raise UnitsError for observed quantities whose units contradict each other, checked once for each class.
 
-    Those of a library may be dear to form: only classes that stand where the model's class stands are looked at. Anything
-    else that is wrong with one is told to those who read it.
+    Those of a library may be expensive to form: only classes in the file of the model's class are checked. Anything
+    else that is wrong with one is reported when it is read.
     """
     home = type(components[0]).__module__
     own = {type(c): c for c in reversed(components) if type(c).__module__ == home}
-    token = PENDING.set(Pending())  # what they ask for is no part of the model
+    token = PENDING.set(Pending())  # what they request is not part of the model
     try:
         for component in own.values():
             for name, declared in component.fields.items():

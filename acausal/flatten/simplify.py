@@ -1,4 +1,4 @@
-"""Propagate constants and aliases: what is known without solving anything leaves the system.
+"""Propagate constants and aliases: what is known without solving anything is removed from the system.
 
 An equation with one unknown and a constant coefficient gives a constant; one with two unknowns, both with constant
 coefficients, gives an alias. Derivative chains stay consistent: an unknown and its derivative are never merged, and an
@@ -46,9 +46,9 @@ class Simplifier:
     derivative : list of int
         Unknown -> the unknown that is its derivative, or -1.
     rank : list of int
-        How gladly an unknown stays: CHAINED or DECLARED plus its preference.
+        How strongly an unknown is preferred to stay: CHAINED or DECLARED plus its preference.
     substitutes : dict of int to int, optional
-        Residuals that remove no unknown, and the residual that takes the place of each if it says nothing new.
+        Residuals that remove no unknown, and the residual that takes the place of each if it is redundant.
     """
 
     def __init__(

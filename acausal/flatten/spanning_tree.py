@@ -35,7 +35,7 @@ class Cut:
 class _Tree:
     """Breadth first from the roots; what a branch ties together is reached at once, so that no branch is cut.
 
-    What is connected inside of a part is reached with the part, so that loops are cut between parts.
+    What is connected inside a part is reached with the part, so that loops are cut between parts.
     """
 
     def __init__(
@@ -71,8 +71,8 @@ class _Tree:
                 elif statement is None and there not in here._parents:
                     if id(there) in self.reached:
                         raise ConnectError(
-                            f"{here._path} and {there._path} are tied to each other, or to roots, in two ways without a "
-                            "connection between them that could be cut."
+                            f"{here._path} and {there._path} are joined to each other, or to roots, by two paths without a "
+                            "connection that could be cut."
                         )
                     self.reached.add(id(there))
                     there._parents = (here,)
@@ -137,8 +137,8 @@ def spanning_tree(
     lost: list[Any] = [n for n in nodes if id(n) not in tree.reached]
     if lost:
         raise ConnectError(
-            f"{_owner_of(lost[0])}: {lost[0]._path} has no connection to a root such as the World, nor to a body that "
-            f"could move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
+            f"{_owner_of(lost[0])}: {lost[0]._path} is connected neither to a root such as the World nor to a body that "
+            f"can move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
     cut = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
     return [Cut(c, where, tree.loop(c)) for c, where in cut], chosen
@@ -150,4 +150,4 @@ def _owner_of(connector: Connector) -> Origin:
 
 def _also(others: list[Connector]) -> str:
     more = ", ..." if len(others) > 5 else ""
-    return f" (nor have {', '.join(c._path for c in others[:5])}{more})" if others else ""
+    return f" (the same holds for {', '.join(c._path for c in others[:5])}{more})" if others else ""

@@ -107,7 +107,7 @@ class Tape:
         return (_UNARY[op](a[0]), ()) if op in _UNARY else None
 
     def resolve(self, value: Linear) -> Linear:
-        """Replace unknowns that are solved, following chains of aliases to their end."""
+        """Replace solved unknowns, following chains of aliases to their end."""
         c0, terms = value
         result: Linear | None = (c0, ())
         for unknown, c in terms:
@@ -120,7 +120,7 @@ class Tape:
         return result
 
     def solve(self, unknown: int, solution: Linear) -> None:
-        """Remember what an unknown is; the aliases that led to it now lead on."""
+        """Record what an unknown is, and redirect the aliases that led to it."""
         self.solved[unknown] = solution
         led_here = [unknown, *self.followers.pop(unknown, [])]
         self._stale.extend(self.input[u] for u in led_here if u in self.input)

@@ -1,4 +1,4 @@
-"""What a class body says: new fields, parts in any form, and new values of inherited fields."""
+"""What a class body declares: new fields, parts in any form, and new values of inherited fields."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def read_body(cls: Any) -> None:
             plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
         else:
             plain.update(vars(base))
-    # A base that is no component says its values as if they stood here.
+    # The values of a base that is not a component count as if they were declared here.
     said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
     own: dict[str, f.Field] = {}
     new: dict[str, Any] = {}
@@ -61,7 +61,7 @@ def refuse_late_fields(cls: Any) -> None:
             if name in base.fields or isinstance(value, f.Field) or holds_parts(value):
                 mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 raise DeclarationError(
-                    f"{base.__name__}.{name} = {shown(value)} was set after the class was made, when it changes no model. "
+                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
                 )
         refuse_slips(base, late, base.fields)
@@ -82,7 +82,7 @@ def _read(
             settings[name] = value  # the value of the first one, unless it has its own
     elif isinstance(value, f.Template):
         own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
-        # A template tells its name by being in the class: under a second name it is a second one.
+        # A template gets its name from the class: under a second name it is a second one.
         twice = any(v is value for base in cls.__mro__ for n, v in vars(base).items() if n != name)
         setattr(cls, name, copy(value) if twice else value)
     elif is_part_class(value) and (isinstance(old, f.Part) or _stands_for_a_part(cls, name, value)):

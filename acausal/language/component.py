@@ -150,7 +150,7 @@ class Connector(Component):
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
         """Yield pairs (independent equations that make this record equal to the other one, flows that work on them).
 
-        Used where a loop is cut: where an equation says nothing new, the flow that works on it is undetermined.
+        Used where a loop is cut: where an equation is redundant, the flow that works on it is undetermined.
         """
         yield from ()
 

@@ -68,7 +68,7 @@ def chain(*items: Any) -> Iterator[Connect]:
         raise ConnectError("chain() joins at least two parts.")
     for place, item in enumerate(items, 1):
         _refuse_no_link(item, place)
-    # At once, not when somebody goes through them: an error then tells the line of the call.
+    # Eagerly, not when the iterator is consumed: an error then names the line of the call.
     return iter([connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)])
 
 
@@ -88,19 +88,19 @@ def potential_root(connector: Any, priority: int = 0) -> Root:
 
 
 def is_root(connector: Any) -> bool:
-    """Tell in equations() whether the connector was chosen as a root."""
+    """Return, in equations(), whether the connector was chosen as a root."""
     return connector._is_root
 
 
 def rooted(a: Any, b: Any | None = None) -> bool:
-    """Tell in equations() whether `a` is nearer to the root than the other end of its branch (than `b`)."""
+    """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
     if b is not None:
         return a in b._parents
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
 def in_loop(component: Any) -> bool:
-    """Tell in equations() whether the component is part of a closed loop of over-determined records."""
+    """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop
 
 
@@ -109,7 +109,7 @@ def _port(item: Any, word: str) -> Connector:
     _refuse_outsider(item)
     if not isinstance(item, Connector):
         what = {"connect": "joins two ports", "branch": "relates two ports"}.get(word, "takes a port")
-        raise ConnectError(f"{word}() {what}, but {_describe(item)} is none. {_ports_of(item)}")
+        raise ConnectError(f"{word}() {what}, but {_describe(item)} is not a port. {_ports_of(item)}")
     return item
 
 
@@ -118,13 +118,13 @@ def _refuse_outsider(item: Any) -> None:
     if isinstance(item, Component) and not item._is_bound:
         name, kind = type(item).__name__.lower(), type(item).__name__
         raise ConnectError(
-            f"{kind}() is made in connections(), where it does not become a part of the model. Write it in the class body, "
+            f"{kind}() is created in connections(), where it does not become a part of the model. Write it in the class body, "
             f"`{name} = {kind}(...)`, and connect self.{name}."
         )
     if isinstance(item, type) and issubclass(item, Component):
         name = item.__name__.lower()
         raise ConnectError(
-            f"{item.__name__} is a class, no part of this model. Write a part in the class body, "
+            f"{item.__name__} is a class, not a part of this model. Write a part in the class body, "
             f"`{name} = {item.__name__}(...)`, and connect self.{name}."
         )
     if isinstance(item, Field):
@@ -148,8 +148,8 @@ def _refuse_no_link(item: Any, place: int) -> None:
         )
     if item is None:
         raise ConnectError(
-            f"chain() joins parts and ports, but argument {place} is None. {_ports_of(None)} A part that was left out "
-            "(None) is left out here as well: `if self.part is not None: yield chain(...)`."
+            f"chain() joins parts and ports, but argument {place} is None. {_ports_of(None)} Leave a part that "
+            "is None out of the chain: `if self.part is not None: yield chain(...)`."
         )
     if not isinstance(item, Component):
         raise ConnectError(f"chain() joins parts and ports, but argument {place}, {item!r}, is neither.")
@@ -172,6 +172,6 @@ def _describe(item: Any) -> str:
 
 def _ports_of(item: Any) -> str:
     if item is None:
-        return "A port that an option adds is there only with it, such as use_axis_flange=True."
+        return "A port that an option adds exists only with that option, such as use_axis_flange=True."
     ports = item._ports if isinstance(item, Component) else ()
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

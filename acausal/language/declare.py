@@ -1,4 +1,4 @@
-"""The words that declare the fields of a component in its class body."""
+"""The functions that declare the fields of a component in its class body."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ def structural(
     shape : tuple of int, optional
         Shape of an array of numbers.
     refine : callable, optional
-        Given for a number of elements, of which more bring the component nearer to its continuum: a function of the
-        component that tells whether simulate(accuracy=...) may choose it.
+        For a number of elements that refines the component towards its continuum: a function of the
+        component that returns whether simulate(accuracy=...) may choose it.
     doc : str, optional
         More about it, for the docstring of the class alone.
     """
@@ -164,7 +164,7 @@ def variable(
     fixed : bool
         True makes `start` an equation of the initial system.
     select : int
-        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how gladly it becomes a state.
+        NEVER, AVOID, DEFAULT, PREFER or ALWAYS: how strongly it is preferred as a state.
     nominal : float or array or callable
         Typical size, in its unit; absolute tolerance = tolerance * nominal. If not given it is 1, or what all such
         variables of the same unit reach in a run if that is less.
@@ -230,7 +230,7 @@ def parts(make: Callable[[Any], Any]) -> Any:
 
 
 def observed(compute: Callable[[Any], Any]) -> Any:
-    """Decorate a method that returns an expression: readable in results like a variable, at no cost before."""
+    """Decorate a method that returns an expression: readable in results like a variable, at no cost during the run."""
     return Observed(compute.__doc__ or "", compute=compute)
 
 

@@ -39,7 +39,7 @@ def _is_parameter(field: f.Field) -> bool:
 
 
 def _entry(cls: Any, name: str, field: f.Field) -> str:
-    """Name, type, unit and default in a line, then what it is."""
+    """Name, type, unit and default on one line, then the description."""
     parts = [_type(cls, name, field), _unit(field), _bound(field), _default(cls._class_values.get(name, field.default))]
     text = field.description[:1].upper() + field.description[1:]
     text = f"{text}{'' if text.endswith('.') else '.'} {field.doc}".strip()
@@ -76,7 +76,7 @@ def _bound(field: f.Field) -> str:
 
 
 def _default(value: Any) -> str:
-    """Say the default, "optional" for one that follows from other values."""
+    """Describe the default, "optional" for one that follows from other values."""
     if value is f.MISSING:
         return ""
     if isinstance(value, np.ndarray):

@@ -25,15 +25,15 @@ def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.nd
     Raises
     ------
     DeclarationError
-        If this is no index, or lies outside of the array.
+        If this is not an index, or lies outside the array.
     """
     indices = index if isinstance(index, tuple) else (index,)
     ends = [end for item in indices for end in _ends(item)]
     if any(isinstance(end, bool) or not isinstance(end, int | np.integer) for end in ends):
         raise DeclarationError(
-            f"{_asked(show(), indices)}: entries of a symbol are chosen by whole numbers, which are known when the model is "
+            f"{_asked(show(), indices)}: entries of a symbol are selected by integers that are known when the model is "
             "built. Declare what "
-            "chooses structural(...), or choose with piecewise((value, condition), ..., otherwise)."
+            "selects them structural(...), or select with piecewise((value, condition), ..., otherwise)."
         )
     # A scalar is its own entry 0, and a vector has one column.
     whole = (*shape, 1) if len(indices) > len(shape) < 2 else shape
@@ -44,7 +44,7 @@ def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.nd
     )
     if not fits:
         shown = show()
-        raise DeclarationError(f"{_asked(shown, indices)} is outside of {shown}, {_extent(shown, shape)}.")
+        raise DeclarationError(f"{_asked(shown, indices)} is outside {shown}, {_extent(shown, shape)}.")
     return np.arange(int(np.prod(shape))).reshape(whole, order="F")[index]
 
 
@@ -53,12 +53,12 @@ def _asked(shown: str, indices: tuple[Any, ...]) -> str:
 
 
 def _ends(item: Any) -> list[Any]:
-    """What must be whole numbers in an index."""
+    """What must be an integer in an index."""
     return [e for e in (item.start, item.stop, item.step) if e is not None] if isinstance(item, slice) else [item]
 
 
 def _bounds(item: Any) -> list[int]:
-    """What must lie inside of the array."""
+    """What must lie inside the array."""
     return [e for e in (item.start, item.stop) if e is not None] if isinstance(item, slice) else [item]
 
 

@@ -20,7 +20,7 @@ class Reinit:
 
 @dataclass(frozen=True)
 class When:
-    """What happens at the instant at which a condition becomes true."""
+    """What happens when a condition becomes true."""
 
     condition: Condition
     jumps: tuple[Reinit, ...]

@@ -80,8 +80,8 @@ class Expr(Symbolic):
 
     def __setitem__(self, index: Any, value: Any) -> None:
         raise DeclarationError(
-            f"entries of {_short(self)} are not set: it is symbolic. Yield an equation for them, `... == ...`, or put a new "
-            "vector together, (a, b, c)."
+            f"entries of {_short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, or build "
+            "a new vector, (a, b, c)."
         )
 
     def __iter__(self):
@@ -222,14 +222,14 @@ def equation(lhs: Any, rhs: Any) -> Any:
     if a.shape != b.shape:
         raise DeclarationError(
             f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
-            "Both need one shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
+            "Both need the same shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
     unit_rules.common(a, b, "joined by `==`")
     return Equation(a, b)
 
 
 def is_deferred(*values: Any) -> bool:
-    """Tell whether one of the values is a field of a class body, known only when the model is built."""
+    """Return whether one of the values is a field of a class body, known only when the model is built."""
     return any(getattr(value, "is_deferred", False) for value in values)
 
 

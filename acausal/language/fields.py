@@ -24,7 +24,7 @@ class Template:
 
 
 class Deferrable(Symbolic):
-    """Something in a class body whose value is known only in an instance; arithmetic with it waits as well."""
+    """Something in a class body whose value is known only in an instance; arithmetic with it is deferred as well."""
 
     is_deferred = True
     _lacks = "has no value in the class body"
@@ -39,8 +39,8 @@ class Deferrable(Symbolic):
 
     def __iter__(self) -> Any:
         raise DeclarationError(
-            "a field has no entries to go through in the class body, where its value is not known yet. Name them, such as "
-            "(r[0], r[1], r[2]), or go through self.<name> in equations()."
+            "a field cannot be iterated over in the class body, where its value is not known yet. Name its entries, such as "
+            "(r[0], r[1], r[2]), or iterate over self.<name> in equations()."
         )
 
     def __neg__(self) -> Deferred:
@@ -130,7 +130,7 @@ class Field(Deferrable):
     shape: Shape = None
     default: Any = MISSING
     name: str = ""
-    doc: str = ""  # what only the docstring of the class tells beyond the description
+    doc: str = ""  # added to the description in the docstring of the class only
 
     def __set_name__(self, owner: type, name: str) -> None:
         # Under a second name it is a reference to the first: `load = R.spare`.
@@ -195,7 +195,7 @@ class Outer(Field):
 
 @dataclass(eq=False)
 class Observed(Field):
-    """A quantity computed from results when somebody asks for it; no variable and no equation."""
+    """A quantity computed from results on request; no variable and no equation."""
 
     compute: Any = None
 

@@ -1,4 +1,4 @@
-"""Functions of expressions; with a field of a class body they wait until the model is built."""
+"""Functions of expressions; with a field of a class body they are deferred until the model is built."""
 
 from __future__ import annotations
 
@@ -22,13 +22,15 @@ _SECOND = parse("s")
 # Without a unit, so that sin(time) is right for users who mean rad/s times time.
 time = Expr(ca.SX.sym("time"), None, "time")
 initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
+# How fast states return to an invariant that they must keep (Baumgarte 1972): ten times in a run.
+feedback = Expr(ca.SX.sym("feedback"), DIMENSIONLESS / _SECOND, "feedback")
 
 
 class Pending:
-    """What equations ask for while a model is flattened: derivatives, switching conditions and jumps.
+    """What equations request while a model is flattened: derivatives, switching conditions and jumps.
 
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` tells where each is stated.
+    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` says where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
     `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.
@@ -61,7 +63,7 @@ class Pending:
         return self.switches[-1][0]
 
     def place(self, origin: Any) -> None:
-        """Say where the switches and derivatives come from that have been asked for since the last call."""
+        """Record where the switches and derivatives requested since the last call come from."""
         self.places += [origin] * (len(self.switches) - len(self.places))
         self.sources += [origin] * (len(self.differentiated) - len(self.sources))
         self.promised += [origin] * (len(self.promises) - len(self.promised))
@@ -221,12 +223,12 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     Parameters
     ----------
     *cases : (value, Condition) pairs, then a value
-        The last argument, without a condition, holds otherwise. Where a condition compares `time` with an expression
+        The last argument, without a condition, is the value otherwise. Where a condition compares `time` with an expression
         of parameters, alone or joined with others, the instant is a break time: the integration stops there exactly.
         Any other condition is watched: the integration stops where it changes, located to about the tolerance.
     smooth : bool
         True promises that value and first two derivatives are continuous, so that no stop is needed. A run in which
-        the value jumps all the same ends with a warning.
+        the value jumps nevertheless ends with a warning.
 
     Returns
     -------
@@ -241,7 +243,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         if not isinstance(case, tuple | list) or len(case) != 2 or not isinstance(case[1], Condition):
             raise DeclarationError(
                 "a case of piecewise is a pair (value, condition), with a condition such as time < 1; the last argument is "
-                "the value otherwise. That two symbols are equal, `a == b`, is no condition but an equation."
+                "the value otherwise. `a == b` with symbols is an equation, not a condition."
             )
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):

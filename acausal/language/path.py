@@ -38,7 +38,7 @@ class Path:
             "its list" if not isinstance(self._make, f.Field) or isinstance(self._make, f.Part) else "the whole array"
         )
         raise DeclarationError(
-            f"`{self._path}[{index}]` is not set on a model: give {whole} where the part is made, `{self._name}=...`."
+            f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, `{self._name}=...`."
         )
 
     @property

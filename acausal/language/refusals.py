@@ -16,7 +16,7 @@ from acausal.language.values import holds_parts, nearest_field
 
 
 def refuse_value(component: Any, name: str, value: Any) -> str:
-    """Return the message for a field that is set on an instance, and the ways that work.
+    """Return the message for a field that is set on an instance, with the ways that work.
 
     Parameters
     ----------
@@ -30,12 +30,12 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
     cls, field = type(component), component.fields[name]
     if component._is_bound:
         path = f"{component._path}.{name}" if component._path else name
-        return f"`{path}` is not set on a built model. {_by_path(path, field, value, compiled=True)}"
+        return f"`{path}` cannot be set on a built model. {_by_path(path, field, value, compiled=True)}"
     given = f"{name}={_start(field, value)}"
     if at_home(component, constructor=True):
         return f"`{name}` of {cls.__name__} goes to the constructor above: `super().__init__({given})`."
     by_path = f" {_by_path(name, field, value)}" if isinstance(field, f.Structural | f.Parameter) else ""
-    return f"`{name}` of {cls.__name__} is not set on an instance: give it when it is made, `{cls.__name__}({given})`.{by_path}"
+    return f"`{name}` of {cls.__name__} cannot be set on an instance: it belongs in `{cls.__name__}({given})`.{by_path}"
 
 
 def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
@@ -60,18 +60,18 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
     if field is not None:
         short = where if where.isidentifier() else "..."
         ways.append(f"Where the part is made: `{short} = {kind}({name}={_start(field, value)})`.")
-    return f"`{path}` is not set on a model. {' '.join(ways)}"
+    return f"`{path}` cannot be set on a model. {' '.join(ways)}"
 
 
 def refuse_attribute(component: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for an attribute that is meant as a part or a field, or that nothing would read.
+    """Raise DeclarationError for an attribute that is intended as a part or a field, or that nothing would read.
 
     Methods of the component itself, its constructor among them, may keep plain data of their own.
     """
     cls = type(component)
     if holds_parts(value) and not component._is_bound:
         raise DeclarationError(
-            f"`{name}` cannot become a part of {cls.__name__} by setting it: write it in the class body, "
+            f"`{name}` cannot become a part of {cls.__name__} by assignment: write it in the class body, "
             f"`{name} = {shown(value)}`, or, if it depends on structural values, as a method marked @part: "
             f"`@part def {name}(self): return ...`."
         )
@@ -82,26 +82,26 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
         setting = slip_of(cls, name, cls._settings)
         meant = f"did you mean `{setting}`?" if setting else nearest_field(cls, name)
         raise DeclarationError(
-            f"{cls.__name__} has no field `{name}`; {meant} Data of your own is kept under a private name, `_{name}`, or "
-            "declared in the class body."
+            f"{cls.__name__} has no field `{name}`; {meant} Keep data of your own under a private name, `_{name}`, or "
+            "declare it in the class body."
         )
     near = slip_of(cls, name, [*cls.fields, *cls._settings])
     if near:
         raise DeclarationError(
             f"{cls.__name__} has no field `{name}`, and no method of it reads that; did you mean `{near}`? "
-            f"Fields go to the constructor above, `super().__init__(...)`; data of your own is kept as `_{name}`."
+            f"Pass fields to the constructor above, `super().__init__(...)`; keep data of your own as `_{name}`."
         )
 
 
 def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
-    """Raise DeclarationError for a name in a class body that nearly is that of an inherited field, setting or method.
+    """Raise DeclarationError for a name in a class body that resembles an inherited field, setting or method.
 
     Parameters
     ----------
     cls : Component class
         The class.
     said : dict of str to object
-        What its body says.
+        What its body contains.
     inherited : dict of str to Field
         The fields of its bases.
     """
@@ -117,12 +117,12 @@ def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) 
             own = "" if callable(value) else f", or annotate it, `{name}: ClassVar = ...`"
             raise DeclarationError(
                 f"{cls.__name__}.{name} is new, and nothing in the class reads it; did you mean `{near}`? "
-                f"If it is meant so, give it a private name, `_{name}`{own}."
+                f"If it is intended, give it a private name, `_{name}`{own}."
             )
 
 
 def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
-    """Names that a value could have been meant for."""
+    """Names that could have been intended for a value."""
     if inspect.isfunction(value):
         bases = [base for base in cls.__mro__[1:] if base.__module__ == "acausal.language.component"]
         return [n for base in bases for n, v in vars(base).items() if inspect.isfunction(v) and n[0] != "_"]

@@ -1,4 +1,4 @@
-"""Expressions on their way to another process: text, in which only the symbols that all processes have are left."""
+"""Expressions on their way to another process: text that contains only the symbols that all processes have."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.language.expression import Expr, Unit
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 
 
 def text(sx: ca.SX) -> str:
@@ -24,24 +24,24 @@ def text(sx: ca.SX) -> str:
     DeclarationError
         If it holds other symbols.
     """
-    known = {time.sx.element_hash(), initial.sx.element_hash()}
+    known = {own.sx.element_hash() for own in (time, initial, feedback)}
     others = [s.name() for s in ca.symvar(sx) if s.element_hash() not in known]
     if others:
         raise DeclarationError(
             f"an expression of `{others[0]}` cannot be pickled: its symbols belong to one built model. Pickle names, or "
             "values: result[...]."
         )
-    return ca.Function("e", [time.sx, initial.sx], [sx]).serialize()
+    return ca.Function("e", [time.sx, initial.sx, feedback.sx], [sx]).serialize()
 
 
 def symbols(written: str) -> ca.SX:
     """Read what `text` wrote, in the symbols of this process."""
-    found: ca.SX = ca.Function.deserialize(written)(time.sx, initial.sx)  # type: ignore[assignment]
+    found: ca.SX = ca.Function.deserialize(written)(time.sx, initial.sx, feedback.sx)  # type: ignore[assignment]
     return found
 
 
 def reduced(value: Expr) -> tuple[Any, ...]:
-    """Return what a pickle of an expression holds; only one of time and numbers means something elsewhere."""
+    """Return what a pickle of an expression holds; only one of time and numbers is meaningful elsewhere."""
     return expression, (text(value.sx), value.unit, value.name)
 
 
@@ -55,5 +55,5 @@ def expression(written: str, unit: Unit, name: str) -> Expr:
     unit, name
         As of Expr.
     """
-    own = {"time": time, "initial": initial}
+    own = {"time": time, "initial": initial, "feedback": feedback}
     return own[name] if name in own else Expr(symbols(written), unit, name)

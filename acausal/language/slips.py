@@ -1,4 +1,4 @@
-"""Names that are no fields, but nearly: slips of the pen that Python takes for attributes of their own."""
+"""Names that resemble fields: typing errors that Python takes for new attributes."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ NEAR = 0.75
 
 
 def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
-    """Return the known name that is meant by another one: near to it, and nothing in the class reads the other one.
+    """Return the known name that is intended by another one: similar to it, and nothing in the class reads the other one.
 
     Parameters
     ----------
     cls : Component class
         The class, whose body may be under execution.
     name : str
-        What is no field.
+        What is not a field.
     known : iterable of str
         What could be meant.
     """
@@ -37,7 +37,7 @@ def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
 
 
 def at_home(component: Any, constructor: bool = False) -> bool:
-    """Whether a method of the component is being executed, or its constructor: it may keep plain data of its own."""
+    """Whether a method of the component, or its constructor, is being executed: it may keep plain data of its own."""
     codes = set() if constructor else set(_codes(type(component)))
     frame: Any = sys._getframe(2)
     while frame is not None:
@@ -52,7 +52,7 @@ def at_home(component: Any, constructor: bool = False) -> bool:
 
 
 def _is_near(name: str, other: str) -> bool:
-    """Whether one name is taken for the other; an ending, a number or an index more or less is meant."""
+    """Whether one name is a misspelling of the other; an added ending, number or index is intended."""
     longer = name.startswith(other) and name != other + other[-1]
     if name.isupper() or longer or (name.endswith(other) and len(name) > len(other) + 1):
         return False
@@ -89,7 +89,7 @@ def _body(cls: Any) -> Iterator[CodeType]:
 
 
 def _codes(cls: Any) -> Iterator[CodeType]:
-    """Code of all functions in a class and its bases, and of those inside of them."""
+    """Code of all functions in a class and its bases, and of those inside them."""
     waiting: list[Any] = [value for base in cls.__mro__ for value in vars(base).values()]
     while waiting:
         item = waiting.pop()

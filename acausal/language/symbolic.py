@@ -1,4 +1,4 @@
-"""What a symbol is not: a Python number, or an array of numpy's. numpy's functions that have a twin here are taken as it."""
+"""What a symbol is not: a Python number or a numpy array. numpy's functions with a counterpart here are replaced by it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Symbolic:
 
     def _steps(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`%`, `//` and round() of {self._shown()} would jump unseen. Count the steps with a discrete variable, "
+            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete variable, "
             "when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
         )
 

@@ -124,12 +124,12 @@ def of_array(items: Sequence[Measured]) -> Unit:
 
 
 def is_number(value: Measured) -> bool:
-    """Tell whether an expression is made of numbers alone."""
+    """Return whether an expression is made of numbers alone."""
     return value.unit is None and value.sx.is_constant()
 
 
 def _is_pure(number: Measured) -> bool:
-    """Tell whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
+    """Return whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
     entries = [float(entry) for entry in scalars(number.sx)]
     return any(entries) and all(not entry or entry in RATIOS for entry in entries)
 

@@ -17,7 +17,7 @@ from acausal.language.expression import Expr, as_expr
 
 @dataclass(frozen=True)
 class Requirement:
-    """A condition that must hold and what is wrong where it does not, or what says so of the value of an expression."""
+    """A condition that must hold and what is wrong where it does not, or a function that checks the value of an expression."""
 
     subject: Condition | Expr
     problem: str | Callable[[np.ndarray], str]
@@ -28,7 +28,7 @@ class Requirement:
         return ca.vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
 
     def broken(self, value: np.ndarray) -> str:
-        """Say what is wrong with a value, "" if nothing is."""
+        """Return what is wrong with a value, "" if nothing is."""
         if isinstance(self.subject, Condition):
             holds = value[0] < 0 if self.subject.kind == "<" else value[0] <= 0
             return "" if holds else str(self.problem)
@@ -66,7 +66,7 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Require
         Comparison of two scalars, or an expression. Of parameters alone, it is checked when the model is compiled and
         whenever they are changed; of variables, at the start of a simulation.
     problem : str or callable
-        What is wrong where the condition does not hold, and the mend; of an expression, a function that is given its
+        What is wrong where the condition does not hold, and the remedy; of an expression, a function that is given its
         value as an array and returns that, or "" if nothing is wrong.
 
     Examples
@@ -95,7 +95,7 @@ def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
     share : float
         What of the whole may be neglected.
     text : str
-        What is neglected, and the mend.
+        What is neglected, and the remedy.
     """
     part, whole = as_expr(part), as_expr(whole)
     if part.shape or whole.shape:
@@ -117,10 +117,10 @@ def apart(offset: Any, rate: Any, effect: Any, text: str) -> Separation:
     rate : Expr
         Derivative of its length.
     effect : Expr
-        What acts along the line, positive or negative. Its part in proportion to `rate` may act where they meet, as the
+        What acts along the line, positive or negative. Its part proportional to `rate` may act where they meet, as the
         rate turns over as well.
     text : str
-        What is wrong, and the mend.
+        What is wrong, and the remedy.
     """
     offset, rate, effect = as_expr(offset), as_expr(rate), as_expr(effect)
     if len(offset.shape) != 1 or rate.shape or effect.shape:

@@ -1,4 +1,4 @@
-"""Values that are given to fields, by the constructor or in a class body: which ones fit."""
+"""Checks of the values given to fields, by the constructor or in a class body."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         return _check_part(where, value, field)
     if isinstance(field, f.Outer):
         raise DeclarationError(
-            f"{where} is found by itself: {field.description}. Leave it out, and put one {field.cls.__name__} in the model."
+            f"{where} is found automatically: {field.description}. Leave it out, and put one {field.cls.__name__} in the model."
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
@@ -37,12 +37,12 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
             f"or {name}=guess({value!r}) for a guess."
         )
     if isinstance(value, f.InitialValue) and not isinstance(field, f.Variable):
-        raise DeclarationError(f"{where} is no variable: it takes a value, not fixed(...) or guess(...).")
+        raise DeclarationError(f"{where} is not a variable: it takes a value, not fixed(...) or guess(...).")
     return value
 
 
 def nearest_field(cls: Any, name: str) -> str:
-    """Return the mend for a name that is no field."""
+    """Return the remedy for a name that is not a field."""
     near = difflib.get_close_matches(name, cls.fields, 1) or _described(cls, name)
     return f"did you mean `{near[0]}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
@@ -67,8 +67,8 @@ def instances(items: Iterable[Any], where: str) -> list[Any]:
     for k, item in enumerate(made):
         if not isinstance(item, f.Template):
             raise DeclarationError(
-                f"{where}[{k}] is {item!r}; a list of parts holds components only, no lists of them. "
-                "Leave out what is not there."
+                f"{where}[{k}] is {item!r}; a list of parts contains only components, not lists of them. "
+                "Leave out what does not exist."
             )
     return made
 
@@ -83,7 +83,7 @@ def holds_parts(value: Any) -> bool:
 
 
 def user_line() -> str:
-    """Return file and line of the innermost frame outside of this package."""
+    """Return file and line of the innermost frame outside this package."""
     frame: Any = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
         frame = frame.f_back
@@ -103,6 +103,6 @@ def _check_part(where: str, value: Any, field: f.Part) -> Any:
 
 
 def _described(cls: Any, word: str) -> list[str]:
-    """Fields whose description has the word: `mass` for `m`."""
+    """Fields whose description contains the word: `mass` for `m`."""
     values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
     return [name for name, field in values.items() if word in field.description.lower().split()]

@@ -8,10 +8,9 @@ import casadi as ca
 
 from acausal.errors import StructurallySingularError
 from acausal.flatten import FlatModel
+from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
-
-FEEDBACK = 1.0  # in 1/s: how fast what is integrated returns to what the constraints allow
 
 
 @dataclass(frozen=True)
@@ -23,7 +22,7 @@ class Projections:
     constraints : casadi.SX
         Residuals of the constraints at all their levels, without the projection: coordinates are what is integrated.
     choice : casadi.SX
-        Numbers that are chosen when values are known: for each closure 1 if it says something new; 1 if D moves with the
+        Numbers that are chosen when values are known: for each closure 1 if it is not redundant; 1 if D moves with the
         constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
         `acausal.structure.constraints`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
@@ -31,7 +30,7 @@ class Projections:
     following : casadi.SX
         Values of the unknowns that follow explicitly from states, without the projection.
     moves : casadi.SX
-        The entry of the choice that tells whether D moves.
+        The entry of the choice that says whether D moves.
     """
 
     constraints: ca.SX
@@ -81,7 +80,7 @@ def constrain(
         x, rate, state, state_rate = (elements[v] for v in (p.coordinate, p.rate, p.state, p.state_rate))
         shift = sum((d * elements[m] for d, m in zip(own, p.multipliers, strict=True)), ca.SX(0))
         residuals.append(x - state - shift)
-        residuals.append(state_rate - rate - FEEDBACK * (x - state))
+        residuals.append(state_rate - rate - feedback.sx * (x - state))
         one = ca.SX(1)
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
@@ -90,7 +89,7 @@ def constrain(
 
 
 def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a symbol, 1 where it counts, 0 where it says nothing new: what works on it is 0 then."""
+    """Give each closure a symbol, 1 where it counts, 0 where it is redundant: the flow that works on it is 0 then."""
     duals = {c.row: c.dual for c in flat.loops.closures}
     counts = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
     for constraint in plan.constrained.constraints:

@@ -13,7 +13,7 @@ MOST = 10
 
 
 def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
-    """Return the message: what is wrong, the smallest offending parts, the likely cause and the mend.
+    """Return the message: what is wrong, the smallest offending parts, the likely cause and the remedy.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         Equations minus unknowns.
     """
     if surplus > 0:
-        head = f"the model has {surplus} equation{_s(surplus)} more than unknowns."
+        head = f"the model has {surplus} more equation{_s(surplus)} than unknowns."
     elif surplus < 0:
         head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
     else:
@@ -34,12 +34,12 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     if singularity.over:
         part = singularity.over[0]
         lines.append(
-            f"These {len(part.equations)} equations hold only {len(part.variables)} unknown{_s(len(part.variables))} "
+            f"These {len(part.equations)} equations contain only {len(part.variables)} unknown{_s(len(part.variables))} "
             f"({_names(flat, part)}):"
         )
         lines += _equations(flat, part)
         lines.append(
-            "One of them is too many: remove it. Where rigid parts close a loop, their lengths cannot all be given: "
+            "One of them is too many: remove it. Where rigid parts close a loop, their lengths cannot all be prescribed: "
             "add a joint or a spring."
         )
     if singularity.under:
@@ -47,7 +47,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         lines.append(f"Nothing determines {_names(flat, part)}.")
         lines += _hints(flat, part)
         if part.equations:
-            lines.append(f"Only {len(part.equations)} equation{_s(len(part.equations))} hold them:")
+            lines.append(f"The only equations that contain them ({len(part.equations)}):")
             lines += _equations(flat, part)
         lines.append(
             "Add the missing equation, or connect the part; "

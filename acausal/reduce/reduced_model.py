@@ -9,7 +9,7 @@ import casadi as ca
 
 from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
-from acausal.language.functions import initial
+from acausal.language.functions import feedback, initial
 from acausal.reduce.constrain import Projections
 from acausal.reduce.dependence import Dependence
 from acausal.structure import Plan
@@ -94,7 +94,7 @@ class ReducedModel:
     @cached_property
     def constants(self) -> ca.SX:
         """Constants of a segment of integration: switches, discrete variables, then the choice."""
-        return ca.vertcat(self.flat.discontinuities.constants, self.projections.choice)
+        return ca.vertcat(self.flat.discontinuities.constants, self.projections.choice, feedback.sx)
 
     @cached_property
     def running(self) -> Running:

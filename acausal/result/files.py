@@ -14,7 +14,7 @@ from acausal.errors import ExportError
 
 
 def check_writable(path: str | Path) -> None:
-    """Find out before any work is done whether a file can be written.
+    """Check before any work is done whether a file can be written.
 
     Raises
     ------
@@ -32,7 +32,7 @@ def check_writable(path: str | Path) -> None:
 
 @contextmanager
 def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
-    """Open a file that appears under its name when the block ends well, and leaves the old one otherwise.
+    """Open a file that replaces the old one of its name when the block succeeds, and leaves it otherwise.
 
     Parameters
     ----------
@@ -66,16 +66,16 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
 
 
 def _target(path: str | Path) -> Path:
-    """Return the file that is meant, links followed, or raise ExportError where there can be none."""
+    """Return the intended file, links followed, or raise ExportError where none is possible."""
     if not str(path).strip():
         raise ExportError("cannot write: the name of the file is empty; give one, such as out.csv.")
     target = Path(path).expanduser().resolve()
     if not target.is_dir() and os.path.basename(path) in ("", ".", ".."):  # a Path forgets the slash at the end
-        raise ExportError(f"cannot write {path}: that is the name of a directory; add the name of a file.")
+        raise ExportError(f"cannot write {path}: that is the name of a directory; append a file name.")
     if target.is_dir():
-        raise ExportError(f"cannot write {path}: it is a directory; add the name of a file.")
+        raise ExportError(f"cannot write {path}: it is a directory; append a file name.")
     if not target.parent.is_dir():
-        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; make it first.")
+        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; create it first.")
     if target.exists() and not os.access(target, os.W_OK):
         raise ExportError(f"cannot write {path}: the file is write-protected.")
     return target

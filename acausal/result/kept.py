@@ -1,4 +1,4 @@
-"""What is left of a result without its model: the values of all quantities by name."""
+"""What remains of a result without its model: the values of all quantities by name."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class Quantity:
     units : tuple of str
         Unit of each entry as declared, "" where it is not known.
     declared : bool
-        Whether the name alone tells the expression.
+        Whether the name alone determines the expression.
     """
 
     name: str
@@ -129,7 +129,7 @@ def find(tree: Tree, key: Key) -> Quantity:
     Raises
     ------
     DeclarationError
-        If the model has no such variable; the message tells the nearest names.
+        If the model has no such variable; the message names the nearest ones.
     """
     if not isinstance(tree, Component):
         return tree.find(key)
@@ -231,7 +231,7 @@ def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
 
 
 def not_readable(path: str, value: Any) -> str:
-    """Return the message for a member that has no course over time."""
+    """Return the message for a member that does not vary with time."""
     if isinstance(value, list):
         return (
             f"`{path}` is a list of {len(value)} parts; name a variable of one, such as `{path}[0].{_example(value)}`."
@@ -239,7 +239,7 @@ def not_readable(path: str, value: Any) -> str:
     if isinstance(value, Component):
         kind = type(value).__name__
         return f"`{path}` is a part ({kind}); name one of its variables, such as `{path}.{_example([value])}`."
-    return f"`{path}` is structural and has no course over time; its value is {value!r}."
+    return f"`{path}` is structural and does not vary with time; its value is {value!r}."
 
 
 def _example(parts: list[Component]) -> str:

@@ -86,7 +86,7 @@ def save(figure: Figure, path: str | Path) -> None:
 
 
 def check_picture(path: str | Path) -> None:
-    """Find out whether a picture can be written: known ending, writable place.
+    """Check whether a picture can be written: known ending, writable place.
 
     Raises
     ------

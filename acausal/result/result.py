@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class Result:
     """Every variable and parameter of a run over time.
 
-    It can be pickled, and is read without the model's classes then, by name alone.
+    It can be pickled; it is then read without the model's classes, by name alone.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class Result:
         Raises
         ------
         DeclarationError
-            If the model has no such variable; the message tells the nearest names.
+            If the model has no such variable; the message names the nearest ones.
         """
         return self._look([key])[0][1]
 
@@ -147,7 +147,7 @@ class Result:
         Parameters
         ----------
         *keys : str, Path or Expr
-            What to look at; the outputs if there is none.
+            What to check; the outputs if there is none.
         """
         return {
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
@@ -178,7 +178,7 @@ class Result:
         *keys : str, Path or Expr
             What to draw; the outputs if there is none.
         path : str or Path, optional
-            Write the picture there; the ending tells the format.
+            Write the picture there; the suffix determines the format.
         show : bool, optional
             True opens the picture in the system's viewer.
 
@@ -199,7 +199,7 @@ class Result:
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
     def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
-        """Return quantities with their arrays for a user, who is told of values that are no numbers."""
+        """Return quantities with their arrays for a user, and warn of values that are not numbers."""
         quantities = [find(self.tree, key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
@@ -247,7 +247,7 @@ def _has_time(tree: Any) -> bool:
 
 
 def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
-    """Tell where a quantity stops being a number."""
+    """Describe where a quantity stops being a number."""
     wrong = ~np.isfinite(array)
     row = int(np.argmax(wrong.reshape(time.size, -1).any(axis=1)))
     name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
@@ -257,7 +257,7 @@ def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
     cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
     return (
         f"`{name}` is {what} at t = {time[row]:.6g} s for the first time, at {count} of {time.size} times in all. "
-        f"Look at the equation that gives it: {cause}."
+        f"Check the equation that gives it: {cause}."
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Statistics(Mapping[str, Any]):
-    """What a run took and found: `stats.steps`, or `stats.steps`.
+    """What a run took and found: `stats.steps`, or `stats["steps"]`.
 
     What does not apply to a run is None as an attribute, and no key.
 
@@ -20,7 +20,7 @@ class Statistics(Mapping[str, Any]):
     steps, factorisations, residual_evaluations, calls, choices : int
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
-        Seconds; the last are those inside of the integrators.
+        Seconds; the last are those inside the integrators.
     method, method_steps, max_order, tolerance, fastest_rate, constraints
         What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
         the start in 1/s, and how loops stayed closed.
@@ -31,15 +31,15 @@ class Statistics(Mapping[str, Any]):
     events : int
         Number of events.
     loops, independent_states
-        What the ranks of loops told at the start.
+        What the ranks of loops showed at the start.
     doubts : list of str
-        What was used outside of its range.
+        What was used outside its range.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
-        In J, if asked for; the last is what the method itself lost.
+        In J, if requested; the last is what the method itself lost.
     consistent_evaluations : int
         Evaluations of the equations for values that were read.
     accuracy, accuracy_reached, error_estimate, error_output, error_tolerance, error_elements, error_estimates
-        What was asked for and estimated, where an accuracy was.
+        What was requested and estimated, if an accuracy was.
     elements_kept, chosen, trials
         What was chosen and tried for it.
     """

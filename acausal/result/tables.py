@@ -19,7 +19,7 @@ NAME, CELL = 10, 42
 
 @dataclass(frozen=True)
 class Table:
-    """A table for people.
+    """A table to be read.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class Table:
     rows : sequence of sequence of str
         The cells.
     words : collection of str
-        Names of the columns that are read, not compared: they begin at the left.
+        Names of the columns with text, which are left-aligned.
     """
 
     head: Sequence[str]
@@ -82,7 +82,7 @@ def write_csv(path: str | Path, columns: Mapping[str, Iterable[object]]) -> None
 
 
 def _broken(name: str) -> list[str]:
-    """Break a long name where words or parts of words meet."""
+    """Break a long name between words or parts of words."""
     if len(name) <= NAME:
         return [name]
     return [line.replace("_ ", "_") for line in textwrap.wrap(name.replace("_", "_ "), NAME, break_long_words=False)]

@@ -1,4 +1,4 @@
-"""The front door: from a model to a result, with what the model tells of its own simulation and with an accuracy."""
+"""The front door: from a model to a result, with what the model declares about its own simulation and with an accuracy."""
 
 from acausal.simulation.linearize import Linearization, linearize
 from acausal.simulation.simulate import simulate

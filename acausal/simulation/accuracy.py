@@ -1,8 +1,8 @@
-"""Accuracy: choose tolerance, method, order limit and number of elements so that every output is as good as asked.
+"""Accuracy: choose tolerance, method, order limit and number of elements so that every output is as accurate as requested.
 
 The error of a run is its difference from a run with a tenth of the tolerance, and from one with twice the elements. The
-run that is returned is the one whose error is estimated so, not the better ones beside it, whose errors nobody knows.
-The larger of both errors tells what to refine.
+run that is returned is the one whose error was estimated, not the better ones beside it, whose errors are unknown.
+The larger of the two errors decides what to refine.
 """
 
 from __future__ import annotations
@@ -14,19 +14,12 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import SimulationError
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
 from acausal.simulation.runs import Numerics, Runs
 
-# Tolerances tried first, in parts of the accuracy; the loosest and the smallest.
-FIRST, LOOSEST, SMALLEST = 1e-2, 1e-3, 1e-12
-FEWEST, MOST = 2, 128
-# A run with a smaller tolerance is better only if it takes more work: at the limit of stability it does not.
-MORE, TENTHS = 1.2, 3
-# A step of the one-step method is worth several; growth of the work by a tenth of the tolerance; runs that it takes
-# to begin anew with another method.
-ONE_STEP, GROWTH, ANEW = 10, 3, 3
-FAILURES, STUCK = 3, 0.8
+ACCURACY = POLICY.accuracy
 
 
 @dataclass(frozen=True)
@@ -44,7 +37,7 @@ def reach(accuracy: float, runs: Runs) -> Result:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     runs : Runs
         Runs of the model.
 
@@ -71,15 +64,15 @@ class Search:
     Parameters
     ----------
     accuracy : float
-        Largest error of each output in parts of its range.
+        Largest error of each output as a fraction of its range.
     runs : Runs
         Runs of the model.
     """
 
     def __init__(self, accuracy: float, runs: Runs) -> None:
         self.accuracy, self.runs = accuracy, runs
-        exponent = np.floor(np.log10(FIRST * accuracy) + 1e-9)
-        self.first = float(np.clip(_tenth(10.0**exponent, 0), 10 * SMALLEST, LOOSEST))
+        exponent = np.floor(np.log10(ACCURACY.first * accuracy) + 1e-9)
+        self.first = float(np.clip(_tenth(10.0**exponent, 0), 10 * ACCURACY.smallest, ACCURACY.loosest))
         self.best: State | None = None
         self.failures: list[SimulationError] = []
         self.history: list[float] = []
@@ -87,7 +80,7 @@ class Search:
     def go(self) -> State:
         """Refine what causes the larger error until the estimate is small enough."""
         task = self.runs.task
-        numerics = Numerics(FEWEST if self.runs.adaptive else 0, self.first, task.method, task.max_order)
+        numerics = Numerics(ACCURACY.fewest if self.runs.adaptive else 0, self.first, task.method, task.max_order)
         while True:
             numerics = self._way(numerics)
             state = self._state(numerics)
@@ -133,7 +126,7 @@ class Search:
             return numerics
         follows = coarse.stats.max_order == 5 and "rosenbrock" not in coarse.stats.method_steps
         turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
-        if follows or GROWTH * _work(coarse) < ANEW * turns:
+        if follows or ACCURACY.growth * _work(coarse) < ACCURACY.anew * turns:
             return numerics
         self.history.clear()
         return replace(numerics, tolerance=self.first, method="idas", max_order=5)
@@ -158,14 +151,14 @@ class Search:
     def _finer(self, numerics: Numerics, run: Result) -> Numerics | None:
         """Return the numerics with the largest smaller tolerance that makes a difference."""
         fine = numerics
-        for k in range(1, TENTHS + 1):
-            if (tolerance := _tenth(numerics.tolerance, k)) < SMALLEST:
+        for k in range(1, ACCURACY.tenths + 1):
+            if (tolerance := _tenth(numerics.tolerance, k)) < ACCURACY.smallest:
                 break
             fine = replace(numerics, tolerance=tolerance)
             finer = self._run(fine)
             if finer is None:
                 return None
-            if _work(finer) >= MORE * _work(run):
+            if _work(finer) >= ACCURACY.more * _work(run):
                 break
         return fine
 
@@ -180,24 +173,24 @@ class Search:
     def _refined(self, state: State) -> Numerics:
         numerics, found = state.numerics, state.estimate
         if found.elements > found.tolerance:
-            if 4 * numerics.number > MOST:
-                raise self._refusal(f"more than {MOST} elements or volumes are not tried")
+            if 4 * numerics.number > ACCURACY.most:
+                raise self._refusal(f"more than {ACCURACY.most} elements or volumes are not tried")
             return replace(numerics, number=2 * numerics.number)
         self.history.append(found.tolerance)
-        if len(self.history) > 2 and self.history[-1] > STUCK * self.history[-3]:
+        if len(self.history) > 2 and self.history[-1] > ACCURACY.stuck * self.history[-3]:
             raise self._refusal("smaller tolerances change the result without an end")
         missing = np.log10(min(found.tolerance, 1e3) / self.accuracy)
         return self._tighter(numerics, max(1, int(missing)))
 
     def _past_failure(self, numerics: Numerics) -> Numerics:
         """Refine everything, if nothing better than this succeeded and not too much failed already."""
-        if self.best or len(self.failures) >= FAILURES:
+        if self.best or len(self.failures) >= ACCURACY.failures:
             raise self._refusal("runs with smaller tolerances or more elements fail")
         number = 2 * numerics.number
-        return self._tighter(numerics if 2 * number > MOST else replace(numerics, number=number), 1)
+        return self._tighter(numerics if 2 * number > ACCURACY.most else replace(numerics, number=number), 1)
 
     def _tighter(self, numerics: Numerics, tenths: int) -> Numerics:
-        smallest = 10 * SMALLEST
+        smallest = 10 * ACCURACY.smallest
         if numerics.tolerance <= smallest:
             raise self._refusal(f"a tolerance below {smallest:g} is lost in rounding")
         return replace(numerics, tolerance=max(_tenth(numerics.tolerance, tenths), smallest))
@@ -208,23 +201,23 @@ class Search:
         best = self.report(self.best)
         text = chosen_text(best.stats)
         return SimulationError(
-            f"the accuracy is not reached: {reason}. The best run is kept: {text}. Ask for less, or look with "
-            "tolerance=... at what the outputs do.",
+            f"the accuracy was not reached: {reason}. The best run is kept: {text}. Ask for less, or examine "
+            "the outputs of a run with tolerance=... .",
             best,
         )
 
 
 def chosen_text(stats: Mapping[str, Any]) -> str:
-    """Return what was asked, chosen and estimated, a line."""
+    """Return what was requested, chosen and estimated, in one line."""
     chosen = stats["chosen"]
     sizes = "".join(f", {n} {_what(path)}" for path, n in chosen["sizes"].items())
     text = (
-        f"accuracy {stats['accuracy']:g} asked: tolerance {chosen['tolerance']:g}, order at most "
+        f"accuracy {stats['accuracy']:g} requested: tolerance {chosen['tolerance']:g}, order at most "
         f"{chosen['max_order']}{sizes}; estimated error {stats['error_estimate']:.1g} of the range of "
         f"`{stats['error_output']}`"
     )
     if stats["elements_kept"]:
-        text += "; the numbers of elements are kept, and what they lack is not part of it (adaptive=True)"
+        text += "; the numbers of elements are fixed, and their error is not included (adaptive=True)"
     if sizes:
         text += f" (tolerance {stats['error_tolerance']:.1g}, elements {stats['error_elements']:.1g})"
     return text
@@ -237,7 +230,7 @@ def _what(path: str) -> str:
 
 def _work(run: Result) -> int:
     """Return the steps, those of the one-step method counted several times."""
-    return sum(n * (ONE_STEP if name == "rosenbrock" else 1) for name, n in run.stats.method_steps.items())
+    return sum(n * (ACCURACY.one_step if name == "rosenbrock" else 1) for name, n in run.stats.method_steps.items())
 
 
 def _tenth(tolerance: float, k: int) -> float:

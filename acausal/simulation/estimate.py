@@ -6,17 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.result import Result
 
-# An output that moves by no more than this, in parts of its size or of 1, rests.
-ROUNDING = 1e-13
-# The error falls at least with the power 2/3 of the tolerance, that of order 2, or with the order 2 of the elements.
-BY_TOLERANCE, ORDER, HIGHEST = 2 / 3, 2.0, 4.0
+ESTIMATE = POLICY.estimate
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Estimated errors of a run in parts of the range of each output.
+    """Estimated errors of a run as fractions of the range of each output.
 
     Parameters
     ----------
@@ -51,14 +49,14 @@ def scale(values: np.ndarray) -> np.ndarray:
     """
     size = np.max(np.abs(values), axis=0)
     moved = np.ptp(values, axis=0)
-    rest = np.where(size > ROUNDING, size, 1.0)
-    return np.where(moved > ROUNDING * np.maximum(size, 1.0), moved, rest)
+    rest = np.where(size > ESTIMATE.rounding, size, 1.0)
+    return np.where(moved > ESTIMATE.rounding * np.maximum(size, 1.0), moved, rest)
 
 
 def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, halved: Result | None) -> Estimate:
     """Estimate the errors of a run.
 
-    What the better run lacks itself is added by extrapolation: with the least power of the tolerance, and with the order
+    The remaining error of the better run is added by extrapolation: with the least power of the tolerance, and with the order
     in the number of elements that a third run tells.
 
     Parameters
@@ -75,15 +73,15 @@ def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, 
     names, values = table(run)
     exact = table(doubled or finer)[1]
     unit = scale(exact)
-    by_tolerance = (values - table(finer)[1]) / unit / (1 - tenths**BY_TOLERANCE)
+    by_tolerance = (values - table(finer)[1]) / unit / (1 - tenths**ESTIMATE.by_tolerance)
     by_elements = np.zeros_like(values)
     if doubled is not None:
         step = (table(finer)[1] - exact) / unit
-        order = ORDER
+        order = ESTIMATE.order
         if halved is not None:
             before = (table(halved)[1] - table(finer)[1]) / unit
             order = float(np.log2(max(_size(before), 1e-300) / max(_size(step), 1e-300)))
-        by_elements = step / (1 - 2.0 ** -np.clip(order, 1.0, HIGHEST))
+        by_elements = step / (1 - 2.0 ** -np.clip(order, 1.0, ESTIMATE.highest))
     found = np.max(np.abs(by_tolerance + by_elements), axis=0)
     found = np.where(np.isfinite(found), found, np.inf)
     worst = int(np.argmax(found))

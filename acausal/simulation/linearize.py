@@ -118,8 +118,8 @@ def linearize(
         A = state_matrix(M[: nx + nz, : nx + nz], nx)
     except RuntimeError:
         raise InitializationError(
-            f"the model cannot be linearised at t = {time:g} s: its equations are singular there, as those of a loop that "
-            "lies flat. Start beside it."
+            f"the model cannot be linearised at t = {time:g} s: its equations are singular there, as for a loop that "
+            "lies flat. Start slightly away from it."
         ) from None
     gz, gu = M[nx : nx + nz, nx : nx + nz], M[nx : nx + nz, nx + nz :]
     gx = M[nx : nx + nz, :nx]

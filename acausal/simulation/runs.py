@@ -51,7 +51,7 @@ class Runs:
         self.keeps_elements = not self.adaptive and bool(adaptive(tree, whatever=True))
         if not any(isinstance(d, f.Variable) and d.causality == "output" for d in tree.fields.values()):
             raise DeclarationError(
-                "the model has no output whose error could be estimated. Declare what is looked at: "
+                "the model has no output whose error could be estimated. Declare the quantity of interest: "
                 'y: Scalar = output("..."), or give a tolerance instead of an accuracy.'
             )
         if fixed and self.adaptive:

@@ -1,4 +1,4 @@
-"""What a model tells of its own simulation: attributes that `simulate` takes where its arguments are not given."""
+"""What a model declares about its own simulation: attributes that `simulate` takes where its arguments are not given."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def settled(
     """
     source, values = _source(model, values)
     found = {name: own_setting(source, name, values) if v is None else v for name, v in given.items()}
-    # One of the two is enough, and what is given counts more than what the model says.
+    # One of the two is enough, and an argument takes precedence over the model.
     for one, other in (("tolerance", "accuracy"), ("accuracy", "tolerance")):
         if given.get(one) is not None and given.get(other) is None:
             found.pop(other, None)
@@ -47,14 +47,14 @@ def settled(
 
 
 def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = None) -> Any:
-    """Return a setting that a model tells of itself, None where it has none.
+    """Return a setting that a model declares, None where it declares none.
 
     Parameters
     ----------
     model : Component
         Not built.
     name : str
-        Argument of `simulate`. A plain attribute, a property or an expression of fields tells it; a field of this name is
+        Argument of `simulate`. A plain attribute, a property or an expression of fields gives it; a field of this name is
         something else, except a stop time or a method.
     values : mapping of str to value, optional
         Values by path that replace those of the model.

@@ -55,12 +55,12 @@ def simulate(
         Relative tolerance of a step; absolute tolerance = tolerance * nominal value. The error of a result is typically
         100 to 1000 times larger where bodies oscillate. Default 1e-6.
     accuracy : float, optional
-        Instead of a tolerance: largest error of every output at the output points, in parts of its range in the run.
+        Instead of a tolerance: largest error of every output at the output points, as a fraction of its range in the run.
         Tolerance and order limit are chosen by comparing runs, and so is the number of elements or volumes of adaptive
-        beams, whatever the model says. `stats` tells what was chosen, estimated and tried; its counts are those of the
+        beams, whatever the model says. `stats` lists what was chosen, estimated and tried; its counts are those of the
         run that is returned, its compile and solve seconds those of all runs.
     intervals : int
-        The result has intervals + 1 equidistant points; 400 if nobody tells.
+        The result has intervals + 1 equidistant points; 400 by default.
     parameters : mapping of str to value, optional
         Values by path, such as {"beam.E": 7e10}.
     initial : "fixed", "guesses" or "steady"
@@ -80,7 +80,7 @@ def simulate(
     energy : bool
         Integrate the supplied and the dissipated power as well.
     progress : callable, optional
-        Called now and then in long runs with the fraction that is done and the number of steps; with `accuracy`, those
+        Called from time to time in long runs with the fraction that is done and the number of steps; with `accuracy`, those
         of the run under way.
 
     Returns
@@ -108,7 +108,7 @@ def simulate(
     how = settled(model, parameters, given)
     if how["stop_time"] is None:
         raise DeclarationError(
-            "the model tells no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
+            "the model declares no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
         )
     if how["accuracy"] is not None and how["tolerance"] is not None:
         raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
@@ -139,7 +139,7 @@ def _simulate(
 
 
 def _warn(result: object) -> None:
-    """Tell where components were used outside of their range."""
+    """Warn where components were used outside their range."""
     if isinstance(result, Result):
         for doubt in result.stats.doubts:
             caution(doubt)

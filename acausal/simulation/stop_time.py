@@ -1,4 +1,4 @@
-"""The stop time that a model tells of itself, and how such values follow from parameters."""
+"""The stop time that a model declares, and how such values follow from parameters."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ def own_stop_time(model: Component, values: Mapping[str, Any] | None = None) -> 
     Raises
     ------
     DeclarationError
-        If it is no number of seconds greater than 0.
+        If it is not a number of seconds greater than 0.
     """
     cls = type(model)
     declared = getattr(cls, "stop_time", None)
     if isinstance(declared, f.Field | Component) and not isinstance(declared, f.Structural | f.Parameter):
         raise DeclarationError(
-            f"`stop_time` of {cls.__name__} is no number before it runs, but a part or a variable; rename it, or give a "
+            f"`stop_time` of {cls.__name__} is a part or a variable, which has no value before the run; rename it, or give a "
             "stop time: --stop-time 2, or stop_time=2.0."
         )
     value = own_value(model, "stop_time", values)

@@ -1,4 +1,4 @@
-"""Times at which conditions are looked at."""
+"""Times at which conditions are checked."""
 
 from __future__ import annotations
 

@@ -47,10 +47,13 @@ class Problem:
         The model.
     p : array
         Values of its free parameters.
+    feedback : float
+        How fast states return to invariants, in 1/s.
     """
 
     compiled: CompiledModel
     p: np.ndarray
+    feedback: float = 1.0
 
     @property
     def nx(self) -> int:
@@ -90,13 +93,32 @@ class Problem:
         """Return the residuals of the constraints and their Jacobian by the states."""
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
+    def gradients(self, at: Point) -> np.ndarray:
+        """Return the Jacobian of the constraints by the states over their nominal values."""
+        return self.constraints(at)[1] * self.nominal[: self.nx]
+
+    def gaps(self, at: Point) -> np.ndarray:
+        """Return the residuals of the constraints, over the change that nominal values of the states make in them.
+
+        Entries of one equation have one such size: at a dead centre one of them has no gradient.
+        """
+        return self.constraints(at)[0] / self.sizes(at)
+
+    def sizes(self, at: Point) -> np.ndarray:
+        """Return the change that nominal values of the states make in each residual of the constraints, see `gaps`."""
+        kinds = self.compiled.constraints.kinds
+        most = np.zeros(len(kinds))
+        np.maximum.at(most, kinds, np.linalg.norm(self.gradients(at), axis=1))
+        sizes = most[kinds]
+        return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
+
     def projected(self, at: Point) -> Point:
         """Return the point with every coordinate where the constraints have it."""
         return replace(at, x=self.compiled.constraints.project(at.x, at.z, self.p, at.time, at.constants.vector))
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""
-        z = self.compiled.constraints.guess(at.x, at.z, self.p, at.time, at.constants.vector)
+        z = self.compiled.constraints.complete(at.x, at.z, self.p, at.time, at.constants.vector)
         z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import SimulationError, caution
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
-from acausal.solve.events.agenda import APART
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Chattering, Run
 from acausal.solve.integrate.attempt import Integrator
@@ -23,7 +23,7 @@ from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
-from acausal.solve.integrate.sizes import PASSES, absolute_sizes, smaller_sizes
+from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.initialize import Start
@@ -32,14 +32,14 @@ from acausal.solve.start.start import go_on, start
 
 SHOWN = 5  # times in a message
 ROUGH = (
-    "the energies are not known to the tolerance: a power turns faster than points between the outputs can follow. More "
-    "intervals, simulate(..., intervals=...), give more points."
+    "the energies are less accurate than the tolerance: a power varies faster than points between the outputs can follow. "
+    "Take more points: simulate(..., intervals=...)."
 )
 
 
 @dataclass(frozen=True)
 class Task:
-    """What to run, as of `simulate`; `max_order` None is chosen from the eigenvalues."""
+    """What to run, as in `simulate`; `max_order` None is chosen from the eigenvalues."""
 
     start_time: float
     stop_time: float
@@ -64,7 +64,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
         If the integration fails; its `result` holds what was computed.
     """
     built, started = compiled.seconds.get("integrators", 0.0), clock.perf_counter()
-    problem = Problem(compiled, p)
+    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
     plan = _plan(problem, task)
     begun = start(problem, task.start_time, plan.inside, task.initial)
     check_start(problem, begun.point)
@@ -96,7 +96,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class _Done:
-    """What a run did: where it began and went on, what integrated it, its events, and what ended it before its time."""
+    """What a run did: where it began and continued, what integrated it, its events, and what ended it early."""
 
     begun: Start
     at: Point
@@ -127,7 +127,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     fastest = float(np.max(np.abs(rates), initial=0.0))
     fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
     nominal, counts = problem.nominal, Trace()
-    for _ in range(PASSES):
+    for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, Settings(nominal, *fixed), (task.start_time, task.stop_time), counts)
         done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
@@ -155,10 +155,10 @@ def _raise(done: _Done, result: Result) -> NoReturn:
 
 
 def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
-    """Break times inside of a run; those that are but a few rounding errors apart are one."""
+    """Break times inside a run; those only a few rounding errors apart are one."""
     found: list[float] = []
     for b in sorted(b for b in instants if start < b < stop):
-        if b - (found or [start])[-1] > APART * abs(b) and stop - b > APART * abs(stop):
+        if b - (found or [start])[-1] > POLICY.agenda.apart * abs(b) and stop - b > POLICY.agenda.apart * abs(stop):
             found.append(b)
     return found
 
@@ -226,8 +226,8 @@ def _loosened(run: Integrator) -> list[str]:
         return []
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
-        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as beside a singular position; a "
-        "larger one was taken for one output interval each time, and the error may be larger from there on."
+        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as happens near a singular position; "
+        "a larger one was taken for one output interval each time, and the error may be larger from there on."
     ]
 
 
@@ -241,17 +241,17 @@ def _failure_text(done: _Done, failure: Failure) -> str:
         rates = problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
-        lines.append(f"Until t = {at.time:.6g} s all is well; what changes fastest there: {names}.")
+        lines.append(f"The solution is good up to t = {at.time:.6g} s; what changes fastest there: {names}.")
     left = done.begun.redundancy
     if is_singular(problem, at, left) or (left.singular and not trace.pieces):
         lines.append(
-            "The loops are in a singular position there, or just beside it, as where all links lie in line: it does not tell "
-            "on which branch they go on, and forces have no value. Start 0.01 rad beside it, give a velocity with which they "
-            "can go on, w=fixed(...) of a joint, or try another method=. What was computed is kept."
+            "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
+            "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
+            "they can continue, w=fixed(...) of a joint, or try another method=. The result up to there is kept."
         )
         return "\n".join(lines)
     lines.append(
         "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
-        "stops an integrator. What was computed is kept."
+        "stops an integrator. The result up to there is kept."
     )
     return "\n".join(lines)

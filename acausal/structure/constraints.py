@@ -3,7 +3,7 @@
 An equation that was differentiated, and that ties no variable to the others by a constant coefficient, constrains
 states: no fixed choice of dependent ones among them stays regular. All of them are integrated, as X, and what the
 equations hold is the projection x = X + D mu with a multiplier mu for each constraint (Eich 1993, coordinate projection,
-with the projection inside of the system: its index is 1). D, one number for each coordinate and constraint, is chosen
+with the projection inside the system: its index is 1). D, one number for each coordinate and constraint, is chosen
 when numbers are known: columns of the constraint Jacobian give the projection along it, unit vectors make some
 coordinates follow from the others.
 """

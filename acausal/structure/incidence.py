@@ -37,7 +37,7 @@ def transpose(rows: Rows, n_columns: int) -> list[list[int]]:
 
 
 def chains(derivative: Sequence[int]) -> list[list[int]]:
-    """Each variable that is no derivative, followed by its successive derivatives."""
+    """Each variable that is not a derivative, followed by its successive derivatives."""
     derived = set(derivative)
     result = []
     for variable in range(len(derivative)):

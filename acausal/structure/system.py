@@ -27,7 +27,7 @@ class System:
     monic : tuple of frozenset of int, optional
         Those of `explicit` whose coefficient is 1 or -1, so that solving for them divides by nothing; default: all.
     closures : mapping of int to tuple of int, optional
-        Equations that may turn out to say nothing new, and the variables of what then takes the place of each: they
+        Equations that may turn out to be redundant, and the variables of what then takes the place of each: they
         close loops, are differentiated as often as it takes, and hold at every level.
 
     """

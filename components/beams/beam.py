@@ -39,10 +39,10 @@ class Beam(TwoFrames):
         doc="It is tangent to the root, or the chord from the first to the last point.",
     )
     alpha: Scalar = parameter(
-        "damping in proportion to mass", unit="1/s", default=0, minimum=0, doc="Rayleigh damping: D = alpha M + beta K."
+        "mass-proportional damping", unit="1/s", default=0, minimum=0, doc="Rayleigh damping: D = alpha M + beta K."
     )
     beta: Scalar = parameter(
-        "damping in proportion to stiffness",
+        "stiffness-proportional damping",
         unit="s",
         default=0,
         minimum=0,
@@ -65,16 +65,16 @@ class Beam(TwoFrames):
     )
 
     check_range: bool = structural(
-        "whether a run tells where the beam is not right",
+        "whether a run warns where the beam model is not valid",
         default=True,
         choices=(True, False),
-        doc="False keeps quiet where slopes or axial forces are too large for the frames of the beam.",
+        doc="False suppresses the warning that slopes or axial forces are too large for the frames of the beam.",
     )
     adaptive: bool = structural(
         "whether accuracy chooses the number of elements",
         default=False,
         choices=(True, False),
-        doc="It is simulate(accuracy=...) that chooses, and the number of volumes as well.",
+        doc="simulate(accuracy=...) then chooses it, and the number of volumes as well.",
     )
     axial: str = effect(
         "stretch",

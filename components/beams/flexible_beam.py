@@ -142,7 +142,7 @@ class FlexibleBeam(Beam):
         return load
 
     def _without_tip_load(self, force: Any, f_b: Any, t_b: Any, balance: Any, drag: Any, U: Any) -> tuple[Any, ...]:
-        """Inertia force, force and moment about the root of the tip, in (41) and (42) less what (43) says of them.
+        """Inertia force, force and moment about the root of the tip, in (41) and (42) less what (43) gives for them.
 
         The force on the tip is the sum of the balances of all nodes but the root, the moment the balance of the last node.
         Volumes in a chain are then coupled less: models/spin_up with 10 volumes has 990 instead of 1046 nonzeros in its

@@ -1,4 +1,4 @@
-"""Where a beam is right: what its frames neglect, against its deflection.
+"""Where a beam model is valid: what its frames neglect, compared with its deflection.
 
 The energy of an inextensible beam whose axis has the slope v' = sin(phi) at arc length x, with the axial force N, is
 
@@ -24,7 +24,7 @@ from acausal import as_expr, cos, expect, sin, sqrt
 from components.beams.strain import Bend, gauss
 
 SHARE = 0.01
-SEEN = 2e-4  # of the length: errors of deflections much smaller than that are not seen
+SEEN = 2e-4  # of the length: errors of much smaller deflections are not reported
 HINGE = 0.1  # of the mean bending moment: an end moment well below that is one of a hinge
 
 
@@ -45,19 +45,19 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
     whole = sqrt(whole * whole + (SEEN * beam.length) * (SEEN * beam.length))
     more = "more volumes" if len(frames) > 1 else "SubstructuredBeam(volumes=...)"
     if beam.geometric_stiffness:
-        text = f"it slopes too much for frames of second order, whose error is not small against its deflection; take {more}"
+        text = f"it slopes too much for second-order frames, whose error is not small compared with its deflection; take {more}"
         yield expect(size, whole, SHARE, text)
         return
-    # Of the two causes, whose errors may cancel each other, the greater one is told.
+    # Of the two causes, whose errors may cancel each other, the greater one is reported.
     ahead = chain.deflection(by_axial) - chain.deflection(by_slope)
     side = ahead / sqrt(ahead * ahead)
     text = (
-        "its linear frames leave out what the axial force does to their bending (rotation and tension stiffen, compression "
-        f"softens), which is not small against its deflection; take geometric_stiffness=True or {more}"
+        "its linear frames neglect the effect of the axial force on bending (rotation and tension stiffen, compression "
+        f"softens), which is not small compared with its deflection; take geometric_stiffness=True or {more}"
     )
     yield expect(size * (1 + side) / 2, whole, SHARE, text)
     text = (
-        "it slopes too much for linear frames, whose error is not small against its deflection; take "
+        "it slopes too much for linear frames, whose error is not small compared with its deflection; take "
         f"geometric_stiffness=True and, beyond 20 degrees, {more}"
     )
     yield expect(size * (1 - side) / 2, whole, SHARE, text)

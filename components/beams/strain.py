@@ -36,7 +36,7 @@ class Strain:
     elements : int
         N.
     l, EA, EJ, beta : Expr
-        Length of an element in m, stiffnesses in N and N.m2, and damping in proportion to stiffness in s.
+        Length of an element in m, stiffnesses in N and N.m2, and stiffness-proportional damping in s.
     second_order : bool
         Whether the slope shortens the axis.
     """
@@ -170,7 +170,7 @@ class Strain:
         return total + (self.EA / self.l * sum(e * e for e, _ in self._extensions(U, U)) / 2 if stretches else 0.0)
 
     def dissipated(self, U: Any, Ud: Any, stretches: bool) -> Any:
-        """Power of the damping in proportion to stiffness, in W."""
+        """Power of the stiffness-proportional damping, in W."""
         bending = self.EJ / self.l**3 * sum(e.q * e.q + 3 * e.r * e.r for e in self._bends(Ud))
         axial = self.EA / self.l * sum(r * r for _, r in self._extensions(U, Ud)) if stretches else 0.0
         return self.beta * (bending + axial)

@@ -10,7 +10,7 @@ class Clutch(Slipping):
     """Friction clutch: slips until both shafts turn alike, then locks up to its greatest torque."""
 
     f_normalized: Scalar = input(
-        "normal force in parts of its greatest value", unit="1", doc="Between 0 (open) and 1 (closed)."
+        "normal force as a fraction of its greatest value", unit="1", doc="Between 0 (open) and 1 (closed)."
     )
     tau_max: Scalar = parameter("torque of sliding at f_normalized = 1", unit="N.m", minimum=0)
     peak: Scalar = parameter("ratio of the greatest torques of sticking and sliding", unit="1", default=1, minimum=1)

@@ -12,7 +12,7 @@ class Damper(Compliant):
     d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
 
     def law(self):
-        """Torque in proportion to the speed."""
+        """Torque proportional to the speed."""
         yield self.tau == self.d * self.w_rel
 
     def dissipated_power(self):

@@ -14,9 +14,9 @@ AF, BF = 1.3617, 0.6180
 class Position(OneFlange):
     """Drive that moves the shaft as prescribed."""
 
-    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="Where its second derivative jumps, torques do.")
+    phi_ref: Scalar = input("angle of the flange", unit="rad", doc="Torques jump where its second derivative does.")
     exact: bool = structural(
-        "whether the flange has phi_ref itself",
+        "whether the flange follows phi_ref exactly",
         default=True,
         choices=(True, False),
         doc="False lets it follow phi_ref through a filter of the second order, begun at rest: for an angle of "

@@ -9,7 +9,7 @@ from components.rotational.compliant import Compliant
 
 
 class Slipping(Compliant):
-    """Base of dry friction: sticks up to one torque, slides against another one.
+    """Base of dry friction: sticks up to one torque, slides against another.
 
     While it sticks, tau is what keeps w_rel constant; it breaks away where that exceeds `holding()`.
     """

@@ -13,7 +13,7 @@ class Speed(OneFlange):
 
     w_ref: Scalar = input("angular velocity of the flange", unit="rad/s")
     exact: bool = structural(
-        "whether the flange has w_ref itself",
+        "whether the flange follows w_ref exactly",
         default=True,
         choices=(True, False),
         doc="False lets it follow w_ref through a filter of the first order: for a speed of which no derivative "

@@ -1,4 +1,4 @@
-"""SpringDamper: a torsional spring and a damper side by side."""
+"""SpringDamper: a torsional spring and a damper in parallel."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class SpringDamper(Compliant):
     )
 
     def law(self):
-        """Hooke's law, and a torque in proportion to the speed."""
+        """Hooke's law, and a torque proportional to the speed."""
         yield self.tau == self.c * (self.phi_rel - self.phi_rel0) + self.d * self.w_rel
 
     def stored_energy(self):

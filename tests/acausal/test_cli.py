@@ -214,9 +214,9 @@ def test_interrupt(run, monkeypatch, tmp_path):
         ),
         (
             ["mine.py:Oscillator", "--csv", "none/a.csv"],
-            "cannot write none/a.csv: there is no directory {dir}/none; make it first.",
+            "cannot write none/a.csv: there is no directory {dir}/none; create it first.",
         ),
-        (["mine.py:Oscillator", "--json", "."], "cannot write .: it is a directory; add the name of a file."),
+        (["mine.py:Oscillator", "--json", "."], "cannot write .: it is a directory; append a file name."),
         (["mine.py:Oscillator", "--plot", "a.txt"], "cannot write a.txt: a picture's name ends in .png, .svg or .pdf."),
         (["mine.py:Oscillator", "--variables", "w*"], "no variable of the model matches `w*`; * stands for any text."),
         (["mine.py:Oscillator", "--variables", "xx"], "there is no `xx` in the model; did you mean `x`?"),

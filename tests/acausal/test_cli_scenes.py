@@ -99,7 +99,7 @@ def test_check_tells_what_became_of_a_planar_loop():
     assert len(document["independent_states"]) == 2
     assert "planar loop" in text
     assert "3 of its 6 constraints redundant and dropped, 3 kept" in text
-    assert "chosen by the pivots" in text
+    assert "chosen by pivoting" in text
     assert all(name in text for name in (*joints, *loop["undetermined"], *document["independent_states"]))
 
 

@@ -9,7 +9,7 @@ import networkx as nx
 import pytest
 
 ROOT = Path(__file__).parents[2]
-BASE = {"errors", "locks", "units", "symbols"}
+BASE = {"errors", "locks", "policy", "units", "symbols"}
 MAY = {
     "language": BASE,
     "flatten": BASE | {"language"},

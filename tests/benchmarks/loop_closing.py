@@ -17,8 +17,8 @@ from tests.models.test_loops import CASES, PUBLISHED
 WAYS = ("states", "projection")
 TOLERANCE, REPEATS = 1e-6, 3
 LEGEND = (
-    f"Tolerance {TOLERANCE:g}. Error: largest at the published values, in parts of the value or of 1 "
-    "(slider-crank: slider position, in parts of its range, against the hand-derived model converged in time). "
+    f"Tolerance {TOLERANCE:g}. Error: largest at the published values, as a fraction of the value or of 1 "
+    "(slider-crank: slider position, as a fraction of its range, against the hand-derived model converged in time). "
     "Gap: largest violation of a loop at the outputs, in m or rad. Ratio: integration time, projection / states."
 )
 

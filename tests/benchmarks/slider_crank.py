@@ -4,7 +4,7 @@
 
 The variable keeps other processes on the same cores from slowing small matrices down.
 Three tables in one run: accuracy against time; size and time over the number of elements; how closed loops stay closed
-(`loop_closing`). Times are the best of three. Errors are the largest of 401 points, in parts of the range, against the
+(`loop_closing`). Times are the best of three. Errors are the largest of 401 points, as a fraction of the range, against the
 converged model derived by hand and against the geometrically exact rod of `tests.benchmarks.exudyn`.
 """
 
@@ -35,7 +35,7 @@ Curves = tuple[np.ndarray, np.ndarray]
 
 @dataclass(frozen=True)
 class Cost:
-    """One run: time and counts; errors of slider and mid deflection; dissipated energy in parts of the supplied one.
+    """One run: time and counts; errors of slider and mid deflection; dissipated energy as a fraction of the supplied one.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Cost:
 
 
 def errors(curves: Curves, exact: Curves) -> tuple[float, float]:
-    """Largest differences of slider position and mid deflection in parts of the range."""
+    """Largest differences of slider position and mid deflection as a fraction of the range."""
     slider, middle = (float(np.abs(a - b).max() / np.ptp(b)) for a, b in zip(curves, exact, strict=True))
     return slider, middle
 

@@ -5,7 +5,7 @@
 When the torque stops at 0.7 s, the undamped crank rings at up to 5 kHz with amplitudes that nobody looks at, and a step
 control that sees velocities follows. Methods: BDF of order 2 (IDAS) and the L-stable Rosenbrock method of order 5 of
 CasADi, each with a factor on the absolute tolerance of all velocities. Errors are the largest of 401 points against the
-time-converged solution of the same model, in parts of the range; the dissipated energy in parts of the supplied one.
+time-converged solution of the same model, as a fraction of the range; the dissipated energy as a fraction of the supplied one.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Run:
 
     @property
     def dissipated(self) -> float:
-        """What the method itself dissipated, in parts of the supplied energy."""
+        """What the method itself dissipated, as a fraction of the supplied energy."""
         return (self.supplied[-1] - self.stored[-1]) / self.supplied[-1]
 
 

@@ -89,7 +89,7 @@ def hand_side(model: HandModel, repeats: int) -> tuple[Side, np.ndarray]:
 
 @dataclass(frozen=True)
 class Size:
-    """Both sides of one size, and how far they differ: slider position in parts of its range."""
+    """Both sides of one size, and how far they differ: slider position as a fraction of its range."""
 
     crank: str
     rod_elements: int

@@ -53,7 +53,7 @@ IMPOSSIBLE = [
     (np.array([[1, 0.9, 0], [0.9, 1, 0], [0, 0, 1]]), "sum of the other two"),
     (-np.eye(3), "negative moment of inertia about x"),
     (np.diag([0.0, 0, -1]), "negative moment of inertia about z"),
-    (turned(np.diag([1.0, 1, -0.5])), "is the inertia of no body|negative moment"),
+    (turned(np.diag([1.0, 1, -0.5])), "is not the inertia of a body|negative moment"),
     (np.array([[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]), r"not symmetric: I\[0,1\] is 0.1 and I\[1,0\] is 0"),
     (np.array([[1, 0, 0], [0, 1, 0.2], [0, -0.2, 1]]), "not symmetric"),
 ]

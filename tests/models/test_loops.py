@@ -240,7 +240,7 @@ def test_stiff_slider_crank_is_the_rigid_one(crank, rod):
 
 
 def test_slider_crank_refuses_elements_that_do_not_fill_the_volumes():
-    with pytest.raises(ac.DeclarationError, match="multiple of rod_volumes"):
+    with pytest.raises(ac.DeclarationError, match="must divide rod_elements"):
         ac.compile(SliderCrank(rod_elements=9, rod_volumes=4))
 
 

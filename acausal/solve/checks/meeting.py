@@ -12,6 +12,7 @@ from itertools import islice
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.checks.validity import separations
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal
@@ -19,14 +20,7 @@ from acausal.solve.integrate.trace import Trace
 from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
-# So near, in parts of the greatest distance in the run, points meet; what acts there less than so much of its greatest is 0.
-NEAR, NOTHING = 1e-6, 1e-4
-# Points may move so much faster between two rows than at them.
-REACH = 3.0
-# Parts of an interval; shortest part of the run; rows that are so few, with so many steps between them, that all are suspect.
-PARTS, SHORTEST, FEW, STEPS_A_ROW = 8, 1e-13, 64, 4
-# Meetings without an effect after which no more are looked for, intervals that are looked into, and steps in each.
-HARMLESS, LOOKS, STEPS = 3, 2000, 20_000
+MEETING = POLICY.meeting
 
 
 @dataclass(frozen=True)
@@ -52,7 +46,7 @@ class _Rows:
 
     def suspects(self) -> np.ndarray:
         """Intervals in which the points could meet."""
-        return np.flatnonzero(REACH * pace(self.times, self.rate) >= self.distance[1:] + self.distance[:-1])
+        return np.flatnonzero(MEETING.reach * pace(self.times, self.rate) >= self.distance[1:] + self.distance[:-1])
 
 
 class _Search:
@@ -62,7 +56,7 @@ class _Search:
         self.integrator, self.columns = integrator, columns
         self.watch = separations(integrator.compiled)
         self.looks, self.near = 0, 0.0
-        self.shortest = SHORTEST * max(abs(t) for t in integrator.span)
+        self.shortest = MEETING.shortest * max(abs(t) for t in integrator.span)
 
     def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: np.ndarray) -> _Rows:
         """Evaluate the pair in rows of a run."""
@@ -94,7 +88,7 @@ class _Search:
             rate, effect = rows.rate[k : k + 2], rows.effect[k : k + 2]
             if rate[0] <= 0 <= rate[1]:
                 yield float(rows.times[k]), float(np.mean(effect[rate == 0] if np.any(rate == 0) else effect))
-        elif self.looks < LOOKS and (inner := self._inside(rows, k, 1.0)):
+        elif self.looks < MEETING.looks and (inner := self._inside(rows, k, 1.0)):
             yield from self._meetings(inner)
 
     def _inside(self, rows: _Rows, k: int, length: float) -> _Rows | None:
@@ -102,11 +96,11 @@ class _Search:
         self.looks += 1
         run, x, z = self.integrator, rows.x[k], rows.z[k]
         at = Point(float(rows.times[k]), x, z, run.compiled.layout.constants(rows.constants[k + 1]))
-        times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, PARTS + 1)
-        found = run.trial(at, times, STEPS)
+        times = rows.times[k] + length * (rows.times[k + 1] - rows.times[k]) * np.linspace(0, 1, MEETING.parts + 1)
+        found = run.trial(at, times, MEETING.steps)
         if isinstance(found, Refusal):
             return None
-        vectors = np.tile(found.constants.vector, (PARTS + 1, 1))
+        vectors = np.tile(found.constants.vector, (MEETING.parts + 1, 1))
         return self.rows(times, np.vstack([x[None], found.x]), np.vstack([z[None], found.z]), vectors)
 
 
@@ -139,10 +133,10 @@ def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
 def _search(search: _Search, first: Point, trace: Trace, text: str) -> list[Meeting]:
     t, x, z, _, constants = trace.rows(first)
     rows = search.rows(t, x, z, constants)
-    search.near = NEAR * float(np.max(rows.distance))
-    least, n = NOTHING * float(np.max(np.abs(rows.effect))), len(rows.times)
-    everywhere = n <= FEW and trace.steps > STEPS_A_ROW * n
-    for time, effect in islice(search.run(rows, everywhere), HARMLESS):
+    search.near = MEETING.near * float(np.max(rows.distance))
+    least, n = MEETING.nothing * float(np.max(np.abs(rows.effect))), len(rows.times)
+    everywhere = n <= MEETING.few and trace.steps > MEETING.steps_a_row * n
+    for time, effect in islice(search.run(rows, everywhere), MEETING.harmless):
         if abs(effect) > least:
-            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). What came before is kept.")]
+            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). The result up to there is kept.")]
     return []

@@ -1,6 +1,6 @@
-"""Whether laws that are said to be smooth are: the step from case to case at the instants at which a run switches them.
+"""Whether laws that are declared smooth are: the step from case to case at the instants at which a run switches them.
 
-Both cases are evaluated on both sides of a switch. Where they do not meet, the place is looked at closer, on the cubic
+Both cases are evaluated on both sides of a switch. Where they do not meet, the place is examined more closely, on the cubic
 between two outputs, until the law has one value on both sides or hardly any time is left between them.
 """
 
@@ -13,16 +13,14 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.flatten.discontinuities import Promise
-from acausal.solve.checks.validity import DEAR, ROWS, Watch, watch
+from acausal.policy import POLICY
+from acausal.solve.checks.validity import Watch, watch
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.symbols import scalars
 
-# Part of the largest value of a law that is a step; less may be rounding of its constants.
-STEP = 1e-4
-# Switches of one law that are looked at closer, how often, and times at once.
-SWITCHES, CLOSER, PARTS = 3, 12, 8
+PROMISES = POLICY.promises
 
 
 @dataclass(frozen=True)
@@ -79,19 +77,23 @@ def _known(compiled: CompiledModel) -> Watch:
 
 
 def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
-    """Say which laws jumped in a run although they are said to be smooth.
+    """Report which laws jumped in a run although they are declared smooth.
 
     Parameters
     ----------
     integrator : Integrator
-        Tells model, parameters and tolerance.
+        With model, parameters and tolerance.
     run : Evaluator
         Output points of the run.
     """
     if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.t) < 2:
         return []
     look = _Look(integrator, run)
-    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if look.seen.wanted else ROWS)).astype(int))
+    rows = np.unique(
+        np.linspace(
+            0, len(run.t) - 1, min(len(run.t), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
+        ).astype(int)
+    )
     values, first, found = look.rows(rows), 0, dict[str, str]()
     for promise in look.seen.stated:
         n = promise.step.numel()
@@ -113,21 +115,21 @@ def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, p
             middle = (low + high) // 2
             differs = promise.holds(look.rows(np.array([middle]))[0, columns][0]) != side[k]
             low, high = (low, middle) if differs else (middle, high)
-        if closer == SWITCHES:
+        if closer == PROMISES.switches:
             break
-        time, jump, looked = _at_switch(look, low, columns, promise, STEP * size)
+        time, jump, looked = _at_switch(look, low, columns, promise, PROMISES.step * size)
         closer += looked
-        if jump > STEP * size:
+        if jump > PROMISES.step * size:
             return (
                 f"{promise.origin}: `smooth=True` promises a law without a jump, but near t = {time:.4g} s it jumps by "
-                f"{jump:.4g}; the integration did not stop there, and its error is not known. Leave `smooth=True` out, or "
+                f"{jump:.4g}; the integration did not stop there, and its error is unknown. Leave `smooth=True` out, or "
                 "let the cases of piecewise meet where they switch."
             )
     return ""
 
 
 def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed: float) -> tuple[float, float, bool]:
-    """Time of a switch between an output point and the next, the jump there, and whether it had to be looked at closer."""
+    """Time of a switch between an output point and the next, the jump there, and whether it had to be examined more closely."""
     n, holds = promise.step.numel(), promise.holds
 
     def points(times: np.ndarray, values: np.ndarray) -> list[_Point]:
@@ -136,12 +138,12 @@ def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed:
         ]
 
     a, b = points(look.run.t[row : row + 2], look.rows(np.array([row, row + 1])))
-    for k in range(CLOSER):
+    for k in range(PROMISES.closer):
         if min(_step(a, b), _jump(a, b)) <= allowed:
             return b.time, 0.0, k > 0
-        times = np.linspace(a.time, b.time, PARTS + 1)[1:-1]
+        times = np.linspace(a.time, b.time, PROMISES.parts + 1)[1:-1]
         parts = [a, *points(times, look.inside(row, times)), b]
-        place = next((i for i in range(PARTS) if holds(parts[i].excess) != holds(parts[i + 1].excess)), 0)
+        place = next((i for i in range(PROMISES.parts) if holds(parts[i].excess) != holds(parts[i + 1].excess)), 0)
         a, b = parts[place], parts[place + 1]
     return b.time, _jump(a, b), True
 

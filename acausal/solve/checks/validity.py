@@ -1,4 +1,4 @@
-"""Whether a model is right where it is used: what must hold at the start, and what it neglects in a run."""
+"""Whether a model is valid where it is used: what must hold at the start, and what it neglects in a run."""
 
 from __future__ import annotations
 
@@ -15,13 +15,11 @@ from acausal.errors import InitializationError
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
+from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.problem import Point, Problem
 
-# Most output points that are looked at, and where each look costs a solution of the equations.
-ROWS, DEAR = 500, 40
-# Of what is not small: values of the integrator that are less are small.
-NEARLY = 0.3
+VALIDITY = POLICY.validity
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,7 @@ def check_start(problem: Problem, at: Point) -> None:
 
 
 def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
-    """Say what components neglected although it was not small; at most ROWS of the points are looked at.
+    """Say what components neglected although it was not small; at most VALIDITY.rows of the points are checked.
 
     Parameters
     ----------
@@ -91,14 +89,16 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     seen = compiled.cache["validity"]
     if not seen.stated:
         return []
-    rows = np.unique(np.linspace(0, len(run.t) - 1, min(len(run.t), DEAR if seen.wanted else ROWS)).astype(int))
+    rows = np.unique(
+        np.linspace(0, len(run.t) - 1, min(len(run.t), VALIDITY.dear if seen.wanted else VALIDITY.rows)).astype(int)
+    )
     x, z, t, constants = run.x[rows], run.z[rows], run.t[rows], run.constants[rows]
     values = np.abs(seen.function(x, z, run.solver.p, t, constants))
     if seen.wanted:
-        # The integrator's own values tell at once where nothing is near its limit.
+        # The integrator's own values show at once where nothing is near its limit.
         most = np.max(np.nan_to_num(values), axis=0)
         if not any(
-            part > NEARLY * s.share * whole
+            part > VALIDITY.nearly * s.share * whole
             for (s, _), part, whole in zip(seen.stated, most[::2], most[1::2], strict=True)
         ):
             return []

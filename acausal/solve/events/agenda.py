@@ -1,4 +1,4 @@
-"""What is known of time before it comes: conditions that the clock decides, and instants that discrete variables plan."""
+"""What is known in advance: conditions that the clock decides, and instants that discrete variables plan."""
 
 from __future__ import annotations
 
@@ -8,12 +8,9 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.guards import Guards
+from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.problem import Point
-
-APART = 1e-12  # of the time: less is no room for an integration
-# Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
-ADDED = 1e-11
 
 
 class Agenda:
@@ -31,7 +28,7 @@ class Agenda:
 
     def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
         self.guards, self.p, self.times = guards, p, times
-        self.near = APART * max(abs(float(times[0])), abs(float(times[-1])))
+        self.near = POLICY.agenda.apart * max(abs(float(times[0])), abs(float(times[-1])))
         self.switches = [k < guards.n_switches for k in guards.timed]
         self._plans = bool(guards.planned.function.numel_out(0))
 
@@ -90,13 +87,13 @@ class Agenda:
             return None
         instant = float(np.min(ahead))
         near = float(self.times[np.argmin(np.abs(self.times - instant))])
-        on_output = abs(near - instant) <= ADDED * abs(instant) and near > at.time
+        on_output = abs(near - instant) <= POLICY.agenda.added * abs(instant) and near > at.time
         return instant, near if on_output else instant
 
     def held_back(self, at: Point, instants: Instants) -> Point:
         """Return a point at the stop time at which what becomes true only after it does not act.
 
-        `time > due` is not true where time is `due`: a run that goes on from there begins with that.
+        `time > due` is not true where time is `due`: a run that continues from there begins with that.
         """
         if not len(at.truth):
             return at

@@ -7,17 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
-# Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
-FAITHFUL = 0.1
-# Steps of an integration where it is not.
-MOST_STEPS = 20_000
-LOOKS = 5  # points of an interval whose defects tell whether its cubic is the motion
+BETWEEN = POLICY.between
 
 
 @dataclass(frozen=True)
@@ -52,7 +49,7 @@ def between(
     Parameters
     ----------
     run : Integrator
-        Tells model, parameters and tolerance.
+        With model, parameters and tolerance.
     constants : Constants
         Those of the segment.
     ends, x, z : arrays, shapes (2,), (2, nx), (2, nz)
@@ -65,8 +62,8 @@ def between(
     z = run.consistent(x, z, ends, vector)
     rates = run.consistent.rates(x, z, ends, vector)
     found, slope = cubic(s, h, x, rates)
-    guess = z[0] + s * (z[1] - z[0])
-    inside = run.consistent(found, guess, times, vector)
+    nearly = z[0] + s * (z[1] - z[0])
+    inside = run.consistent(found, nearly, times, vector)
     true = run.consistent.rates(found, inside, times, vector)
     weights = run.tolerance * (np.abs(found) + run.settings.nominal[: c.nx])
     defect = np.max(np.abs(slope - true) * h / weights, axis=1, initial=0.0)
@@ -81,13 +78,13 @@ def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.
     c, vector = run.compiled, constants.vector
     if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
         return np.zeros(2)
-    looks = np.linspace(ends[0], ends[1], LOOKS + 2)[1:-1]
-    if np.all(between(run, constants, ends, x, z, looks).defect <= FAITHFUL):
+    looks = np.linspace(ends[0], ends[1], BETWEEN.looks + 2)[1:-1]
+    if np.all(between(run, constants, ends, x, z, looks).defect <= BETWEEN.faithful):
         found, known = between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)
         if known:
             return found[-1]
     at = Point(float(ends[0]), x[0], z[0], constants)
-    stretch = run.attempt(at, ends, replace(run.way, max_steps=MOST_STEPS, careful=True))
+    stretch = run.attempt(at, ends, replace(run.way, max_steps=BETWEEN.most_steps, careful=True))
     if isinstance(stretch, Stretch):
         return stretch.energy[-1]
     return between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)[0][-1]

@@ -14,11 +14,9 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.intervals import bounds
 from acausal.errors import caution
+from acausal.policy import POLICY
 
-FIRST, MOST = 64, 50_000  # intervals to begin with, and most at once
-SHORTEST = 1e-14  # of the greatest time
-ROUNDING = 1e-12  # of the greatest value in an interval
-HALVINGS = 60
+CLOCK = POLICY.clock
 
 
 def clock_times(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> list[float]:
@@ -48,14 +46,14 @@ def clock_times(compiled: CompiledModel, p: np.ndarray, start: float, stop: floa
 def _changes(
     function: ca.Function, slope: ca.Function, inclusive: bool, p: np.ndarray, start: float, stop: float
 ) -> tuple[np.ndarray, float]:
-    """Instants at which a function of time passes 0, and the length of intervals that were not looked into."""
+    """Instants at which a function of time passes 0, and the length of intervals that were not examined."""
 
     def holds(t: np.ndarray) -> np.ndarray:
         value = bounds(function, p, t, t)[0][0]
         return value <= 0 if inclusive else value < 0
 
-    shortest = SHORTEST * max(abs(start), abs(stop), stop - start)
-    edges = np.linspace(start, stop, FIRST + 1)
+    shortest = CLOCK.shortest * max(abs(start), abs(stop), stop - start)
+    edges = np.linspace(start, stop, CLOCK.first + 1)
     low, high, found, missed = edges[:-1], edges[1:], [np.empty(0)], 0.0
     while len(low):
         (least, most), jumps = bounds(function, p, low, high)
@@ -63,10 +61,10 @@ def _changes(
         low, high, jumps, size = low[mixed], high[mixed], jumps[mixed], np.maximum(-least, most)[mixed]
         (slowest, fastest), _ = bounds(slope, p, low, high)
         middle, reach = (low + high) / 2, np.maximum(-slowest, fastest) * (high - low) / 2
-        far = np.abs(bounds(function, p, middle, middle)[0][0]) > reach + ROUNDING * size
+        far = np.abs(bounds(function, p, middle, middle)[0][0]) > reach + CLOCK.rounding * size
         once = ((slowest > 0) | (fastest < 0)) & ~jumps
         last = once | (high - low <= shortest)
-        if len(low) > MOST:
+        if len(low) > CLOCK.most:
             missed, last = float(np.max(high - low)), np.ones(len(low), dtype=bool)
         found.append(_halve(holds, low[last], high[last]))
         go_on = ~last & (jumps | ~far)
@@ -80,7 +78,7 @@ def _halve(holds: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.
     before = holds(low)
     differs = before != holds(high)
     low, high, before = low[differs], high[differs], before[differs]
-    for _ in range(HALVINGS if len(low) else 0):
+    for _ in range(CLOCK.halvings if len(low) else 0):
         middle = (low + high) / 2
         same = holds(middle) == before
         low, high = np.where(same, middle, low), np.where(same, high, middle)

@@ -1,4 +1,4 @@
-"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, go on from there."""
+"""A run with breaks and events: integrate while nothing changes, stop where a condition changes, continue from there."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError, caution
+from acausal.policy import POLICY
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
 from acausal.solve.events.instant import Cycling, Instants
@@ -18,12 +19,11 @@ from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Refusal, accepted, next_ways
 from acausal.solve.integrate.segment import passage, segment
-from acausal.solve.integrate.settings import LONG
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 from acausal.solve.start.start import places_text
 
-MOST, WINDOW = 100, 1e-9  # events within this part of the run, or without any motion between them
+INSTANTS = POLICY.instants
 
 
 class Chattering(Exception):
@@ -42,14 +42,14 @@ class Run:
     breaks : list of float
         Times at which conditions of time alone change.
     declared : list of float
-        Those of them that are no events, as they follow from parameters.
+        Those of them that are not events, as they follow from parameters.
     """
 
     def __init__(self, integrator: Integrator, times: np.ndarray, breaks: list[float], declared: list[float]) -> None:
         self.integrator, self.times = integrator, times
         # A rounding error apart from an output, a break is on it.
         near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
-        self.breaks = [n if abs(n - b) <= 1e-13 * abs(b) else b for n, b in zip(near, breaks, strict=True)]
+        self.breaks = [n if abs(n - b) <= POLICY.agenda.same * abs(b) else b for n, b in zip(near, breaks, strict=True)]
         self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in set(declared)}
         problem = integrator.problem
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
@@ -58,7 +58,7 @@ class Run:
         self.locator = Locator(integrator, self.instants)
         self.agenda = Agenda(self.guards, problem.p, times)
         self.events: list[float] = []
-        self.recent: deque[float] = deque(maxlen=MOST)
+        self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.stride = Stride(times)
         self.weak, self.hasty = 0, False
         self.first: Point | None = None
@@ -107,7 +107,7 @@ class Run:
         constants = agenda.constants(at.constants, after)
         if (constants.vector != at.constants.vector).any():
             acts = ~self.instants.is_switch
-            with suppress(Cycling, InitializationError, Failure):  # laws without values there hold for nobody
+            with suppress(Cycling, InitializationError, Failure):  # laws without values there do not matter
                 # What acts is kept from becoming true.
                 new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
@@ -130,7 +130,9 @@ class Run:
     def _advance(self, at: Point, end: float) -> Point:
         """Integrate one stretch and go to its end, or to the first event in it."""
         grid = self.stride.grid(at.time, end)
-        way = replace(self.integrator.way, max_steps=max(1000, LONG // (len(grid) - 1)))
+        way = replace(
+            self.integrator.way, max_steps=max(POLICY.rescue.fewest_long, POLICY.rescue.long // (len(grid) - 1))
+        )
         stretch = self.integrator.attempt(at, self.stride.looks(grid), way)
         if isinstance(stretch, Refusal):
             return self._otherwise(at, grid, stretch)
@@ -151,14 +153,14 @@ class Run:
     def _warn_of_haste(self, at: Point) -> None:
         self.hasty = True
         caution(
-            f"from t = {at.time:.6g} s on, conditions turn faster than they are looked at, {2 * self.stride.density} times an "
-            "interval; one that changes and changes back in between is missed. One of these:\n"
+            f"from t = {at.time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
+            "interval; a change that reverts in between is missed. One of these:\n"
             f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
-            "More intervals look more often: simulate(..., intervals=...)."
+            "More intervals mean more checks: simulate(..., intervals=...)."
         )
 
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
-        """Try in another way, or look at less of the time, as the law may no longer be right beyond an event."""
+        """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
         run = self.integrator
         following = next_ways(run.way, refusal, run.settings.rescues(grid, run.loops))
         if not following:
@@ -167,7 +169,7 @@ class Run:
         return at
 
     def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:
-        """Look at less of the time: the law may no longer be right beyond an event."""
+        """Shorten the time: the law may no longer be valid beyond an event."""
         run = self.integrator
         if self.stride.shorten(grid):
             return at
@@ -175,7 +177,7 @@ class Run:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            way = replace(run.way, max_steps=LONG, careful=True)
+            way = replace(run.way, max_steps=POLICY.rescue.long, careful=True)
             stretch = run.attempt(at, times, way) if k else passage(run, at, times, 1)
             try:
                 crossing = self.locator.first(at, accepted(stretch), depth=1)
@@ -183,8 +185,8 @@ class Run:
                 failure = later
                 continue
             return self._passed(at, accepted(stretch), crossing)
-        here = self.locator.row(at, at)
-        due = (here.rate < 0) & (here.value <= -here.rate * 1e-6 * self.instants.span)
+        here = self.locator.sample(at, at)
+        due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
         if not due.any():
             raise failure
         return self._happen(at, event=True, due=due)
@@ -197,7 +199,7 @@ class Run:
         return stretch.end(at)
 
     def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
-        """Keep what was before the event, let it happen, and go on from it."""
+        """Keep what was before the event, let it happen, and continue from it."""
         after = crossing.after
         out = after.value <= 0
         width = self.instants.width(at)
@@ -258,16 +260,16 @@ class Run:
         return float(problem.compiled.stored(at.x, at.z, problem.p, at.time, at.constants.vector)[0][0])
 
     def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
-        crowded = len(self.recent) == MOST and time - self.recent[0] <= WINDOW * self.instants.span
+        crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span
         self.recent.append(time)
-        if crowded or self.weak >= MOST:
-            raise Chattering(self._text(time, guards, f"changed {MOST} times with hardly any motion between"))
+        if crowded or self.weak >= INSTANTS.most:
+            raise Chattering(self._text(time, guards, f"changed {INSTANTS.most} times with hardly any motion between"))
 
     def _text(self, time: float, guards: list[int], what: str) -> str:
         return (
             f"at t = {time:.6g} s the events do not come to an end; these conditions {what}:\n"
             f"{places_text(self.integrator.compiled, guards)}\n"
-            "A body that bounces ever lower, or a force that changes sign with the speed, does that. Let a discrete "
+            "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
-            "without a jump (smooth=True). What was computed is kept."
+            "without a jump (smooth=True). The result up to there is kept."
         )

@@ -33,7 +33,7 @@ def levels(sides: Sides, slack: np.ndarray) -> np.ndarray:
 
 
 def dips(sides: Sides) -> tuple[np.ndarray, np.ndarray]:
-    """Return the least values of the cubics inside of each interval, and estimates of their errors; (n - 1, m)."""
+    """Return the least values of the cubics inside each interval, and estimates of their errors; (n - 1, m)."""
     h = np.diff(sides.times)[:, None]
     a, b = sides.value[:-1], sides.value[1:]
     da, db = sides.rate[:-1] * h, sides.rate[1:] * h

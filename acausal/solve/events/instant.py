@@ -7,18 +7,17 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.loops import CLOSED, close, refuse_open_loops
+from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import algebraic
 
-ROUNDS = 20
-SHORT = 1e-8  # of the run: what changes sign within that time does so now
-JUMP = 1e-5  # less is the error with which an event is located
+INSTANTS = POLICY.instants
 
 
 class Cycling(Exception):
-    """The conditions of the guards `names` find no rest."""
+    """The conditions of the guards `names` do not settle."""
 
     def __init__(self, guards: list[int]) -> None:
         super().__init__()
@@ -59,8 +58,8 @@ class Instants:
         """Which watched conditions hold from now on; what passes 0 just now counts as passed."""
         value, rate = self.rates(at)
         width = self.width(at)
-        moving = np.abs(rate) * self.span > 1e-3 * width
-        soon = crossed | (np.abs(value) <= np.abs(rate) * SHORT * self.span)
+        moving = np.abs(rate) * self.span > INSTANTS.moves * width
+        soon = crossed | (np.abs(value) <= np.abs(rate) * INSTANTS.short * self.span)
         near = moving & (np.abs(value) <= width) & soon
         return np.where(near, rate < 0, np.where(value == 0, at.truth, value < 0))
 
@@ -97,7 +96,7 @@ class Instants:
         moved: list[int] = []
         none = np.zeros(len(self.watched), dtype=bool)
         due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
-        for _ in range(ROUNDS):
+        for _ in range(INSTANTS.rounds):
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
@@ -120,11 +119,11 @@ class Instants:
         before, after = (self.guards.continuous(*here, new)[0].copy() for new in both)
         jumps = np.nan_to_num(np.abs(after - before))
         worst = int(np.argmax(jumps))
-        if jumps[worst] > JUMP:
+        if jumps[worst] > INSTANTS.jump:
             raise Failure(
                 at.time,
-                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}, and no "
-                "derivative is as fast as a jump. Let the cases of piecewise meet where they switch: a speed by a ramp, "
+                f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; a jump has no "
+                "derivative. Let the cases of piecewise meet where they switch: a speed by a ramp, "
                 "piecewise((0, time < t1), (c * (time - t1), time < t2), c * (t2 - t1)), an angle with its slope as well; "
                 "or let a state jump by when(..., reinit(...))",
             )
@@ -146,6 +145,6 @@ class Instants:
             return after
         held = np.array(jumped, dtype=int)
         after, mismatch = close(self.problem, after, held)
-        if mismatch > CLOSED:
+        if mismatch > POLICY.loops.closed:
             refuse_open_loops(self.problem, after, held)
         return after

@@ -7,22 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.events.between import FAITHFUL, between
+from acausal.policy import POLICY
+from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
-from acausal.solve.events.stride import FINE
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import pace
 from acausal.solve.problem import Point
 
-DEPTH, SUSPECTS, TRIALS = 3, 4, 80
-TRIAL_STEPS = 20_000
-# A condition may change within an interval that it could cross so much faster than it moves at the ends.
-REACH = 3.0
-# Times at which one stretch is looked at between its rows.
-LOOKS = 4000
+LOCATE = POLICY.locate
+LOOKS = POLICY.looks
 
 
 @dataclass(frozen=True)
@@ -39,7 +35,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Crossing:
-    """The first change: rows before and after it, at most a rounding error apart, and the greatest values before."""
+    """The first change: samples before and after it, at most a rounding error apart, and the greatest values before."""
 
     before: Sample
     after: Sample
@@ -63,7 +59,7 @@ class Locator:
 
     def __init__(self, run: Integrator, instants: Instants) -> None:
         self.run, self.instants = run, instants
-        self.shortest = 1e-12 * instants.span
+        self.shortest = LOCATE.shortest * instants.span
 
     def first(self, at: Point, stretch: Stretch, depth: int = 0, content: bool = False) -> Crossing | None:
         """Return the first change after `at` along a stretch that begins there.
@@ -75,18 +71,18 @@ class Locator:
         stretch : Stretch
             Rows after it.
         depth : int
-            How often rows between rows were asked for.
+            How often samples between samples were requested.
         content : bool
-            Whether to do without a look between the rows where there would be too many.
+            Whether to do without a look between the samples where there would be too many.
 
         Raises
         ------
         TooCoarse
-            If the stretch needs more rows to tell.
+            If the stretch needs more samples to tell.
         Failure
             If the motion cannot be followed up to the change.
         """
-        rows = self._rows(
+        samples = self._samples(
             at,
             np.concatenate([[at.time], stretch.times]),
             np.vstack([at.x[None], stretch.x]),
@@ -94,7 +90,9 @@ class Locator:
             stretch.constants,
         )
         sides = Sides(
-            np.array([r.time for r in rows]), np.array([r.value for r in rows]), np.array([r.rate for r in rows])
+            np.array([r.time for r in samples]),
+            np.array([r.value for r in samples]),
+            np.array([r.rate for r in samples]),
         )
         width = self.instants.width(at)
         level = levels(sides, width / 100)
@@ -103,35 +101,35 @@ class Locator:
         least, error = dips(sides)
         margin = least - level[:-1]
         travel = pace(sides.times, sides.rate)
-        most = max(SUSPECTS, len(out) // FINE) if depth == 0 or content else len(out)
-        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= REACH * travel
+        most = max(LOCATE.suspects, len(out) // LOOKS.fine) if depth == 0 or content else len(out)
+        near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= LOCATE.reach * travel
         round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
-        turning = _near(rows[: end + 1], level[: end + 1])
+        turning = _near(samples[: end + 1], level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
         doubtful[end:] = False
         if not content and depth == 0 and (round_about.any() or len(turning) > most):
             raise TooCoarse
         if len(turning) <= most:
-            doubtful[:end] |= self._seen_between(at, rows, level, turning, end)
+            doubtful[:end] |= self._seen_between(at, samples, level, turning, end)
         suspects = np.flatnonzero(doubtful)
         if len(suspects) > most:
             if not content:
                 raise TooCoarse
             suspects = suspects[:0]
         peak = np.maximum.accumulate(sides.value, axis=0)
-        for k in suspects if depth < DEPTH else []:
-            inner = self._inside(at, rows[k], rows[k + 1], depth)
+        for k in suspects if depth < LOCATE.depth else []:
+            inner = self._inside(at, samples[k], samples[k + 1], depth)
             if inner:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
         if end == len(out):
             return None
-        return self._narrow(at, rows[end], rows[end + 1], width / 100, peak[end])
+        return self._narrow(at, samples[end], samples[end + 1], width / 100, peak[end])
 
-    def row(self, at: Point, here: Point) -> Sample:
+    def sample(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""
-        return self._rows(at, np.array([here.time]), here.x[None], here.z[None], here.constants)[0]
+        return self._samples(at, np.array([here.time]), here.x[None], here.z[None], here.constants)[0]
 
-    def _rows(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Sample]:
+    def _samples(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Sample]:
         """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
         run, guards = self.run, self.instants.guards
         z = run.consistent(x, z, t, constants.vector, guards.needs)
@@ -144,19 +142,19 @@ class Locator:
         ]
 
     def _seen_between(
-        self, at: Point, rows: list[Sample], level: np.ndarray, turning: list[int], end: int
+        self, at: Point, samples: list[Sample], level: np.ndarray, turning: list[int], end: int
     ) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
         found = np.zeros(end, dtype=bool)
-        todo = [(k, rows[k], rows[k + 1], level[k]) for k in turning]
+        todo = [(k, samples[k], samples[k + 1], level[k]) for k in turning]
         looks = 0
         while todo:
             k, a, b, least = todo.pop()
-            if found[k] or b.time - a.time <= FINE * self.shortest:
+            if found[k] or b.time - a.time <= LOOKS.fine * self.shortest:
                 continue
-            looks += FINE
-            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, FINE + 1)[1:-1])
-            if inner is None or looks > LOOKS or any(np.any(r.value < least) for r in inner):
+            looks += LOOKS.fine
+            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
+            if inner is None or looks > LOCATE.looks or any(np.any(r.value < least) for r in inner):
                 found[k] = True
                 continue
             parts = [a, *inner, b]
@@ -167,18 +165,18 @@ class Locator:
         """Rows between two others; None where the cubic does not follow the motion."""
         ends = np.array([a.time, b.time])
         found = between(self.run, a.constants, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
-        if np.any(found.defect > FAITHFUL):
+        if np.any(found.defect > POLICY.between.faithful):
             return None
-        return self._rows(at, found.times, found.x, found.z, a.constants)
+        return self._samples(at, found.times, found.x, found.z, a.constants)
 
     def _inside(self, at: Point, a: Sample, b: Sample, depth: int) -> Crossing | None:
-        """Look closer between two rows."""
-        times = np.linspace(a.time, b.time, FINE + 1)
+        """Look closer between two samples."""
+        times = np.linspace(a.time, b.time, LOOKS.fine + 1)
         begin = Point(a.time, a.x, a.z, at.constants, at.truth)
-        return self.first(begin, accepted(self.run.trial(begin, times, TRIAL_STEPS)), depth + 1)
+        return self.first(begin, accepted(self.run.trial(begin, times, LOCATE.trial_steps)), depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
-        """Narrow an interval: the cubic tells where to look next, a little to the side where no row is near.
+        """Narrow an interval: the cubic tells where to look next, a little to the side where no sample is near.
 
         Raises
         ------
@@ -187,16 +185,16 @@ class Locator:
         """
         level = np.where(a.value > 0, 0.0, np.minimum(a.value, 0.0) - slack)
         shortest = max(self.shortest, 4 * float(np.spacing(abs(b.time))))
-        guess, last, width = b.time, b.time, [np.inf, np.inf]
+        predicted, last, width = b.time, b.time, [np.inf, np.inf]
         # A time that could not be reached: perhaps the law has no value beyond the change.
         wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
-        for _ in range(TRIALS):
+        for _ in range(LOCATE.trials):
             span = min(b.time, wall) - a.time
             if span <= shortest:
                 break
-            last, guess = guess, self._guess(a, b, level)
-            aside = min(max(abs(guess - last), shortest / 3), span / 10)
-            time = guess + aside if guess - a.time < b.time - guess else guess - aside
+            last, predicted = predicted, self._predicted(a, b, level)
+            aside = min(max(abs(predicted - last), shortest / 3), span / 10)
+            time = predicted + aside if predicted - a.time < b.time - predicted else predicted - aside
             if span > 0.5 * width[-2] or not a.time < time < min(b.time, wall):
                 time = a.time + span / 2
             width.append(span)
@@ -212,13 +210,13 @@ class Locator:
         return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
 
     def _at_wall(self, at: Point, a: Sample, b: Sample, wall: float, refusal: Refusal) -> Sample:
-        """The last row that could be reached, where a condition is as near to its change as the tolerance can tell."""
+        """The last sample that could be reached, where a condition is as near to its change as the tolerance can tell."""
         due = (b.value <= 0) & (a.value <= self.instants.width(at))
         if not due.any():
             raise Failure.of(refusal)
         return replace(a, time=wall, value=np.where(due, np.minimum(a.value, 0.0), a.value))
 
-    def _guess(self, a: Sample, b: Sample, level: np.ndarray) -> float:
+    def _predicted(self, a: Sample, b: Sample, level: np.ndarray) -> float:
         out = np.flatnonzero(b.value < level)
         found = [
             root((a.time, b.time), (a.value[k] - level[k], b.value[k] - level[k]), (a.rate[k], b.rate[k])) for k in out
@@ -226,21 +224,21 @@ class Locator:
         return min(found, default=b.time)
 
     def _between(self, at: Point, a: Sample, b: Sample, time: float) -> Sample | Refusal:
-        """The row at a time between two others: on their cubic if it follows the motion, else integrated."""
+        """The sample at a time between two others: on their cubic if it follows the motion, else integrated."""
         found = self._interpolated(at, a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), TRIAL_STEPS)
-        return stretch if isinstance(stretch, Refusal) else self.row(at, stretch.end(at))
+        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), LOCATE.trial_steps)
+        return stretch if isinstance(stretch, Refusal) else self.sample(at, stretch.end(at))
 
 
-def _near(rows: list[Sample], level: np.ndarray) -> list[int]:
+def _near(samples: list[Sample], level: np.ndarray) -> list[int]:
     """Intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
 
     A convex function lies above its tangents: elsewhere it cannot change and change back.
     """
-    times = np.array([r.time for r in rows])[:, None]
-    value, rate = np.array([r.value for r in rows]) - level, np.array([r.rate for r in rows])
+    times = np.array([r.time for r in samples])[:, None]
+    value, rate = np.array([r.value for r in samples]) - level, np.array([r.rate for r in samples])
     h, turns = np.diff(times, axis=0), (rate[:-1] < 0) & (rate[1:] > 0)
     bend = np.where(turns, rate[1:] - rate[:-1], 1.0)
     tangents = (value[:-1] * rate[1:] - value[1:] * rate[:-1] + rate[:-1] * rate[1:] * h) / bend

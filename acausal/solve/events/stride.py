@@ -1,4 +1,4 @@
-"""How much of the time is integrated at once, and how often conditions are looked at in it.
+"""How much time is integrated at once, and how often conditions are checked in it.
 
 After an event the outputs are integrated in blocks of 1, 2, 4, ... intervals: their relative grids, and so the
 integrators, are the same after each event.
@@ -8,15 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import uneven
 
-# Parts of an interval at least, and of one that is looked into.
-FINE = 8
-# Pairs of rows of an interval, and steps of the integrator between two rows: in less than so many nothing turns back.
-DENSEST, STEPS_A_ROW = 32, 4
-# The same of all intervals, that there may be at least: few intervals are looked at as often as many.
-ROWS = 400 * DENSEST
+LOOKS = POLICY.looks
 
 
 class Stride:
@@ -40,7 +36,7 @@ class Stride:
     def __init__(self, times: np.ndarray) -> None:
         self.times = times
         self.interval = float(times[-1] - times[0]) / (len(times) - 1)
-        self.densest = max(DENSEST, ROWS // (len(times) - 1))
+        self.densest = max(LOOKS.densest, LOOKS.rows // (len(times) - 1))
         self.density, self.block, self.piece = 1, 0, np.inf
 
     def grid(self, now: float, end: float) -> np.ndarray:
@@ -52,30 +48,30 @@ class Stride:
         if not self.block:
             return grid
         steps = np.diff(grid)
-        equal = int(np.argmin(np.append(np.isclose(steps, steps[0], rtol=1e-9), False)))
+        equal = int(np.argmin(np.append(np.isclose(steps, steps[0], rtol=LOOKS.equal), False)))
         return grid[: 1 + 2 ** int(np.log2(min(equal, self.block)))]
 
     def looks(self, grid: np.ndarray) -> np.ndarray:
-        """Return the times at which conditions are looked at in a grid."""
+        """Return the times at which conditions are checked in a grid."""
         n = len(grid) - 1
         pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
-        return uneven(grid, 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(FINE / n))))
+        return uneven(grid, 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(LOOKS.fine / n))))
 
     def is_enough(self, stretch: Stretch, grid: np.ndarray) -> bool:
         """Whether a stretch shows all that its steps do; the next one is denser or shorter if not."""
-        if stretch.steps <= STEPS_A_ROW * (len(stretch.times) + 3):
+        if stretch.steps <= LOOKS.steps_a_row * (len(stretch.times) + 3):
             return True
         if self.density < self.densest:
-            needed = max(4 * self.density, stretch.steps / (STEPS_A_ROW * (len(grid) - 1)))
+            needed = max(4 * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
             self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
         elif len(grid) > 2:
-            self.block = max(1, (len(grid) - 1) // FINE)
+            self.block = max(1, (len(grid) - 1) // LOOKS.fine)
         else:
-            self.piece = float(grid[1] - grid[0]) / FINE
+            self.piece = float(grid[1] - grid[0]) / LOOKS.fine
         return False
 
     def look_closer(self) -> bool:
-        """Look more often from now on; False if that is as often as may be."""
+        """Check more often from now on; False if the limit is reached."""
         if self.density >= self.densest:
             return False
         self.density = min(self.densest, 4 * self.density)
@@ -87,7 +83,7 @@ class Stride:
         self.piece *= 2
 
     def shorten(self, grid: np.ndarray) -> bool:
-        """Take fewer intervals than these next; False if it is but one."""
+        """Take fewer intervals next; False if there is only one."""
         if len(grid) <= 2:
             return False
         self.block = max(1, (len(grid) - 1) // 8)
@@ -96,6 +92,6 @@ class Stride:
     def begin(self, since: float | None = None) -> None:
         """Begin with one interval, after an event that came so many seconds after the point before."""
         self.block = 1
-        if since is not None and self.density > DENSEST:
+        if since is not None and self.density > LOOKS.densest:
             # Where there are many looks to an interval, there are many events: look no further than a few.
-            self.piece = max(4 * since, self.interval * DENSEST / self.density)
+            self.piece = max(4 * since, self.interval * LOOKS.densest / self.density)

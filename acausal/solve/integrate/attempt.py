@@ -9,22 +9,16 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.energy import RESOLVED, ROWS, everywhere, refined
+from acausal.solve.integrate.energy import everywhere, refined
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import Setup, rounding, set_up
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Stretch, Trace
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.loop_states import WORN, choose_projection, worn
-
-# Times in a call at which at least the choice of states is looked at.
-FINE = 60
-# Looks at the projection after a call cost about the cube of the number of constraints each.
-WORK = 2e7
-# What is integrated in place of a coordinate follows it; so far off, in parts of its size, it has lost it.
-APART = 0.1
+from acausal.solve.start.loop_states import choose_projection, worn
 
 
 class Integrator:
@@ -39,7 +33,7 @@ class Integrator:
     span : (float, float)
         Start and stop time of the whole run, for the progress.
     before : Trace
-        Of an earlier run whose counts go on.
+        Of an earlier run whose counts continue.
     """
 
     def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
@@ -61,15 +55,15 @@ class Integrator:
         return bool(self.compiled.constraints.size)
 
     def rounding(self, at: Point) -> np.ndarray:
-        """Absolute errors that rounding causes, looked at once a run and only where the tolerance comes near them."""
+        """Absolute errors that rounding causes, computed once a run and only where the tolerance is near them."""
         if self._floor is None:
-            near = self.settings.tolerance < 1e-8 and self.compiled.nz
+            near = self.settings.tolerance < POLICY.calls.near_rounding and self.compiled.nz
             c = self.compiled
             self._floor = rounding(self.problem, at) if near else np.zeros(c.nx + c.nz)
         return self._floor
 
     def _choose(self, at: Point, moves: bool) -> Point:
-        """Start anew from where the constraints hold, with a projection that suits the position."""
+        """Restart from where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
         z = at.z.copy()
@@ -82,12 +76,12 @@ class Integrator:
         """Whether the chosen states became unfit on the way."""
         if not self.loops or constants.moves:
             return False
-        looks = int(np.clip(WORK / self.compiled.constraints.size**3, 8, 100))
+        looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
-        return bool(np.any(worn(self.problem, x[some], times[some], constants) < WORN))
+        return bool(np.any(worn(self.problem, x[some], times[some], constants) < POLICY.loops.worn))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
-        """Integrate in the way of now, carefully where that fails; nobody asks for works."""
+        """Integrate in the current way, carefully where that fails; without works."""
         way = replace(self.way, max_steps=max_steps)
         found = self.attempt(at, times, way, works=False)
         return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found
@@ -95,16 +89,16 @@ class Integrator:
     def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True) -> Stretch | Refusal:
         """Integrate from a point, at times[0], through all other times in one call.
 
-        Works are 0 where they are not asked for.
+        Works are 0 unless requested.
         """
         c = self.compiled
         if not c.nx:
             return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
         at = self._choose(at, way.moves)
-        parts = -(-FINE // (len(times) - 1)) if self.loops and not way.moves else 1
+        parts = -(-POLICY.calls.fine // (len(times) - 1)) if self.loops and not way.moves else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
-            more = max(1, -(-ROWS // ((len(times) - 1) * parts)))
+            more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
             parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span = times[-1] - times[0]
@@ -127,7 +121,7 @@ class Integrator:
         return found if isinstance(found, Refusal) else self._settled(found.every(parts), way.tolerance)
 
     def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
-        """Evaluate a call; its rows, unless it failed or went astray."""
+        """Evaluate a call; return its rows, unless it failed or left the solution."""
         c, trace, n = self.compiled, self.trace, len(times) - 1
         started = clock.perf_counter()
         done, said = call.attempt()
@@ -138,7 +132,7 @@ class Integrator:
         states, algebraics, energy = setup.rows(call)
         if self._is_worn(times[1:], states, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
-        few = RESOLVED if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
+        few = POLICY.energy.resolved if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
         if energy is not None and not c.powers.is_zero() and steps < n * few:
             rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
             given = np.vstack([np.zeros((1, 2)), energy])
@@ -159,20 +153,20 @@ class Integrator:
             self.trace.add(found.every(parts))
 
     def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
-        """What goes on from the last row starts on the equations; the other rows settle when somebody reads them."""
+        """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""
         last, vector = slice(-1, None), stretch.constants.vector
         z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
         lost, self.consistent.unsolved = self.consistent.unsolved, []
         end = Point(float(stretch.times[-1]), stretch.x[-1], z[-1], stretch.constants)
         q = self.problem.projected(end).x
-        if not np.all(np.abs(q - end.x) <= APART * (self.settings.nominal[: len(q)] + np.abs(q))):
+        if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time, Kind.APART.value)
         if lost and not self.consistent.holds(end.x, end.z, lost[0], vector, tolerance):
             return Refusal(Kind.UNSOLVABLE, end.time, f"{Kind.UNSOLVABLE.value} there")
         return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
 
     def report(self, time: float) -> None:
-        """Tell the progress."""
+        """Report the progress."""
         if self.settings.progress:
             start, stop = self.span
             self.settings.progress((time - start) / (stop - start), self.trace.steps)

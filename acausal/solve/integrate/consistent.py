@@ -11,17 +11,11 @@ import numpy as np
 
 from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.newton import TERMS, algebraic
+from acausal.solve.start.newton import algebraic, terms
 
-# Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
-SETTLED = 1e-7
-# The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
-ONCE = 1.0
-# Of the largest unknown: what is smaller may be rounding, which never settles.
-NOISE = 1e-9
-# Times at which sizes of terms are taken, and times in a call from which on that is done anew: it costs little then.
-LOOKS, MANY = 4, 200
+CONSISTENT = POLICY.consistent
 
 
 class Consistent:
@@ -78,7 +72,9 @@ class Consistent:
         for step in c.passes(unknowns, equations):
             doubtful |= self._settle(step, size[step.unknowns], x, z, t, constants)
         for row in sorted(doubtful):
-            if not self.holds(x[row], z[row], float(t[row]), constants[row], TERMS * np.finfo(float).eps, equations):
+            if not self.holds(
+                x[row], z[row], float(t[row]), constants[row], POLICY.newton.terms * np.finfo(float).eps, equations
+            ):
                 self._alone(row, x, z, first, t, constants)
         return z
 
@@ -100,8 +96,8 @@ class Consistent:
         c = self.compiled
         local = c.at(x, z, self.p, t, constants, 0.0)
         rows = c.nx + (np.arange(c.nz) if equations is None else equations)
-        terms = np.abs(local.jacobian[rows, : c.nx + c.nz]) @ np.abs(np.concatenate([x, z]))
-        return bool(np.all(np.abs(local.value[rows]) <= tolerance * (1 + terms)))
+        sizes = terms(local.jacobian[rows, : c.nx + c.nz], np.concatenate([x, z]), c.nominal)
+        return bool(np.all(np.abs(local.value[rows]) <= tolerance * sizes))
 
     def _sizes(
         self,
@@ -115,9 +111,9 @@ class Consistent:
         """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
         c = self.compiled
         key = tuple(unknowns)
-        if key not in self._natural or len(t) > MANY:
+        if key not in self._natural or len(t) > CONSISTENT.many:
             size = np.zeros(c.nz)
-            for k in np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int)):
+            for k in np.unique(np.linspace(0, len(t) - 1, CONSISTENT.looks).astype(int)):
                 J = abs(c.at(x[k], z[k], self.p, float(t[k]), constants[k], 0.0).jacobian[c.nx + equations])
                 entries = J[:, c.nx + unknowns].tocoo()
                 terms = (J @ np.abs(np.concatenate([x[k], z[k]])))[entries.row]
@@ -127,13 +123,14 @@ class Consistent:
                 size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
             self._natural[key] = size
         size = np.maximum(self._natural[key], np.max(np.abs(z), axis=0))
-        return np.maximum(size, NOISE * np.max(size)) if size.any() else np.ones(len(size))
+        nominal = c.nominal[c.nx :]
+        return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
     def _settle(
         self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray
     ) -> set[int]:
         """Repeat a pass in place until nothing changes; return the rows where it did not get there."""
-        enough = ONCE if step.linear else SETTLED
+        enough = CONSISTENT.once if step.linear else CONSISTENT.settled
         rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), set()
         while rows.size:
             found = self._newton(step, x[rows], z[rows], t[rows], constants[rows])

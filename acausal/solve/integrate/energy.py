@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
+from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.trace import Stretch
@@ -20,17 +21,7 @@ from acausal.solve.looks import GOLDEN
 from acausal.solve.problem import Point
 from acausal.solve.start.newton import algebraic
 
-# Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
-FEWEST, ROWS, MOST = 48, 192, 2**17
-# Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).
-RESOLVED = 8
-# Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
-GAIN = 20
-# Points beside the nodes where the power itself is looked at, and what a spline through nodes that are near enough to
-# each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
-PROBES, ALIKE = 24, 1e-2
-# Rows at which the stored energy is looked at.
-LOOKS = 9
+ENERGY = POLICY.energy
 
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
@@ -45,7 +36,7 @@ def powers(
     compiled : CompiledModel
         The model.
     solver : Consistent
-        Makes what the powers need of z right.
+        Solves for what the powers need of z.
     x, z, t : arrays, shapes (n, nx), (n, nz), (n,)
         States, algebraic unknowns nearly right, and times in s.
     constants : array
@@ -91,7 +82,7 @@ def refined(
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
     x, z, t, constants = rows
-    count, last = min(FEWEST, len(t) - 1), len(t) - 1
+    count, last = min(ENERGY.fewest, len(t) - 1), len(t) - 1
     least = tolerance * _exchanged(compiled, solver, rows) / len(t)
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
@@ -100,7 +91,9 @@ def refined(
             return given, False
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
         each, error = (np.diff(w[some], axis=0) for w in (fine, rough - fine))
-        settled = bool(np.all(np.abs(error) / GAIN <= np.maximum(tolerance * np.mean(np.abs(each), axis=0), least)))
+        settled = bool(
+            np.all(np.abs(error) / ENERGY.gain <= np.maximum(tolerance * np.mean(np.abs(each), axis=0), least))
+        )
         if settled or len(some) == len(t):
             break
         count = min(2 * count, last)
@@ -128,8 +121,8 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
     rates = solver.rates(x, z, t, constants)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
     exchanged = _exchanged(compiled, solver, rows)
-    parts = 2 ** max(1, int(np.ceil(np.log2(FEWEST / n))))
-    while n * parts <= MOST:
+    parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
+    while n * parts <= ENERGY.most:
         xs, zs, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
         power = powers(compiled, solver, xs, zs, t[0] + since, constants)
         if not np.all(np.isfinite(power)):
@@ -138,8 +131,8 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
         scale = np.mean(np.abs(power), axis=0) * (t[-1] - t[0]) + exchanged
         last, change = change, np.max(np.abs(found - before), axis=0)
         # Between its steps an integrator is not smooth: then more points do not change less.
-        rough = np.all((change >= last / 4) & (change <= ALIKE * scale))
-        agreed = agreed + 1 if np.all(change / GAIN <= tolerance * scale) or rough else 0
+        rough = np.all((change >= last / 4) & (change <= ENERGY.alike * scale))
+        agreed = agreed + 1 if np.all(change / ENERGY.gain <= tolerance * scale) or rough else 0
         if agreed == 2 and _seen(compiled, solver, rows, since, power, rates):
             return found, True
         parts *= 2
@@ -147,9 +140,9 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
 
 
 def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
-    """By how much the stored energy varies: a power that is next to nothing need not be known to its own tolerance."""
+    """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
     x, z, t, constants = rows
-    some = np.unique(np.linspace(0, len(t) - 1, LOOKS).astype(int))
+    some = np.unique(np.linspace(0, len(t) - 1, ENERGY.looks).astype(int))
     return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))
 
 
@@ -176,7 +169,7 @@ def _seen(
 ) -> bool:
     """Whether a spline of the power, over times since the first row, is right beside its nodes."""
     x, z, t, constants = rows
-    s = (np.arange(1, PROBES + 1) * GOLDEN) % 1 * (len(t) - 1)
+    s = (np.arange(1, ENERGY.probes + 1) * GOLDEN) % 1 * (len(t) - 1)
     if rates is None:
         k = np.minimum(s.astype(int), len(t) - 2)
         ends = np.unique([k, k + 1])
@@ -187,7 +180,7 @@ def _seen(
     probes = _inside((x, z, t, constants), rates, s)
     true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], constants)
     missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(probes[2]) - true)
-    return bool(np.all(missed <= ALIKE * np.max(np.abs(power), axis=0)))
+    return bool(np.all(missed <= ENERGY.alike * np.max(np.abs(power), axis=0)))
 
 
 def _halved(some: np.ndarray) -> np.ndarray:

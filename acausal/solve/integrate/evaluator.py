@@ -66,7 +66,7 @@ class Evaluator:
         return call(*values)[0].reshape(n, -1).copy()
 
     def _solve(self, wanted: set[int]) -> None:
-        """Make some algebraic unknowns right, and all that they need."""
+        """Solve for some algebraic unknowns, and all that they need."""
         if not wanted:
             return
         unknowns = self.compiled.dependence.needed(wanted)[0]

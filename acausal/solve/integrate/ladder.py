@@ -1,4 +1,4 @@
-"""How a stretch of a run is integrated, and how it is tried next where an integrator refuses."""
+"""How a stretch of a run is integrated, and what is tried next where an integrator refuses."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TypeVar
 
-# Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a singular
-# position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
-PATIENT = 20_000
-LOOSER, LOOSEST = (1.0, 1e2, 1e4), 1e-4
+from acausal.policy import POLICY
+
+RESCUE = POLICY.rescue
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,7 @@ class Way:
     max_steps : int
         Steps after which to give up.
     careful : bool
-        Whether to begin with a short step, and to factorise without relying on pivots of before.
+        Whether to begin with a short step, and to factorise without reusing earlier pivots.
     """
 
     method: str
@@ -42,7 +41,7 @@ Found = TypeVar("Found")
 
 
 class Kind(Enum):
-    """What an integrator stumbled over."""
+    """Why an integrator gave up."""
 
     STEPS = "more steps than allowed"
     CORRECTOR = "the Newton iteration does not converge"
@@ -64,7 +63,7 @@ class Refusal:
     time : float
         Where it had got to, in s.
     reason : str
-        What it said, as far as it said something.
+        What the integrator reported, if anything.
     """
 
     kind: Kind
@@ -73,7 +72,7 @@ class Refusal:
 
 
 class Failure(Exception):
-    """The integrator gave up; `time` is where, `reason` what it said."""
+    """The integrator gave up; `time` is where, `reason` what it reported."""
 
     def __init__(self, time: float, reason: str) -> None:
         super().__init__(reason)
@@ -83,7 +82,7 @@ class Failure(Exception):
     def of(cls, refusal: Refusal) -> Failure:
         """Return the failure that a refusal is, if nothing else helps."""
         return cls(
-            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it may take"
+            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it is allowed"
         )
 
 
@@ -95,7 +94,7 @@ def accepted(found: Found | Refusal) -> Found:
 
 
 def read(said: str, begin: float, end: float) -> Refusal:
-    """Read a refusal from what IDAS says, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
+    """Read a refusal from the message of IDAS, such as `At t = 0.5 and h = 1e-9, the error test failed repeatedly`.
 
     Parameters
     ----------
@@ -120,13 +119,13 @@ class Rescues:
     methods : tuple of str
         Methods that may be taken, the first one first.
     projects : bool
-        Whether the projection may move where the chosen states wear out.
+        Whether the projection may move where the chosen states become unsuitable.
     loops : bool
         Whether there are constraints; then whatever goes wrong but too many steps may be the states' fault.
     damps : bool
         Whether vibrations that the outputs cannot show may be damped.
     tolerance : float
-        The tolerance that was asked for.
+        The requested tolerance.
     """
 
     methods: tuple[str, ...]
@@ -157,9 +156,9 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
         What may be changed.
     """
     if way.careful:
-        looser = (min(factor * rescues.tolerance, max(LOOSEST, rescues.tolerance)) for factor in LOOSER)
+        looser = (min(factor * rescues.tolerance, max(RESCUE.loosest, rescues.tolerance)) for factor in RESCUE.looser)
         return tuple(
-            replace(way, method=method, tolerance=tolerance, max_steps=PATIENT)
+            replace(way, method=method, tolerance=tolerance, max_steps=RESCUE.patient)
             for tolerance in dict.fromkeys(looser)
             for method in reversed(rescues.methods)
         )

@@ -14,16 +14,12 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.dae import UNSEEN
+from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Point, Problem
 
-# Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may leave.
-ROUNDING = 1e-14
-# States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272, 2552,
-# 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and 1 s,
-# csparse 0.02, 0.04, 0.1, 40 and 160 s or more.
-LARGE = 2000
+CALLS = POLICY.calls
 
 
 @dataclass(frozen=True)
@@ -86,9 +82,9 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
         "quad_err_con": False,
         # Errors of a loose Newton iteration excite lightly damped vibrations, which then cost steps; near a singular
         # position of a loop they are enlarged.
-        "nonlin_conv_coeff": 0.005 if c.constraints.size else 0.05,
+        "nonlin_conv_coeff": CALLS.newton_in_loops if c.constraints.size else CALLS.newton,
         "show_eval_warnings": False,
-        "linear_solver": "qr" if way.careful or c.nx + c.nz > LARGE else "csparse",
+        "linear_solver": "qr" if way.careful or c.nx + c.nz > CALLS.large else "csparse",
         "calc_ic": steepest > 1 and not way.careful,
     }
     if way.careful and steepest > 1:
@@ -107,11 +103,11 @@ def _one_step(problem: Problem, settings: Settings, way: Way, times: np.ndarray)
         "abstol": tolerance,
         "control_group_size": [len(times) - 1],
         "quad_err_con": False,
-        "max_num_steps": max(1000, way.max_steps),
+        "max_num_steps": max(POLICY.rescue.fewest_long, way.max_steps),
         "show_eval_warnings": False,
     }
     if fastest > 0:
-        options["step0"] = min(1e-2, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
+        options["step0"] = min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
     return Setup("rosenbrock", options, (size, UNSEEN))
 
 
@@ -127,5 +123,6 @@ def rounding(problem: Problem, at: Point) -> np.ndarray:
         reach = np.abs(np.linalg.inv(g[:, nx:])) @ sizes
     except np.linalg.LinAlgError:
         reach = np.zeros(problem.nz)
-    floor = 10.0 ** np.ceil(np.log10(np.maximum(ROUNDING * reach, 1e-300)))
+    nominal = problem.nominal[nx:]
+    floor = nominal * 10.0 ** np.ceil(np.log10(np.maximum(CALLS.rounding * reach / nominal, 1e-300)))
     return np.concatenate([np.zeros(nx), np.where(np.isfinite(floor), floor, 0.0)])

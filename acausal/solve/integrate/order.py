@@ -1,8 +1,8 @@
 """Order limit of the multistep method: fast, lightly damped oscillations make high orders unstable.
 
-BDF of order k is stable outside of a wedge around the negative real axis of half angle 90, 90, 86.03, 73.35, 51.84
+BDF of order k is stable outside a wedge around the negative real axis of half angle 90, 90, 86.03, 73.35, 51.84
 degrees for k = 1...5 (Hairer & Wanner II, V.2.7). Oscillations that the steps resolve do no harm; those much faster than
-the motion must lie inside of the wedge.
+the motion must lie inside the wedge.
 """
 
 from __future__ import annotations
@@ -12,15 +12,11 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.tangent import state_matrix, tangent
 
-FAST = 30.0
-# States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
-DENSE, LOOPED = 64, 400
-SLOW = 6
-POWERS = 4
-WEDGE = {5: 51.84, 4: 73.35, 3: 86.03}
+ORDER = POLICY.order
 
 
 def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
@@ -37,7 +33,7 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
     J = problem.local(at).jacobian[: nx + nz]
-    if nx <= (LOOPED if problem.compiled.constraints.size else DENSE):
+    if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
         N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
     J = J.tocsc()
@@ -47,7 +43,8 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     def rate(v: np.ndarray) -> np.ndarray:
         return own @ v - (from_z @ inner(to_z @ v) if inner else 0)
 
-    shift = 1e-9 * np.max(np.abs(J.data), initial=1.0)
+    fast = _dominant(rate, nx)
+    shift = ORDER.shift * float(np.max(np.abs(fast), initial=problem.feedback))
     diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
@@ -55,7 +52,7 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
         return outer(np.r_[v, np.zeros(nz)])[:nx]
 
     slow = _dominant(inverse, nx)
-    return np.concatenate([shift + 1 / slow[slow != 0], _dominant(rate, nx)])
+    return np.concatenate([shift + 1 / slow[slow != 0], fast])
 
 
 def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
@@ -64,7 +61,7 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     Nothing where the vectors vanish, as those of bodies that no force holds: all eigenvalues are 0 there.
     """
     v = np.cos(np.arange(n))
-    for _ in range(POWERS):
+    for _ in range(ORDER.powers):
         v = apply(v)
         size = float(np.linalg.norm(v))
         if not 0 < size < np.inf:
@@ -89,10 +86,10 @@ def order_limit(values: np.ndarray, duration: float) -> int:
         Length of the run in s.
     """
     size = np.abs(values)
-    slow = np.sort(size)[:SLOW] if size.size > 4 else np.sort(size)[:2]
-    moving = slow[slow > 0.1 / duration]
+    slow = np.sort(size)[: ORDER.slow] if size.size > 4 else np.sort(size)[:2]
+    moving = slow[slow > ORDER.moving / duration]
     # Where all slow ones rest, the motion is at least one turn of the run.
     motion = moving.min() if moving.size else 2 * np.pi / duration
-    fast = values[(size > FAST * motion) & (np.imag(values) != 0) & (size * duration > FAST)]
+    fast = values[(size > ORDER.fast * motion) & (np.imag(values) != 0) & (size * duration > ORDER.fast)]
     angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
-    return next((order for order, wedge in WEDGE.items() if angle < wedge), 2)
+    return next((order for order, wedge in ORDER.wedge if angle < wedge), 2)

@@ -6,16 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal, Way, accepted, next_ways
-from acausal.solve.integrate.settings import LONG
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
-CHUNKS = 25
-# Steps before a chunk or an output counts as hopeless.
-HOPELESS = 2_000_000
-HALVINGS = 6
+RESCUE = POLICY.rescue
 
 
 def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
@@ -32,10 +29,10 @@ def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
         return found.end(at)
     n = len(times) - 1
     run.way = replace(run.way, method=run.settings.methods[0])
-    size = max(1, -(-n // CHUNKS))
+    size = max(1, -(-n // RESCUE.chunks))
     for first in range(0, n, size):
         part = times[first : first + size + 1]
-        way = replace(run.way, careful=True, max_steps=HOPELESS // (len(part) - 1))
+        way = replace(run.way, careful=True, max_steps=RESCUE.hopeless // (len(part) - 1))
         found = run.attempt(at, part, way)
         if isinstance(found, Stretch):
             run.trace.add(found)
@@ -68,7 +65,7 @@ def _creep(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Point
 
 
 def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stretch | Refusal:
-    """Go over one interval where a call over many failed, by everything that there is.
+    """Integrate one interval where a call over many failed, by every means.
 
     That is new choices of states on the way, the other method, and a larger tolerance.
 
@@ -84,9 +81,9 @@ def passage(run: Integrator, at: Point, times: np.ndarray, outputs: int) -> Stre
         Number of outputs that share the steps.
     """
     # Loops that get stuck beside a singular position do so for ever.
-    most = LONG if run.loops else HOPELESS // min(outputs, HOPELESS // LONG)
+    most = RESCUE.long if run.loops else RESCUE.hopeless // min(outputs, RESCUE.hopeless // RESCUE.long)
     way = replace(run.way, careful=True, max_steps=most)
-    found = _stride(run, at, times, way, HALVINGS)
+    found = _stride(run, at, times, way, RESCUE.halvings)
     if isinstance(found, Stretch):
         return found
     for loose in next_ways(way, found, run.settings.rescues(times, run.loops)):

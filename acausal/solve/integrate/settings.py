@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Rescues, Way
 
-# Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
-SHORT, LONG = 40_000, 100_000
+RESCUE = POLICY.rescue
+
 Progress = Callable[[float, int], None]
 
 
@@ -54,7 +55,7 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        return Way(self.methods[0], self.constraints == "projection", self.tolerance, LONG)
+        return Way(self.methods[0], self.constraints == "projection", self.tolerance, RESCUE.long)
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
@@ -67,4 +68,4 @@ class Settings:
     def patience(self, way: Way, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""
         n, rings = len(times) - 1, way.method == "idas" and self.may_ring(times)
-        return max(100, SHORT // n) if rings else max(1000, LONG // n)
+        return max(RESCUE.fewest_short, RESCUE.short // n) if rings else max(RESCUE.fewest_long, RESCUE.long // n)

@@ -5,15 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.policy import POLICY
 from acausal.solve.problem import Problem
 
-# States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
-SMALLER = 0.1
-# What reaches less, in SI units and in parts of the absolute tolerance, rests but for rounding: a falling free body turns
-# by 2e-13 rad/s, and nobody wants to follow that. What begins with a value does not rest.
-REST, LOST = 1e-11, 1e-4
-# Runs after which sizes are taken as they are: each brings those of a motion lost in the tolerance nearer.
-PASSES = 5
+SIZES = POLICY.sizes
 
 
 def smaller_sizes(
@@ -45,13 +40,15 @@ def smaller_sizes(
     for members in groups.values():
         most = float(np.max(reach[members]))
         begins = float(np.max(np.abs(x[0, members])))
-        lost = LOST * tolerance * float(np.max(nominal[members]))
-        if most > REST and (most > lost or begins > SMALLER * most):
+        lost = SIZES.lost * tolerance * float(np.max(nominal[members]))
+        if most > SIZES.rest * float(np.max(problem.nominal[members])) and (
+            most > lost or begins > SIZES.smaller * most
+        ):
             fitting[members] = np.minimum(nominal[members], most)
     for coordinate, rate in problem.rates:
         if not sizes[rate][1]:
             fitting[rate] = min(nominal[rate], max(fitting[rate], fitting[coordinate] / span))
-    wrong = fitting < SMALLER * nominal
+    wrong = fitting < SIZES.smaller * nominal
     return np.where(wrong, fitting, nominal) if wrong.any() else None
 
 

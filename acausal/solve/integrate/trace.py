@@ -38,7 +38,7 @@ class Trace:
     rough: bool = False
 
     def emptied(self) -> Trace:
-        """Return a trace without rows in which the counts go on."""
+        """Return a trace without rows in which the counts continue."""
         names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds")
         return Trace(**{name: getattr(self, name) for name in names}, methods=dict(self.methods))
 
@@ -69,7 +69,7 @@ class Trace:
         return steps
 
     def add(self, stretch: Stretch) -> None:
-        """Append rows; integrals of power go on from the last one."""
+        """Append rows; integrals of power continue from the last one."""
         energy = stretch.energy + (self.last().energy if self.pieces else self.before)
         vector = stretch.constants.vector
         constants = np.broadcast_to(vector, (len(stretch.times), len(vector)))
@@ -113,7 +113,7 @@ class Stretch:
         return Point(float(self.times[-1]), self.x[-1], self.z[-1], self.constants, at.truth)
 
     def rows(self, first: int, last: int) -> Stretch:
-        """Return some of the rows, as if the call had begun at its start all the same."""
+        """Return some of the rows, as if the call had begun at its start nevertheless."""
         part = slice(first, last)
         return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)
 

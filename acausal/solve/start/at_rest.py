@@ -1,25 +1,26 @@
-"""Whether a model is at rest: every derivative that it has vanishes, whatever found the point."""
+"""Whether a model is at rest: all its derivatives vanish, however the point was found."""
 
 from __future__ import annotations
 
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.newton import CONSISTENT, TERMS
 from acausal.solve.start.words import equation_text
 from acausal.symbols import scalars
 
-STILL = 1e-7
+NEWTON = POLICY.newton
 
 
 def meters(compiled: CompiledModel) -> list[int]:
-    """States on which nothing depends, and whose rates are not differentiated: they count, and hold nothing."""
+    """States on which nothing depends, and whose rates are not differentiated: counters that hold nothing."""
     if "meters" not in compiled.cache:
         r, system = compiled.reduced, compiled.reduced.plan.system
         used = np.array(ca.which_depends(ca.vertcat(r.ode, r.alg, ca.SX(0)), r.x, 1, False), dtype=bool)
@@ -52,27 +53,27 @@ def at_rest(problem: Problem, at: Point) -> bool:
     nx = problem.nx
     if _moving(problem, at):
         return False
-    if problem.compiled.constraints.size and np.max(np.abs(problem.constraints(at)[0])) > CONSISTENT:
+    if problem.compiled.constraints.size and np.max(np.abs(problem.gaps(at))) > NEWTON.consistent:
         return False
     local = problem.local(at)
-    allowed = CONSISTENT + _rounding(local.jacobian, at.y)
+    allowed = _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
 
 
 def refuse_motion(problem: Problem, at: Point) -> NoReturn:
-    """Raise InitializationError: what moves where everything else has come to rest, or what conditions stand against it."""
+    """Raise InitializationError: what moves where everything else has come to rest, or which conditions prevent it."""
     compiled, nx, nz, t = problem.compiled, problem.nx, problem.nz, at.time
     moving = _moving(problem, at)
     if moving:
-        lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what moves on:"]
+        lines = [f"no equilibrium was found near the guesses at t = {t:g} s; what keeps moving:"]
         lines += [f"  {name} = 0: off by {value:.4g}" for name, value in moving[:5]]
         lines.append(
-            "Something drives it without end, as weight does what nothing carries or a torque what nothing brakes: hold it, "
-            "brake it, or stop the drive; or give guesses nearer to rest."
+            "Something drives it endlessly, such as weight that nothing carries or a torque that nothing brakes: hold it, "
+            "brake it, or stop the drive; or give guesses closer to rest."
         )
         raise InitializationError("\n".join(lines))
     local = problem.local(at)
-    value, allowed = local.value, CONSISTENT + _rounding(local.jacobian, at.y)
+    value, allowed = local.value, _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
     against = [k for k in range(nx + nz, len(value)) if abs(value[k]) > allowed[k]]
     for k in sorted(against, key=lambda k: -abs(value[k]))[:5]:
@@ -88,9 +89,8 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     """Derivatives that do not vanish, the largest first."""
     names, call, (rows, columns, shape) = _derivatives(problem.compiled)
     value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
-    rounding = np.zeros(shape[0])
-    np.add.at(rounding, rows, np.abs(entries * at.y[columns]))
-    allowed = STILL + TERMS * np.finfo(float).eps * rounding
+    J = scipy.sparse.csr_matrix((entries, (rows, columns)), shape=shape)
+    allowed = _allowed(J, at.y, problem.nominal, POLICY.rest.still)
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]
     return [(names[k], float(value[k])) for k in order]
@@ -115,6 +115,7 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     return compiled.cache["derivatives"]
 
 
-def _rounding(J, y: np.ndarray) -> np.ndarray:
-    """Rounding of the terms of every row."""
-    return TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y))
+def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:
+    """What each row may be: a part of what nominal values make of it, of 1 if it holds constants only, and rounding."""
+    most = abs(J) @ nominal
+    return part * np.where(most > 0, most, 1.0) + NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))

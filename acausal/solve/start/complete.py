@@ -9,17 +9,15 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.loops import CLOSED, close, refuse_open_loops
-from acausal.solve.start.rank import RANK, null_space, pivots, rank, row_space
+from acausal.solve.start.loops import close, refuse_open_loops
+from acausal.solve.start.rank import least_norm, null_space, pivots, rank, row_space
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
-# Way out of a singular position: its square is the error of what is left out.
-AWAY = 1e-4
-# Speed of joints in rad/s or m/s that is rest: rates of a singular position are known no better than its coordinates.
-REST = 1e-4
+LOOPS = POLICY.loops
 
 
 def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, Redundancy]:
@@ -31,7 +29,7 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
         If a loop cannot close.
     """
     closed, mismatch = close(problem, at, held)
-    if not mismatch <= CLOSED:
+    if not mismatch <= LOOPS.closed:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)
     counts = np.array([k not in redundancy.dropped for k in problem.compiled.constraints.closures], dtype=float)
@@ -73,7 +71,7 @@ def rows_and_knowns(
     used, surplus = _independent(M, C)
     if surplus:
         # A condition can lack influence at one position without lacking it around.
-        shake = 1e-3 * np.random.default_rng(0).standard_normal(len(free))
+        shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
         moved[free] += shake * problem.nominal[free]
         M, C = _reduced(problem, replace(at, x=moved), free, rows)
@@ -97,18 +95,18 @@ def rows_and_knowns(
 def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
-    M = problem.constraints(at)[1][:, free]
+    M, size = problem.gradients(at)[:, free], problem.nominal[free]
     J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     try:
         dz = -scipy.sparse.linalg.splu(inner).solve(right) if nz else right
     except RuntimeError:
-        dz = -np.linalg.lstsq(inner.toarray(), right, rcond=RANK)[0]
-    return M, J[rows][:, free].toarray() + J[rows][:, nx:] @ dz
+        dz = -least_norm(inner.toarray(), problem.nominal[nx:], POLICY.ranks.rank)(right)
+    return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size
 
 
 def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
-    """Conditions that say something beyond the constraints and those before them (Gram and Schmidt)."""
+    """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
     basis = list(row_space(M))
     used, surplus = [], []
     for k in range(len(C)):
@@ -118,7 +116,7 @@ def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
             for b in basis:
                 v = v - (b @ v) * b
         rest = np.linalg.norm(v)
-        if rest > 1e-7:
+        if rest > POLICY.ranks.independent:
             basis.append(v / rest)
             used.append(k)
         else:
@@ -140,18 +138,18 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
 
 
 def leave_singular(problem: Problem, at: Point) -> Point:
-    """Go on from a singular position along the velocity, so short a way that accelerations do not matter."""
+    """Continue from a singular position along the velocity, so short a distance that accelerations do not matter."""
     x = at.x
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
-    speed = float(np.max(np.abs(x[rates]), initial=0.0))
-    if not speed > REST:
+    nominal = problem.nominal
+    if not np.any(np.abs(x[rates]) > LOOPS.rest * nominal[rates]):
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position at rest: nothing tells on which branch the loops go on. "
-            "Give a velocity, for instance w=fixed(...) of a joint, or start beside it."
+            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops go on. "
+            "Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
-    later = AWAY / speed
+    later = LOOPS.away / float(np.max(np.abs(x[rates]) / nominal[coordinates]))
     moved = x.copy()
     moved[coordinates] += later * x[rates]
     return close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]

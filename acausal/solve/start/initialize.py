@@ -12,10 +12,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.complete import closed_guess, rows_and_knowns
 from acausal.solve.start.loop_states import choose_projection, independent
-from acausal.solve.start.newton import CONSISTENT, InitialSystem, algebraic, follow, newton
+from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton
 from acausal.solve.start.redundancy import Redundancy
 from acausal.solve.start.steady import Equilibrium
 from acausal.solve.start.words import contradiction_text, missing_text
@@ -43,7 +44,7 @@ class Start:
     independent: tuple[str, ...] = ()
 
     def found(self, compiled: CompiledModel) -> AtStart:
-        """Return what a report tells of it."""
+        """Return what a report says about it."""
         dropped = (k for k, row in enumerate(compiled.constraints.closures) if row in self.redundancy.dropped)
         return AtStart(tuple(dropped), self.redundancy.singular, self.independent)
 
@@ -85,10 +86,10 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         try:
             at = _solve(problem, system, at)
         except InitializationError:
-            # Where only forces of a singular position lack a value, the closed loops alone tell how to leave it.
+            # Where only forces of a singular position lack a value, the closed loops alone determine how to leave it.
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
-    # The conditions of the initial system hold no longer; the states stay, the rest follows.
+    # The conditions of the initial system no longer hold; the states stay, the rest follows.
     if _flag_matters(compiled):
         at = algebraic(problem, at)
     if not loops:
@@ -100,7 +101,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
     """Start values of all unknowns."""
     y = problem.compiled.start(problem.p, time)[0].copy()
-    return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.constants(head))
+    return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.begin(head, problem.feedback))
 
 
 def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
@@ -195,7 +196,7 @@ def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     done = complete(equations, conditions, nx + nz)
     guessed = list(done.free)
     if any(k >= nx for k in done.free):
-        # Some algebraic unknown is left over instead: let guesses of states take the places of conditions.
+        # Some algebraic unknown is left over instead: let guesses of states replace conditions.
         states = sorted(range(nx), key=lambda k: not _is_guessed(compiled, k))
         done = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
         guessed = [states[k - given] for k in done.used if k >= given]
@@ -225,7 +226,7 @@ def _rows(problem: Problem, at: Point) -> list[list[int]]:
     """
     J: Any = problem.local(at, 1.0).jacobian.tocoo()
     rows: list[list[int]] = [[] for _ in range(J.shape[0])]
-    for k in np.argsort(-np.abs(np.nan_to_num(J.data)), kind="stable"):
+    for k in np.argsort(-np.abs(np.nan_to_num(J.data)) * problem.nominal[J.col], kind="stable"):
         rows[J.row[k]].append(int(J.col[k]))
     return rows
 
@@ -254,8 +255,10 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
             raise
         at = found
     if system.surplus.size:
-        value = problem.values(at, 1.0)[problem.nx :]
-        wrong = [k for k in system.surplus if abs(value[k]) > CONSISTENT * (1 + np.max(np.abs(at.y), initial=0))]
+        local = problem.local(at, 1.0)
+        allowed = POLICY.newton.consistent * (abs(local.jacobian) @ (np.abs(at.y) + problem.nominal))[problem.nx :]
+        value = local.value[problem.nx :]
+        wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:
             raise InitializationError(contradiction_text(problem.compiled, value, wrong))
     return at

@@ -9,16 +9,17 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loops import levels
 from acausal.solve.start.rank import pivots, scaled
 from acausal.solve.start.tangent import state_matrix
 
-WORN, SPARED = 0.05, 0.3
+LOOPS = POLICY.loops
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
-    """Return the constants of a segment with D chosen anew at a consistent point.
+    """Return the constants of a segment with a new choice of D at a consistent point.
 
     Parameters
     ----------
@@ -36,12 +37,14 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
     on = np.ones(c.size, dtype=bool)
     for constraint, counts in zip(c.closures, at.constants.closures, strict=True):
         on[list(c.rows[constraint])] = counts > 0
-    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[:, None]
+    # States count in nominal values: the least change of them, J' over their squares, is the way to the constraints.
+    nominal = problem.nominal[: problem.nx]
+    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[:, None] * nominal
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    weights = _spared(J, stiffness)
+    weights = _spared(J, stiffness, problem.feedback)
     D = J * weights
     size = np.linalg.norm(D, axis=1, keepdims=True)
-    factors = on[:, None] * weights / np.where(size > 0, size, 1.0)
+    factors = on[:, None] * weights * nominal**2 / np.where(size > 0, size, 1.0)
     chosen = factors if moves else _select(problem.compiled, scaled(D), on)
     return replace(at.constants, moves=moves, D=chosen[tuple(c.entries)])
 
@@ -60,7 +63,7 @@ def _directions(compiled: CompiledModel, constants: Constants) -> np.ndarray:
 
 
 def _stiffness(problem: Problem, at: Point) -> np.ndarray:
-    """How strongly each coordinate resists, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
+    """How stiff each coordinate is, |d der(rate) / d coordinate| in 1/s2; a rate as its coordinate.
 
     Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """
@@ -98,14 +101,14 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
     return selection
 
 
-def _spared(J: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+def _spared(J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
     """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
 
-    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that serves.
+    Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
-    for exponent in range(1, 13):
-        weights = 1 / (1 + stiffness / 10.0**exponent)
-        if float(_transversality(J, J * weights)) >= SPARED:
+    for decade in range(1, LOOPS.decades + 1):
+        weights = 1 / (1 + stiffness / (10.0**decade * feedback**2))
+        if float(_transversality(J, J * weights)) >= LOOPS.spared:
             return weights
     return np.ones(len(stiffness))
 
@@ -134,5 +137,6 @@ def worn(problem: Problem, x: np.ndarray, t: np.ndarray, constants: Constants) -
         Those of the segment.
     """
     c = problem.compiled.constraints
-    held = c.held(x, problem.p, t, constants.vector)
-    return _transversality(held[:, :, c.states], _directions(problem.compiled, constants)[:, c.states])
+    held, nominal = c.held(x, problem.p, t, constants.vector), problem.nominal[c.states]
+    D = _directions(problem.compiled, constants)[:, c.states]
+    return _transversality(held[:, :, c.states] * nominal, D / nominal)

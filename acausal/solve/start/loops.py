@@ -11,12 +11,12 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 
-Residuals = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+LOOPS = POLICY.loops
 
-CLOSED, ROUGH = 1e-9, 1e-6
-ATTEMPTS = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
+Residuals = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
@@ -50,17 +50,17 @@ def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False
     at : Point
         With the states.
     mismatch : float
-        Largest residual.
+        Largest residual, over its size.
     """
     mismatch = 0.0
     for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
         at, left = _solve(problem, at, rows, free)
-        if depth and CLOSED < left <= ROUGH * (1 + np.max(np.abs(at.x))):
+        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
             # Near a singular position rates are known only as well as the root of the positions.
             at, left = _solve(problem, at, rows, columns)
         mismatch = max(mismatch, left)
-        if left > CLOSED:
+        if left > LOOPS.closed:
             break
     return at, mismatch
 
@@ -73,11 +73,12 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
-    """Residuals of some rows and their Jacobian, as a function of some states."""
+    """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
+    size = problem.sizes(at)[rows]
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         value, J = problem.constraints(_with(at, free, u))
-        return value[rows], J[rows][:, free]
+        return value[rows] / size, J[rows][:, free] / size[:, None]
 
     return evaluate
 
@@ -90,13 +91,13 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tu
         return at, left
     best, smallest = at.x[free], left if np.isfinite(left) else np.inf
     scale = problem.nominal[free]
-    for k, size in enumerate(ATTEMPTS):
-        if smallest <= CLOSED:
+    for k, size in enumerate(LOOPS.attempts):
+        if smallest <= LOOPS.closed:
             break
         start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
-        options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": 200}
+        options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": LOOPS.evaluations}
         options["jac"] = lambda u: evaluate(u)[1]
         u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
@@ -112,7 +113,7 @@ def tighten(problem: Problem, at: Point) -> Point:
     for rows, free in levels(problem.compiled):
         polished = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
         tight = _with(tight, free, polished)
-    closed = np.max(np.abs(problem.constraints(tight)[0]), initial=0.0) <= CLOSED
+    closed = np.max(np.abs(problem.gaps(tight)), initial=0.0) <= LOOPS.closed
     return tight if closed else close(problem, at, np.empty(0, int))[0]
 
 
@@ -120,7 +121,7 @@ def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
     """Gauss-Newton steps of least norm down to rounding."""
     for _ in range(5):
         value, J = evaluate(u)
-        step = scale * np.linalg.lstsq(J * scale, -value, rcond=1e-7)[0]
+        step = scale * np.linalg.lstsq(J * scale, -value, rcond=POLICY.ranks.polish)[0]
         if not np.max(np.abs(evaluate(u + step)[0])) < np.max(np.abs(value), initial=0.0):
             break
         u = u + step
@@ -131,26 +132,27 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     """Raise InitializationError with the mismatch of every loop that does not close."""
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
-    value, _ = problem.constraints(at)
+    value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
     lines = []
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
-        apart = [float(np.max(np.abs(value[rows]), initial=0.0)) if rows else 0.0 for rows in levels_of]
+        apart = [float(np.max(value[rows], initial=0.0)) if rows else 0.0 for rows in levels_of]
+        wide = [bool(np.any(gap[rows] > LOOPS.closed)) if rows else False for rows in levels_of]
         how = [f"miss each other by {apart[0]:.4g} m or rad", f"move apart at {apart[1]:.4g} m/s or rad/s"]
-        for text, worst in zip(how, apart, strict=True):
-            if worst > CLOSED:
+        for text, open_ in zip(how, wide, strict=True):
+            if open_:
                 through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
                 lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
-        if k not in c.closures and np.max(np.abs(value[list(rows)])) > CLOSED:
-            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(np.abs(value[list(rows)])):.4g}")
+        if k not in c.closures and np.max(gap[list(rows)]) > LOOPS.closed:
+            lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if given:
         lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
-    if lines and np.max(np.abs(value)) > CLOSED:
+    if lines and np.max(gap) > LOOPS.closed:
         raise InitializationError(
             f"these loops cannot close at t = {at.time:g} s, whatever their joints do:\n"
             + "\n".join(lines)

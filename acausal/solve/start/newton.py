@@ -1,4 +1,4 @@
-"""Damped Newton iteration on the initial system, and the homotopy for where it alone fails."""
+"""Damped Newton iteration on the initial system, and a homotopy for cases where it fails."""
 
 from __future__ import annotations
 
@@ -9,15 +9,12 @@ import numpy as np
 import scipy
 
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
+from acausal.solve.start.rank import least_norm
 from acausal.solve.start.words import lost_text
 
-ITERATIONS = 60
-CONVERGED = 1e-8
-ROUNDING = 1e-13
-TERMS = 1e3
-CONSISTENT = 1e-7
-SHORTEST = 1e-4
+NEWTON = POLICY.newton
 
 
 @dataclass(frozen=True)
@@ -53,7 +50,7 @@ def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
             s, step = target, 1.5 * step
         except InitializationError:
             step /= 3
-            if step < SHORTEST:
+            if step < NEWTON.shortest:
                 return None
     return at
 
@@ -74,37 +71,36 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         return InitializationError(lost_text(problem.compiled, value, system.rows, system.surplus, at.time))
 
     value = residual(y)
-    for _ in range(ITERATIONS):
+    for _ in range(NEWTON.iterations):
         J = problem.local(at.with_y(y), flag).jacobian
         block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
-        solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD")
+        solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD", scale)
         step = -solve(value)
         damping = 1.0
         while True:
-            trial = y.copy()
-            trial[free] += damping * step
-            value = residual(trial)
+            tried = y.copy()
+            tried[free] += damping * step
+            value = residual(tried)
             if np.all(np.isfinite(value)):
                 simplified = solve(value)
                 if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
                     break
             damping /= 2
-            if damping < 1e-6:
+            if damping < NEWTON.damping:
                 here = residual(y)
-                if _is_rounding(here, J[rows], y):
+                if np.all(np.abs(here) <= rounding(J[rows], y, problem.nominal)):
                     return at.with_y(y)
                 raise lost(here)
-        y = trial
+        y = tried
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
-        if change <= CONVERGED:
-            y[free] -= simplified if change > ROUNDING else 0.0
-            if np.max(np.abs(value), initial=0.0) > CONSISTENT * (
-                1 + np.max(np.abs(y)) * float(np.max(np.abs(J.data)))
-            ):
+        if change <= NEWTON.converged:
+            y[free] -= simplified if change > NEWTON.rounding else 0.0
+            if np.any(np.abs(value) > NEWTON.consistent * (abs(J[rows]) @ (np.abs(y) + problem.nominal))):
                 break
             return at.with_y(y)
     here = residual(y)
-    if _is_rounding(here, problem.local(at.with_y(y), flag).jacobian[rows], y):
+    J = problem.local(at.with_y(y), flag).jacobian[rows]
+    if np.all(np.abs(here) <= rounding(J, y, problem.nominal)):
         return at.with_y(y)
     raise lost(here)
 
@@ -115,20 +111,29 @@ def algebraic(problem: Problem, at: Point) -> Point:
     return newton(problem, system, at, 0.0)
 
 
-def _is_rounding(value: np.ndarray, J: scipy.sparse.csc_matrix, y: np.ndarray) -> bool:
-    """Whether residuals are no larger than the rounding of their terms; stiff parts make unknowns follow it."""
-    return bool(np.all(np.abs(value) <= TERMS * np.finfo(float).eps * (abs(J) @ np.abs(y) + 1)))
+def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
+    return NEWTON.terms * np.finfo(float).eps * terms(J, y, nominal)
+
+
+def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
+    least = abs(J).multiply(nominal).tocsr()
+    least.eliminate_zeros()
+    found = abs(J) @ np.abs(y)
+    rows = np.flatnonzero(np.diff(least.indptr))
+    found[rows] += np.minimum.reduceat(least.data, least.indptr[rows]) if rows.size else 0.0
+    return found
 
 
 def _is_range(indices: np.ndarray) -> bool:
     return bool(np.all(np.diff(indices) == 1))
 
 
-def _factor(J: scipy.sparse.csc_matrix, order: str) -> Callable[[np.ndarray], np.ndarray]:
+def _factor(J: scipy.sparse.csc_matrix, order: str, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     try:
         return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
     except (RuntimeError, ValueError):
         pass
     # Singular here, or with rows to spare: the step of least norm, if there is one, leads on.
-    dense = J.toarray()
-    return lambda right: np.linalg.lstsq(dense, right, rcond=1e-12)[0]
+    return least_norm(J.toarray(), sizes, POLICY.ranks.least_norm)

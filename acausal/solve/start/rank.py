@@ -1,13 +1,14 @@
-"""Ranks, null spaces and pivots of small matrices, each row counted as of length 1."""
+"""Ranks, null spaces and pivots of small matrices, with rows scaled to length 1."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import scipy
 
-RANK = 1e-9
+from acausal.policy import POLICY
 
 
 def scaled(rows: np.ndarray) -> np.ndarray:
@@ -16,11 +17,23 @@ def scaled(rows: np.ndarray) -> np.ndarray:
     return rows / np.where(size > 0, size, 1.0)
 
 
-def rank(rows: np.ndarray, tolerance: float = RANK) -> int:
+def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
     """Number of independent rows."""
     return (
         int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
     )
+
+
+def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
+    length = np.linalg.norm(rows * sizes, axis=1)
+    length = np.where(length > 0, length, 1.0)
+    matrix = rows * sizes / length[:, None]
+
+    def solve(right: np.ndarray) -> np.ndarray:
+        return (sizes * np.linalg.lstsq(matrix, (right.T / length).T, rcond=cutoff)[0].T).T
+
+    return solve
 
 
 def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:

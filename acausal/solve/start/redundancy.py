@@ -1,4 +1,4 @@
-"""Which constraints of loops count: their ranks, when numbers are known.
+"""Which constraints of loops count, by their ranks when numbers are known.
 
 A constraint is redundant only if its Jacobian lacks rank at consistent positions all around: where the rank rises after
 a small motion, the position is singular, and all constraints stay.
@@ -10,20 +10,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loops import close
 from acausal.solve.start.rank import null_space, pivots, rank, scaled
 
-MOTION = 1e-2
-# Positions where ranks are lost are known only as well as the root of how well loops close.
-NEARLY = 1e-5
-# Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
-BESIDE = 1e-3
+RANKS = POLICY.ranks
 
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Constraints that say nothing new, by number, and whether the position is a singular one."""
+    """Redundant constraints, by number, and whether the position is singular."""
 
     dropped: tuple[int, ...] = ()
     singular: bool = False
@@ -35,17 +32,17 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     rows = [r[0] for r in c.rows]
 
     def jacobian(at: Point) -> np.ndarray:
-        return scaled(problem.constraints(at)[1][rows])
+        return scaled(problem.gradients(at)[rows])
 
     here = jacobian(at)
-    if rank(here, NEARLY) == len(rows):
+    if rank(here, RANKS.nearly) == len(rows):
         return Redundancy()
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
     for seed in range(3):
         moved = _moved(problem, at, here, free, seed)
         there = jacobian(moved) if moved is not None else here
-        if rank(there, NEARLY) > rank(best, NEARLY):
+        if rank(there, RANKS.nearly) > rank(best, RANKS.nearly):
             best, singular = there, True
     if rank(best) == len(rows):
         return Redundancy(singular=singular)
@@ -53,17 +50,17 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     weight = np.ones(len(rows))
     closures = compiled.reduced.flat.loops.closures
     droppable = {c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()}
-    weight[[k for k in range(len(rows)) if k not in droppable]] = 1e3
+    weight[[k for k in range(len(rows)) if k not in droppable]] = RANKS.kept
     order = pivots((weight[:, None] * best).T)
     return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
 
 
 def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
-    """Whether constraints that are independent elsewhere all but depend on each other in a position."""
+    """Whether constraints that are independent elsewhere are nearly dependent in a position."""
     if not problem.compiled.constraints.size:
         return False
     held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
-    return rank(problem.constraints(at)[1][held], BESIDE) < len(held)
+    return rank(problem.gradients(at)[held], RANKS.beside) < len(held)
 
 
 def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: int) -> Point | None:
@@ -73,6 +70,6 @@ def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: i
         return None
     direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
     x = at.x.copy()
-    x[free] += MOTION * direction / np.linalg.norm(direction)
+    x[free] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[: problem.nx][free]
     moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
-    return moved if mismatch < 1e-10 else None
+    return moved if mismatch < RANKS.moved else None

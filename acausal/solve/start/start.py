@@ -9,13 +9,12 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import algebraic
-
-ROUNDS = 20
 
 
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
@@ -36,8 +35,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
-    head = problem.compiled.guards.guess(p, later)[0].copy()
-    for _ in range(ROUNDS):
+    head = problem.compiled.guards.estimate(p, later)[0].copy()
+    for _ in range(POLICY.switches.rounds):
         begun = initialize(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
@@ -46,12 +45,13 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             np.arange(guards.n_switches + guards.n_discretes), [k for k in guards.timed if k < guards.n_switches]
         )
         new[own] = found[own]
-        if np.allclose(new, head, rtol=1e-9, atol=1e-12):
+        if np.allclose(new, head, rtol=POLICY.switches.same, atol=0.0):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
         previous, head = head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     raise InitializationError(
-        f"no modes fit the values at the start, t = {time:g} s; after {ROUNDS} rounds these conditions still change:\n"
+        f"no switches fit the values at the start, t = {time:g} s; after {POLICY.switches.rounds} rounds these "
+        "conditions still change:\n"
         + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )
@@ -70,7 +70,7 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
 
 
 def go_on(problem: Problem, start: Start) -> Point:
-    """Leave a singular position, where the equations do not tell how to go on; any other point stays."""
+    """Leave a singular position, where the equations do not determine how to continue; any other point stays."""
     if not start.redundancy.singular:
         return start.point
     at = leave_singular(problem, start.point)
@@ -79,6 +79,6 @@ def go_on(problem: Problem, start: Start) -> Point:
 
 
 def places_text(compiled: CompiledModel, guards: list[int]) -> str:
-    """Say where guards are stated, a line each."""
+    """List where guards are stated, one per line."""
     origins = dict.fromkeys(str(compiled.guards.guards[k].origin) for k in guards)
     return "\n".join(f"  {origin}" for origin in list(origins)[:5])

@@ -8,35 +8,23 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy
 
 from acausal.errors import InitializationError, caution
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motion
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
 from acausal.solve.start.newton import algebraic
-from acausal.solve.start.rank import RANK, scaled
+from acausal.solve.start.rank import least_norm, scaled
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
-NEWTON, RELAXATION = 60, 400
-# Largest change of a state in a step, over its nominal value.
-FAR = 0.3
-# First step of the relaxation in s, growth of its steps, and what ends it.
-FIRST, GROWTH, LAST = 1e-3, 1.5, 1e8
-CONVERGED = 1e-12
-HALVINGS = 6
-# Steps back to the guess, and the shortest part of one.
-RETURN, SHORT = 20, 0.1
-PUSH = 1e-2
-# Influence of a state on everything, over the greatest, that is rounding.
-FAINT = 1e-13
-# Singular value of what is free, but for rounding.
-WEAK = 1e-11
-ATTEMPTS = 3
+REST = POLICY.rest
 
 
 @dataclass
@@ -84,7 +72,7 @@ class Equilibrium:
         """
         found = self._tried(first) or self._newton(self.guess)
         rate, push = (0.0, np.zeros(self.nx)) if found is None else self._growing(found)
-        at, growth, attempts = self.guess, GROWTH, ATTEMPTS
+        at, growth, attempts = self.guess, REST.growth, REST.attempts
         if found is not None and self._is_guess(found):
             attempts = 0
         while attempts and (found is None or rate):
@@ -108,10 +96,10 @@ class Equilibrium:
         return here if here and self._rests(here) else None
 
     def _is_guess(self, found: Linearized) -> bool:
-        return bool(np.all(np.abs(self._apart(found)) <= 1e-6 * self.scale))
+        return bool(np.all(np.abs(self._apart(found)) <= REST.guess * self.scale))
 
     def _nearly(self, relaxed: Point) -> Point:
-        """Where the rates are least, whatever the initial conditions; those that stay tell what moves."""
+        """Where the rates are least, whatever the initial conditions; those that remain show what moves."""
         found = [self._search(at, conditions=False) for at in (self.guess, relaxed)]
         resting = [here for here in found if here is not None]
         resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))
@@ -123,12 +111,18 @@ class Equilibrium:
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         J = local.jacobian.tocsc()
-        dz = _solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
+        dz = self._solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
         A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
         return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
 
+    def _solve(self, matrix: Any, right: np.ndarray) -> np.ndarray:
+        try:
+            return scipy.sparse.linalg.splu(matrix).solve(right)
+        except RuntimeError:
+            return least_norm(matrix.toarray(), self.problem.nominal[self.nx :], POLICY.ranks.rank)(right)
+
     def _close(self, at: Point) -> Point:
-        """Close the loops, and choose the states that follow from others anew."""
+        """Close the loops, and choose again which states follow from others."""
         if not self.problem.compiled.constraints.size:
             return at
         at = tighten(self.problem, replace(at, constants=self.guess.constants))
@@ -136,14 +130,14 @@ class Equilibrium:
         return self.problem.completed(at)
 
     def _newton(self, at: Point) -> Linearized | None:
-        """Search from a point, then bring what is free back to its guess; None where it does not come to rest."""
+        """Search from a point, then return what is free to its guess; None where it does not come to rest."""
         here = self._search(at)
         if here is None or not self._rests(here):
             return None
         part = 1.0
-        for _ in range(RETURN):
+        for _ in range(REST.back):
             back = self._step(*self._all(here, True), self._apart(here))[1]
-            if part < SHORT or np.max(np.abs(back) / self.scale, initial=0.0) <= 1e-9:
+            if part < REST.short or np.max(np.abs(back) / self.scale, initial=0.0) <= REST.there:
                 break
             there = self._search(_moved(here.point, part * back))
             nearer = there is not None and self._distance(there) < (1 - part / 4) * self._distance(here)
@@ -167,12 +161,12 @@ class Equilibrium:
             here = self._at(self._close(at))
         except InitializationError:
             return None
-        for _ in range(NEWTON):
+        for _ in range(REST.newton):
             value, J = self._all(here, conditions)
             step = self._step(value, J, np.zeros(self.nx))[0]
-            if np.max(np.abs(step) / (self.scale + np.abs(here.point.x)), initial=0.0) <= CONVERGED:
+            if np.max(np.abs(step) / (self.scale + np.abs(here.point.x)), initial=0.0) <= REST.converged:
                 break
-            there = self._go(here, step / max(1.0, self._far(step) / FAR), value, J, conditions)
+            there = self._go(here, step / max(1.0, self._far(step) / REST.far), value, J, conditions)
             if there is None:
                 break
             here = there
@@ -182,15 +176,15 @@ class Equilibrium:
         self, here: Linearized, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool
     ) -> Linearized | None:
         """Shorten a step until the residuals do not grow; None if they always do."""
-        size = np.linalg.norm(J, axis=1)
+        size = np.linalg.norm(J * self.scale, axis=1)
         weight = 1 / np.where(size > 0, size, 1.0)
-        for shorter in range(HALVINGS):
+        for shorter in range(REST.halvings):
             try:
                 there = self._at(self._close(_moved(here.point, step / 2**shorter)))
             except InitializationError:
                 continue
             left = np.linalg.norm(weight * self._all(there, conditions)[0])
-            if left <= (1 - 0.1 / 2**shorter) * np.linalg.norm(weight * value) + CONVERGED:
+            if left <= (1 - 0.1 / 2**shorter) * np.linalg.norm(weight * value) + REST.converged:
                 return there
         return None
 
@@ -214,31 +208,31 @@ class Equilibrium:
         size = self.scale
         for _ in range(2):
             inside = np.linalg.norm(scaled(J * size), axis=0)
-            size = size / np.where(inside > FAINT, inside, 1.0)
+            size = size / np.where(inside > REST.faint, inside, 1.0)
         length = np.linalg.norm(J * size, axis=1)
         U, s, V = np.linalg.svd(scaled(J * size), full_matrices=True)
-        rank = int(np.sum(s > WEAK))
+        rank = int(np.sum(s > REST.weak))
         held, free = V[:rank], V[rank:]
         step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
         return size * step, self.scale * _along(free * size / self.scale, way / self.scale)
 
     def _relax(self, at: Point, growth: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
-        h, nx = FIRST, self.nx
+        h, nx, feedback = REST.first / self.problem.feedback, self.nx, self.problem.feedback
         try:
             here = self._at(self._close(at))
         except InitializationError:
             return at
-        for _ in range(RELAXATION):
+        for _ in range(REST.relaxation):
             moving = here.rates.copy()
             moving[np.setdiff1d(np.arange(nx), self.rows)] = 0.0
             try:
                 step = np.linalg.solve(np.eye(nx) - h * here.A, h * moving)
             except np.linalg.LinAlgError:
                 step = np.full(nx, np.nan)
-            if not np.all(np.isfinite(step)) or self._far(step) > FAR:
+            if not np.all(np.isfinite(step)) or self._far(step) > REST.far:
                 h /= 2
-                if h < 1e-12:
+                if h * feedback < REST.shortest:
                     break
                 continue
             moved = _moved(here.point, step)
@@ -248,23 +242,29 @@ class Equilibrium:
                 h /= 4
                 continue
             h *= growth
-            if h > LAST or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < CONVERGED:
+            if (
+                h * feedback > REST.last
+                or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < REST.converged
+            ):
                 break
         return here.point
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
         N, chosen = tangent(self.problem, here.point)
-        A = (here.A @ N)[chosen]
+        size = self.scale[chosen]
+        A = (here.A @ N)[chosen] * size / size[:, None]
         if not A.size:
             return 0.0, np.zeros(self.nx)
         values, vectors = np.linalg.eig(A)
         # Double zeros, of what is free to move, split by the root of rounding.
-        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))))
-        real = np.where(np.real(values) > np.maximum(floor, 1e-6 * np.abs(values)), np.real(values), 0.0)
+        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))) * self.problem.feedback)
+        real = np.where(np.real(values) > np.maximum(floor, REST.grows * np.abs(values)), np.real(values), 0.0)
         k = int(np.argmax(real))
-        direction = N @ np.real(vectors[:, k])
-        return float(real[k]), PUSH * direction / (self._far(direction) or float(np.max(np.abs(direction))))
+        direction = N @ (size * np.real(vectors[:, k]))
+        return float(real[k]), REST.push * direction / (
+            self._far(direction) or float(np.max(np.abs(direction / self.scale)))
+        )
 
 
 def _moved(at: Point, step: np.ndarray) -> Point:
@@ -273,11 +273,4 @@ def _moved(at: Point, step: np.ndarray) -> Point:
 
 def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
     """Part of a way in the space that rows span."""
-    return rows.T @ np.linalg.lstsq(rows.T, way, rcond=RANK)[0] if len(rows) else np.zeros_like(way)
-
-
-def _solve(matrix, right: np.ndarray) -> np.ndarray:
-    try:
-        return scipy.sparse.linalg.splu(matrix).solve(right)
-    except RuntimeError:
-        return np.linalg.lstsq(matrix.toarray(), right, rcond=RANK)[0]
+    return rows.T @ np.linalg.lstsq(rows.T, way, rcond=POLICY.ranks.rank)[0] if len(rows) else np.zeros_like(way)

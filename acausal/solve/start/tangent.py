@@ -23,7 +23,7 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """
     if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
-    J = problem.constraints(at)[1]
+    J, size = problem.gradients(at), problem.nominal[: problem.nx]
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
@@ -34,7 +34,7 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
     fits = len(paired) == len(null) and (not len(null) or np.linalg.matrix_rank(null[:, paired]) == len(null))
     chosen = paired if fits else np.sort(order[: len(null)])
-    return np.linalg.solve(null[:, chosen], null).T, chosen
+    return size[:, None] * np.linalg.solve(null[:, chosen], null).T / size[chosen], chosen
 
 
 def state_matrix(J: Any, nx: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What failed at the start, in the user's words."""
+"""What failed at the start, in the user's terms."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from acausal.language.component import Component, Connector
 
 
 def missing_text(compiled: CompiledModel, free: list[int]) -> str:
-    """Say which states are left open, and what would fix each."""
+    """List the undetermined states, and what would fix each."""
     names = [compiled.states[k] for k in free]
     lines = [
-        f"the initial system leaves {len(free)} freedom{'s' if len(free) > 1 else ''} open: "
+        f"the initial system leaves {len(free)} state{'s' if len(free) > 1 else ''} undetermined: "
         "too few start values are fixed (the model itself is complete).",
         "Fix for instance:",
     ]
@@ -71,7 +71,7 @@ def _member(owner: Component, text: str) -> Any:
 
 
 def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
-    """Say which conditions contradict the rest."""
+    """List the conditions that contradict the rest."""
     flat, nz = compiled.reduced.flat, compiled.nz
     lines = ["the initial conditions contradict the equations of the model or each other:"]
     for k in wrong[:10]:
@@ -82,7 +82,7 @@ def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[i
 
 
 def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surplus: np.ndarray, time: float) -> str:
-    """Say which equations of the initial system were farthest from holding."""
+    """List the equations of the initial system with the largest residuals."""
     flat, nz = compiled.reduced.flat, compiled.nz
     order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
     lines = [
@@ -98,22 +98,22 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
             condition = flat.equations.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
     if surplus.size:
-        lines.append("More values are fixed than the model has freedoms; these had to follow from the others:")
+        lines.append("More values are fixed than there are degrees of freedom; these had to follow from the others:")
         lines += [f"  {c.text} ({c.origin})" for c in (flat.equations.initial[row - nz] for row in surplus[:5])]
     lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
     return "\n".join(lines)
 
 
 def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:
-    """Say that an equilibrium is unstable."""
+    """Report that an equilibrium is unstable."""
     return (
-        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: what disturbs it grows e-fold in "
-        f"{1 / rate:.3g} s. Give guesses nearer to a stable one, as guess(...) of joints or angles_start of bodies."
+        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: a disturbance grows e-fold in "
+        f"{1 / rate:.3g} s. Give guesses closer to a stable one, such as guess(...) of joints or angles_start of bodies."
     )
 
 
 def equation_text(compiled: CompiledModel, row: int) -> str:
-    """Say where an algebraic equation of the integrated system comes from."""
+    """Describe where an algebraic equation of the integrated system comes from."""
     flat, plan = compiled.reduced.flat, compiled.reduced.plan
     equation = plan.residuals[row]
     written, differentiated = len(flat.equations.origins), len(plan.differentiated)

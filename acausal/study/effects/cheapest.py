@@ -32,7 +32,7 @@ def search(
     outputs : sequence of str
         Which outputs must stay within the accuracy.
     accuracy : float
-        Largest change in parts of an output's range.
+        Largest change as a fraction of an output's range.
     fits : callable
         Takes choices and returns those whose part exists with the others.
     """
@@ -56,7 +56,7 @@ def search(
 def cheapest(
     searches: Mapping[str, Search], measure: Callable[[list[Mapping[str, Any]]], list[EffectRow]]
 ) -> dict[str, EffectRow]:
-    """Carry out searches side by side and return what each found.
+    """Carry out searches in parallel and return what each found.
 
     Parameters
     ----------

@@ -70,13 +70,13 @@ def _read(path: str | Path, scene: str) -> dict[str, Any]:
     except OSError as error:
         raise DeclarationError(f"cannot read {path}: {error.strerror or error}.") from None
     except ValueError as error:
-        raise DeclarationError(f"{path} is no JSON document: {error}.") from None
+        raise DeclarationError(f"{path} is not a JSON document: {error}.") from None
     choices = document.get("effects") if isinstance(document, dict) else None
     if not isinstance(choices, dict) or "scene" not in document:
         raise DeclarationError(
-            f"{path} holds no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
+            f"{path} contains no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
         )
-    # Where the user's file lies may change, and from where it is named.
+    # The location of the user's file may change, and the directory from which it is named.
     if PurePath(str(document["scene"])).name != PurePath(scene).name:
         raise DeclarationError(
             f"{path} is for the scene {document['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "

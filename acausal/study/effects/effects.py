@@ -12,6 +12,7 @@ import numpy as np
 from acausal.compiler import compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
+from acausal.policy import POLICY
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.listing import Effect, fullest, same
 from acausal.study.effects.result import Effects
@@ -22,10 +23,6 @@ from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
 from acausal.study.measuring.shipping import pack
-
-# An effect that changes less than this part of the accuracy takes part in no pair, unless it saves time; nor does one that
-# changes more than this part of a range: what is left without it is another scene.
-MATTERS, OTHER = 0.1, 0.4
 
 
 def effects(
@@ -59,7 +56,7 @@ def effects(
     stop_time : float, optional
         In s; that of the model if not given.
     accuracy : float
-        Largest change of the outputs that the cheapest set may make, in parts of their ranges.
+        Largest change of the outputs that the cheapest set may make, as a fraction of their ranges.
     tolerance, initial, method
         As of `simulate`.
     intervals : int
@@ -75,7 +72,7 @@ def effects(
     pairs : int
         How many pairs are tried at most, those first whose effects change most.
     workers : int, optional
-        Processes side by side; one for each core if not given.
+        Parallel processes; one per core if not given.
     executor : Executor or str, optional
         Where to run instead: an executor of the kind of concurrent.futures, or the address of a Dask scheduler.
     progress : callable, optional
@@ -198,7 +195,9 @@ class _Study:
         counts = [
             r
             for r in rows
-            if not r.error and r.change() < OTHER and (r.change() > MATTERS * self.accuracy or r.cheaper(self.origin))
+            if not r.error
+            and r.change() < POLICY.study.other
+            and (r.change() > POLICY.study.matters * self.accuracy or r.cheaper(self.origin))
         ]
         ways = [
             (a, b)
@@ -236,7 +235,7 @@ class _Study:
 
 
 def _same(one: Measurement, other: Measurement) -> bool:
-    """Tell whether two variants have the same equations: one effect leaves nothing of the other."""
+    """Return whether two variants have the same equations: one effect leaves nothing of the other."""
     return one.operations == other.operations and all(
         np.array_equal(one.values[name], other.values[name]) for name in other.values if name in one.values
     )

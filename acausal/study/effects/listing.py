@@ -99,7 +99,7 @@ def fitting(model: Component, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def same(a: Any, b: Any) -> bool:
-    """Tell whether two choices are one."""
+    """Return whether two choices are one."""
     return a is b or a == b
 
 

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
 from acausal.study.effects.listing import Effect, same
@@ -15,8 +16,6 @@ from acausal.study.effects.rows import ALL, EffectRow, Interaction, as_fast
 from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 
 WIDTH = 120
-# Interactions below this part of the accuracy are not worth a line.
-WORTH = 0.1
 ELSEWHERE = "(the changes of every output: --csv FILE, --markdown FILE)"
 
 
@@ -136,7 +135,7 @@ class Effects:
         words = (
             f"{self.scene}: what each effect changes and costs, next to {which} ({r.equations} equations, {r.operations} "
             f"operations, {r.steps} steps, {r.seconds:.3g} s at tolerance {self.tolerance:g}). Changes are the largest, "
-            "in parts of the range of the output."
+            "as a fraction of the range of the output."
         )
         if self.refused:
             words += f" The fullest scene is not the reference: {self.refused}"
@@ -152,13 +151,13 @@ class Effects:
         return labelled
 
     def _findings(self) -> Iterator[str | Table]:
-        """What is told after the changes: failures, idle effects, interactions, and the cheapest sets."""
+        """What follows the changes: failures, idle effects, interactions, and the cheapest sets."""
         for row in self.rows:
             if row.error:
                 yield f"{row.name} failed: {row.error}"
         if self.idle:
             names = ", ".join(dict.fromkeys(path for choices in self.idle for path in choices))
-            yield f"Not called for by this scene, so that switching changes no equation: {names}."
+            yield f"Irrelevant to this scene, because switching them changes no equation: {names}."
         worth = self._worth()
         if worth:
             yield together(worth)
@@ -181,7 +180,7 @@ class Effects:
     def _worth(self) -> list[tuple[Interaction, str]]:
         """Interactions above the errors of the integration and a part of the accuracy, and the output where it is most so."""
         errors = self.floor.largest
-        least = {name: max(WORTH * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
+        least = {name: max(POLICY.study.worth * self.accuracy, 3 * errors.get(name, 0.0)) for name in self.outputs}
         worth = []
         for i in self.interactions:
             where = max(i.size, key=lambda name: i.size[name] / least[name], default="")
@@ -225,7 +224,7 @@ def _praise(row: EffectRow, reference: EffectRow) -> str:
     if not row.choices:
         return "all effects of the reference"
     if as_fast(row, reference):
-        return f"{row.name}; {row.work:.2f} of the operations, as fast as far as can be told"
+        return f"{row.name}; {row.work:.2f} of the operations, no measurable difference in time"
     times = f"{reference.seconds / row.seconds:.2g} times faster"
     return f"{row.name}; {times} ({row.seconds:.3g} s instead of {reference.seconds:.3g} s)"
 

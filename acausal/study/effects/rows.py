@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.simulation.estimate import scale
 from acausal.study.measuring.case import Measurement
 from acausal.study.measuring.deviation import deviations
 
 # What a cheapest set is for, beside one output.
 ALL = "all outputs"
-# Ratio of solve times that cannot be told from 1: medians of a few runs scatter so much.
-NOISE = 0.1
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,7 @@ class EffectRow:
     choices : mapping of str to value
         What is switched; nothing in the reference.
     largest, rms : mapping of str to float
-        Change of each output in parts of its range: the largest, and the root mean square.
+        Change of each output as a fraction of its range: the largest, and the root mean square.
     seconds : float
         Median solve time.
     time, work : float
@@ -65,20 +64,20 @@ class EffectRow:
         return max(self.largest, key=lambda name: self.largest[name])
 
     def cheaper(self, other: EffectRow) -> bool:
-        """Tell whether it takes less time; where that cannot be told, fewer operations and then fewer steps."""
+        """Return whether it takes less time; where that cannot be decided, fewer operations and then fewer steps."""
         if not as_fast(self, other):
             return self.seconds < other.seconds
         return (self.operations, self.steps) < (other.operations, other.steps)
 
 
 def as_fast(one: EffectRow, other: EffectRow) -> bool:
-    """Tell whether the times of two variants cannot be told apart."""
-    return abs(one.seconds - other.seconds) <= NOISE * other.seconds
+    """Return whether the times of two variants cannot be distinguished."""
+    return abs(one.seconds - other.seconds) <= POLICY.study.noise * other.seconds
 
 
 @dataclass(frozen=True)
 class Interaction:
-    """What two effects change together beyond the sum of what they change alone, by output, in parts of its range."""
+    """What two effects change together beyond the sum of what they change alone, by output, as a fraction of its range."""
 
     first: Mapping[str, Any]
     second: Mapping[str, Any]

@@ -92,7 +92,7 @@ def columns(rows: Labelled, outputs: Sequence[str]) -> dict[str, list[Any]]:
 
 
 def number(value: float) -> str:
-    """Return a change with two digits, in parts of the range."""
+    """Return a change with two digits, as a fraction of the range."""
     return "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e+")
 
 

@@ -1,4 +1,4 @@
-"""Variants: a scene with some of its effects set otherwise, compiled, looked at and measured."""
+"""Variants: a scene with some of its effects set otherwise, compiled, compared and measured."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Variants:
     settings : mapping of str to value
         Values that hold in all variants, unless a choice replaces them.
     job : Job
-        How to run; its case tells all but the settings.
+        How to run; its case gives all but the settings.
     executor : Executor
         Where to run.
     progress : callable, optional

@@ -1,4 +1,4 @@
-"""Measuring: cases are run side by side, in processes or on a cluster, and kept in a journal.
+"""Measuring: cases are run in parallel, in processes or on a cluster, and kept in a journal.
 
 case, limit, shipping <- measure <- pool (workers, arguments) <- session (journal); deviation stands by itself.
 """

@@ -1,4 +1,4 @@
-"""What studies ask of their arguments before anything is run."""
+"""What studies require of their arguments before anything is run."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def stop_time_of(model: Component, given: float | None, values: Mapping[str, Any
     """
     own = own_stop_time(model, values) if given is None else given
     if own is None:
-        raise DeclarationError(f"{type(model).__name__} tells no stop_time; give one: stop_time=2.0.")
+        raise DeclarationError(f"{type(model).__name__} declares no stop_time; give one: stop_time=2.0.")
     return check_stop_time(own)
 
 
@@ -66,7 +66,7 @@ def check_run(intervals: int, repeats: int, limit: float) -> None:
 
 
 def check_counts(least: int = 1, **counts: Any) -> None:
-    """Refuse what is no whole number, or less than the least.
+    """Refuse what is not a whole number, or less than the least.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def check_counts(least: int = 1, **counts: Any) -> None:
 
 
 def check_shares(example: float, **shares: Any) -> None:
-    """Refuse what is no number between 0 and 1.
+    """Refuse what is not a number between 0 and 1.
 
     Parameters
     ----------

@@ -114,7 +114,7 @@ class Measurement:
     compile_seconds : float
         From the model to the first ready integrator.
     solve_seconds : float
-        Median of the repeats: initialisation, choice of the order and integration, less what other processes had of the
+        Median of the repeats: initialisation, choice of the order and integration, less the time that other processes had of the
         processor meanwhile.
     steps, factorisations, residual_evaluations : int
         Of one run.

@@ -1,4 +1,4 @@
-"""How far values are from a reference, in parts of the reference's range."""
+"""How far values are from a reference, as a fraction of its range."""
 
 from __future__ import annotations
 
@@ -8,18 +8,15 @@ import numpy as np
 
 from acausal.simulation.estimate import scale
 
-# Times the range of an output: beyond it, a solution has nothing to do with the reference.
-RUNAWAY = 10.0
-
 
 def deviations(
     values: Mapping[str, np.ndarray],
     reference: Mapping[str, np.ndarray],
     ranges: Mapping[str, np.ndarray] | None = None,
 ) -> dict[str, tuple[float, float]]:
-    """Return the largest and the root mean square deviation of each output of the reference, in parts of its range.
+    """Return the largest and the root mean square deviation of each output of the reference, as a fraction of its range.
 
-    Where an output rests, in parts of its largest size; where it is 0, as it is.
+    Where an output rests, as a fraction of its largest size; where it is 0, as it is.
 
     Parameters
     ----------

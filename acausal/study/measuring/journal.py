@@ -1,4 +1,4 @@
-"""The journal of a study: what was measured, kept on disk at once, so that an interrupted study goes on."""
+"""The journal of a study: what was measured, kept on disk at once, so that an interrupted study continues."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ class Journal:
         ]
         if other:
             raise DeclarationError(
-                f"{self.path} holds points of another study (other {', '.join(other)}). "
-                "Remove it to begin anew, or give the table another name."
+                f"{self.path} holds cases of another study (other {', '.join(other)}). "
+                "Remove it to start again, or give the table another name."
             )
         # The last line may be cut where the session was killed.
         found = [document for document in map(_read, lines[1:]) if document]
@@ -113,7 +113,7 @@ class Journal:
 
 
 def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:
-    """Return what tells one study from another: engine, model with its sources, and options of all cases.
+    """Return what distinguishes one study from another: engine, model with its sources, and options of all cases.
 
     Parameters
     ----------

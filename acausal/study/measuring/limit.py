@@ -1,4 +1,4 @@
-"""Stop what takes too long, also inside of an integrator."""
+"""Stop what takes too long, even inside an integrator."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-# Seconds after which the alarm rings again, should it have come where nothing can be interrupted.
-AGAIN = 1.0
+from acausal.policy import POLICY
 
 
 class TooLong(Exception):
@@ -50,10 +49,10 @@ def stopping_after(seconds: float) -> Iterator[Callable[[float, int], None]]:
     before = signal.signal(signal.SIGALRM, ring) if alarm else None
     try:
         if alarm:
-            signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
+            signal.setitimer(signal.ITIMER_REAL, seconds, POLICY.study.again)
         yield show
     except KeyboardInterrupt:
-        if rung:  # an integrator tells every signal as an interrupt
+        if rung:  # an integrator reports every signal as an interrupt
             raise TooLong from None
         raise
     finally:

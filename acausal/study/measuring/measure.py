@@ -1,4 +1,4 @@
-"""Measure a case in this process: compile it, run it, and tell what it costs."""
+"""Measure a case in this process: compile it, run it, and report what it costs."""
 
 from __future__ import annotations
 
@@ -14,15 +14,13 @@ import numpy as np
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import AcausalError, AcausalWarning
 from acausal.locks import alone
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation import simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
 from acausal.study.measuring.shipping import unpack
 
-# Seconds after which a run is not repeated: what takes long is measured well enough. Runs that are repeated fill the
-# lesser time, because the times of short ones scatter most.
-ENOUGH, LITTLE = 3.0, 0.2
 KEPT = 2
 # Compiled models of this process, the last used last.
 _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
@@ -30,7 +28,7 @@ _COMPILED: dict[tuple[bytes, str], CompiledModel] = {}
 
 @alone
 def measure(job: Job) -> Measurement:
-    """Compile and run a case; whatever goes wrong with the model is told in the measurement.
+    """Compile and run a case; whatever goes wrong with the model is stored in the measurement.
 
     Parameters
     ----------
@@ -41,11 +39,11 @@ def measure(job: Job) -> Measurement:
         with stopping_after(job.limit) as show:
             compiled = _compiled(job)
             with warnings.catch_warnings():
-                # What formulations neglect is what a study shows, and a measurement tells what is not finite.
+                # A study shows what formulations neglect, and a measurement reports what is not finite.
                 warnings.simplefilter("ignore", AcausalWarning)
                 return _measure(job, compiled, show)
     except TooLong:
-        _COMPILED.clear()  # it was left in the middle of something
+        _COMPILED.clear()  # it was interrupted at an arbitrary place
         return Measurement(job.case, error=f"it was stopped after {job.limit:g} s")
     except AcausalError as error:
         return Measurement(job.case, error=(str(error).splitlines() or [type(error).__name__])[0])
@@ -55,7 +53,9 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
     built = compiled.seconds.pop("integrators", 0.0)
     result, took = _run(job, compiled, show)
     stats, seconds = result.stats, [took]
-    while sum(seconds) < (ENOUGH if len(seconds) < job.repeats else LITTLE * (job.repeats > 1)):
+    while sum(seconds) < (
+        POLICY.study.enough if len(seconds) < job.repeats else POLICY.study.little * (job.repeats > 1)
+    ):
         seconds.append(_run(job, compiled, show)[1])
     compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
     found = Measurement(
@@ -80,7 +80,7 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
 
 
 def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
-    """Run, and tell the solve time less what other processes had of the processor meanwhile."""
+    """Run, and return the solve time less the processor time of other processes meanwhile."""
     case = job.case
     began, busy = clock.perf_counter(), clock.process_time()
     result = simulate(

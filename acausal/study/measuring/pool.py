@@ -1,4 +1,4 @@
-"""Run the cases of a study side by side, in processes or on the workers of a cluster."""
+"""Run the cases of a study in parallel, in processes or on the workers of a cluster."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def processes(workers: int | None = None) -> Iterator[Executor]:
         try:
             yield pool
         except BaseException:
-            # Nobody waits for what still runs.
+            # What still runs is not waited for.
             for process in set(multiprocessing.active_children()) - before:
                 process.terminate()
             raise
@@ -111,7 +111,7 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         with client:
             yield client.get_executor(pure=False)
         return
-    # Whoever reaches a scheduler may run code on its workers: nobody but this machine reaches this one.
+    # Whoever reaches a scheduler may run code on its workers: only this machine reaches this one.
     here: dict[str, Any] = {"host": LOOPBACK, "dashboard_address": f"{LOOPBACK}:0"}
     with without_main():
         local = LocalCluster(n_workers=workers or _cores(), threads_per_worker=1, processes=True, **here)
@@ -125,7 +125,7 @@ def _cores() -> int:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let processes that start inside of the block use one thread for linear algebra."""
+    """Let processes that start inside the block use one thread for linear algebra."""
     before = {name: os.environ.get(name) for name in THREADS}
     os.environ.update(dict.fromkeys(THREADS, "1"))
     try:

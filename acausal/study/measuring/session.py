@@ -37,7 +37,7 @@ class Session:
     wanted: int = 0
 
     def measure(self, cases: Iterable[Case], what: str = "") -> list[Measurement]:
-        """Measure cases side by side, and return what they gave in their order.
+        """Measure cases in parallel, and return what they gave in their order.
 
         Parameters
         ----------

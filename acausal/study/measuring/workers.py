@@ -19,7 +19,7 @@ _STARTING = Lock()
 
 @contextmanager
 def without_main() -> Iterator[None]:
-    """Let processes that start inside of the block not run the script again: models are sent to them with all they need.
+    """Let processes that start inside the block not run the script again: models are sent to them with all they need.
 
     So a script does not need the guard `if __name__ == "__main__":`.
     """

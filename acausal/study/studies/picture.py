@@ -52,7 +52,7 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     axes.set(xscale="log", yscale="log", xlabel="solve time [ms]")
-    axes.set_ylabel(f"largest error of {output or 'all outputs'}, in parts of the range")
+    axes.set_ylabel(f"largest error of {output or 'all outputs'} as a fraction of the range")
     axes.set_title(title)
     names = list(dict.fromkeys(row.case.formulation for row in rows))
     for k, name in enumerate(names):

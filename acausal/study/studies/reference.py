@@ -1,4 +1,4 @@
-"""The reference of a study: refined until it does not change any more, or read from a file."""
+"""The reference of a study: refined until it no longer changes, or read from a file."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
+from acausal.policy import POLICY
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
 
-# Refinements that are tried, and the least tolerance of a reference.
-ROUNDS, LEAST = 6, 1e-12
+STUDY = POLICY.study
+
 Measure = Callable[[Iterable[Case]], Sequence[Measurement]]
 
 
@@ -29,9 +30,9 @@ class Reference:
     values : mapping of str to array, shape (times,)
         Outputs by name.
     agreement : mapping of str to mapping of str to float
-        What it was compared with: the largest deviation of each output, in parts of its range.
+        What it was compared with: the largest deviation of each output, as a fraction of its range.
     asked : float
-        The deviation that was asked for.
+        The requested deviation.
     text : str
         Where it comes from.
     case : Case or None
@@ -47,12 +48,12 @@ class Reference:
 
     @property
     def floors(self) -> dict[str, float]:
-        """Errors of each output below which none are told apart."""
+        """Errors of each output below which none can be distinguished."""
         return {name: max((a[name] for a in self.agreement.values()), default=0.0) for name in self.values}
 
     @property
     def floor(self) -> float:
-        """Errors below it are not told apart."""
+        """Errors below it cannot be distinguished."""
         return max(self.floors.values(), default=0.0)
 
     def __str__(self) -> str:
@@ -61,7 +62,7 @@ class Reference:
         compared = ", ".join(f"{what} {max(found.values()):.1e}" for what, found in self.agreement.items())
         lines = [f"reference: {self.text}; known to {self.floor:.1e} of the range ({compared})"]
         if self.floor > self.asked:
-            lines.append(f"{self.asked:.0e} was asked for and not reached: smaller errors are not told apart")
+            lines.append(f"{self.asked:.0e} was requested but not reached: smaller errors cannot be distinguished")
         if len(self.values) > 1:
             lines.append("by output: " + ", ".join(f"{name} {floor:.1e}" for name, floor in self.floors.items()))
         return "\n".join(lines)
@@ -73,7 +74,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
     Parameters
     ----------
     measure : callable
-        Measures cases side by side.
+        Measures cases in parallel.
     formulations : sequence of Formulation
         Those with the same limit; two of them check each other.
     case : Case
@@ -81,9 +82,9 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
     least : float
         The tightest tolerance of the study.
     asked : float
-        Deviation to be reached, in parts of the range.
+        Deviation to be reached, as a fraction of the range.
     """
-    start = replace(case, tolerance=max(LEAST, least / 10))
+    start = replace(case, tolerance=max(STUDY.least, least / 10))
     if not any(form.refine for form in formulations):
         return _tightened(measure, _at(start, formulations[0], 0), asked)
     return _refined(measure, [form for form in formulations if form.refine], start, asked)
@@ -123,20 +124,20 @@ def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Referen
         )
     values = {name: table[name].to_numpy(dtype=float) for name in outputs}
     if not all(np.all(np.isfinite(column)) for column in values.values()):
-        raise DeclarationError(f"the reference {path} has entries that are no finite numbers.")
+        raise DeclarationError(f"the reference {path} has entries that are not finite numbers.")
     return Reference(times, values, text=str(path))
 
 
 def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:
     """Double the sizes and tighten the tolerance until nothing changes and two formulations of one limit agree."""
     state, best = _State(tuple(forms), start.tolerance), None
-    for _ in range(ROUNDS):
+    for _ in range(STUDY.rounds):
         now, state, why = _look(measure, state, start, asked)
         if now is not None and (best is None or now.floor < best.floor):
             best = now
         if why or (best is not None and best.floor <= asked):
             return _ended(best, why)
-    return _ended(best, f"{ROUNDS} refinements were tried")
+    return _ended(best, f"{STUDY.rounds} refinements were tried")
 
 
 @dataclass(frozen=True)
@@ -149,7 +150,7 @@ class _State:
 
 
 def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[Reference | None, _State, str]:
-    """Compare with coarser elements, another formulation and a looser tolerance; tell what to refine, or what failed."""
+    """Compare with coarser elements, another formulation and a looser tolerance; return what to refine, or what failed."""
     case, n = replace(start, tolerance=state.tolerance), len(state.forms)
     coarse = [_at(case, form, max(0, form.steps - 2 + state.level)) for form in state.forms]
     fine = [_at(case, form, form.steps - 1 + state.level) for form in state.forms]
@@ -170,7 +171,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     tolerance = max(agreement["looser tolerance"].values())
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
-    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= LEAST
+    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= STUDY.least
     after = (
         _State(forms, state.tolerance / 10, state.level) if tighten else _State(forms, state.tolerance, state.level + 1)
     )
@@ -178,7 +179,7 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
 
 
 def _ended(found: Reference | None, why: str) -> Reference:
-    """Say why the refinement ended before it was good enough."""
+    """Report why the refinement ended before it was good enough."""
     if found is None:
         raise SimulationError(f"there is no reference: {why}. Give one by reference=, or other formulations.")
     return replace(found, text=f"{found.text} ({why})") if why else found
@@ -188,13 +189,13 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
     """Tighten the tolerance of a model without elements, and check by another way of integration."""
     found, best, looser = None, measure([case])[0], measure([replace(case, tolerance=10 * case.tolerance)])[0]
     why = ""
-    for _ in range(ROUNDS):
+    for _ in range(STUDY.rounds):
         if best.error or looser.error:
             why = _failed([best, looser])
             break
         found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
         tolerance = best.case.tolerance / 10
-        if found.floor <= asked or tolerance < LEAST:
+        if found.floor <= asked or tolerance < STUDY.least:
             break
         looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]
     return _checked(measure, _ended(found, why), looser if best.error else best)

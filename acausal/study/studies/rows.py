@@ -1,4 +1,4 @@
-"""Rows of a study: how wrong a case is, what it costs, and what its error comes from."""
+"""Rows of a study: the error of a case, its cost, and the cause of its error."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.policy import POLICY
 from acausal.study.measuring.case import Case, Measurement
-from acausal.study.measuring.deviation import RUNAWAY, deviations, worst
+from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
 from acausal.study.studies.reference import Reference
 
+STUDY = POLICY.study
+
 # What limits the accuracy of a case.
 TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"
-# The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes with
-# the power 2/3 of the tolerance, that of elements at least with the square of their size.
-TOLERANCE_POWER, ELEMENTS_SHARE = 2 / 3, 1 / 3
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class StudyRow:
     measurement : Measurement
         Costs and counts.
     errors : mapping of str to (float, float)
-        Largest and root mean square error of each output, in parts of its range.
+        Largest and root mean square error of each output, as fractions of its range.
     limit : str
         What limits the accuracy: "tolerance", "elements" (of which there are too few), "model" (the formulation has
         another limit than the reference), or "reference" (which is not known better).
@@ -107,7 +107,7 @@ def pareto(rows: Sequence[StudyRow], floor: float = 0.0, output: str | None = No
     rows : sequence of StudyRow
         With errors.
     floor : float
-        Errors below it are not told apart.
+        Errors below it cannot be distinguished.
     output : str, optional
         Whose error; the largest of all outputs if not given.
     """
@@ -123,13 +123,13 @@ def _compared(m: Measurement, reference: Reference) -> StudyRow:
     if m.error:
         return StudyRow(m, {}, remark=m.error)
     row = StudyRow(m, deviations(m.values, reference.values))
-    if row.error > RUNAWAY:
+    if row.error > STUDY.runaway:
         return replace(row, remark=f"it diverged: {row.error:.1g} times the range away from the reference")
     return row
 
 
 def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms: Mapping[str, Formulation]) -> str:
-    """Tell what the error comes from: at least half of it goes with what is blamed."""
+    """Return the cause of the error: at least half of it must come from there."""
     half, form = row.error / 2, forms[row.case.formulation]
     exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:
@@ -158,7 +158,9 @@ def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Referen
         return 0.0
     if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** TOLERANCE_POWER
+    return (
+        _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** STUDY.tolerance_power
+    )
 
 
 def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:
@@ -174,7 +176,7 @@ def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, 
         return 0.0
     if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return _between(row, series[1], reference) * ELEMENTS_SHARE
+    return _between(row, series[1], reference) * STUDY.elements_share
 
 
 def _between(one: StudyRow, other: StudyRow, reference: Reference) -> float:

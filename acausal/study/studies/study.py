@@ -118,7 +118,7 @@ class Study:
         Parameters
         ----------
         path : str or Path, optional
-            Write the picture there; the ending tells the format.
+            Write the picture there; the suffix determines the format.
         output : str, optional
             Whose error; the largest of all outputs if not given.
         """
@@ -151,7 +151,7 @@ def study(
     journal: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Study:
-    """Run a model in many ways, side by side, and tell the error and the cost of each.
+    """Run a model in many ways, in parallel, and report the error and the cost of each.
 
     Parameters
     ----------
@@ -164,9 +164,9 @@ def study(
     outputs : sequence of str
         Paths of what is compared, with * and ?; the model's outputs if empty.
     formulations : sequence of Formulation, optional
-        Ways of discretising the model; those that it declares or that its fields tell if not given.
+        Ways of discretising the model; those that it declares or that follow from its fields if not given.
     tolerances, max_orders, methods : sequence
-        Tolerances, limits of the order and methods, as of `simulate`.
+        Tolerances, limits of the order and methods, as in `simulate`.
     constraints : sequence of str, optional
         As of `simulate`; "states" and "projection" for a model with loops and a single formulation.
     switches : mapping of str to sequence, optional
@@ -174,7 +174,7 @@ def study(
     reference : str or Path, optional
         A table as `simulate --csv` writes it; made from the model if not given.
     accuracy : float
-        How well the reference is to be known, in parts of each output's range: the smallest error that is told.
+        Required accuracy of the reference, as a fraction of each output's range: the smallest error that is reported.
     intervals : int
         Every run has intervals + 1 equidistant points.
     initial : str, optional
@@ -189,7 +189,7 @@ def study(
         Where cases run: any of the kind of concurrent.futures, "local" for Dask workers on this machine, or the
         address of a Dask scheduler. Processes of this machine if not given.
     journal : str or Path, optional
-        File that keeps what is done; an interrupted study goes on from it, a complete one removes it.
+        File that keeps what is done; an interrupted study continues from it, a complete one removes it.
     progress : callable, optional
         Called with the number of cases done, of cases so far, and what is going on.
 
@@ -222,7 +222,7 @@ def study(
     kept = Journal(journal, identity(model, trees, **common))
     with executor_of(executor, workers) as pool:
         session = Session(job, pool, kept, progress)
-        measured = session.measure(grid.cases(given), "points")
+        measured = session.measure(grid.cases(given), "cases")
         if known is None:
             exact = [form for form in forms if form.exact] or list(forms[:1])
             base = _base(compiled, grid, given)

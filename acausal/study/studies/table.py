@@ -1,4 +1,4 @@
-"""The table of a study: every figure by column, and what people read of it."""
+"""The table of a study: every figure by column, and the part that is shown."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ def columns(rows: Sequence[StudyRow], switches: Sequence[str] = ()) -> dict[str,
 
 
 def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str]) -> Table:
-    """Return the table for people: what is the same in every row is left out.
+    """Return the table to be read: what is the same in every row is left out.
 
     Parameters
     ----------
     rows : sequence of StudyRow
         The rows.
     reference : Reference
-        Tells which errors are too small to be known.
+        Determines which errors are too small to be known.
     switches : sequence of str
         Paths that were varied.
     """

@@ -59,7 +59,7 @@ def test_projected_coordinates_are_on_the_circle(r):
 
 def test_guesses_of_projected_coordinates_are_what_is_integrated():
     c, at = compiled().constraints, point(3, 4, 5, 6)
-    z = c.guess(at.x, at.z, problem().p, 0.0, at.constants.vector)
+    z = c.complete(at.x, at.z, problem().p, 0.0, at.constants.vector)
     found = dict(zip(compiled().algebraic, z, strict=True))
     for name, value in zip("xyuv", (3, 4, 5, 6), strict=True):
         assert found.get(name, value) == value

@@ -105,7 +105,7 @@ def test_a_structural_value_and_a_choice():
         ("formulation", "gem", "must be one of"),
         ("omega", "fast", "must be a number"),
         ("omega", None, "must be a number"),
-        ("omega", fixed(3), "is no variable"),
+        ("omega", fixed(3), "is not a variable"),
         ("angle", 3, "write angle=fixed"),
         ("world", 5, "is a part; put a component in its place"),
     ],
@@ -218,7 +218,7 @@ class Own(Rate):
 
 
 def test_a_circle_of_defaults_is_named():
-    with pytest.raises(DeclarationError, match="Circle follow each other in a circle: a -> b -> c -> a"):
+    with pytest.raises(DeclarationError, match="Circle depend on each other in a circle: a -> b -> c -> a"):
         ac.compile(Circle())
     with pytest.raises(DeclarationError, match="n -> n"):
         ac.compile(Own())

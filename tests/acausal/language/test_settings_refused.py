@@ -37,7 +37,7 @@ def test_setting_on_an_instance_is_refused_with_the_mend(change, text):
     ("change", "text"),
     [
         (lambda t: setattr(t, "load", 5), r"ac.simulate\(compiled, ..., parameters=\{'load': 5\}\)"),
-        (lambda t: setattr(t.bar, "r", (2, 0, 0)), r"`bar.r` is not set on a built model.*parameters=\{'bar.r'"),
+        (lambda t: setattr(t.bar, "r", (2, 0, 0)), r"`bar.r` cannot be set on a built model.*parameters=\{'bar.r'"),
         (
             lambda t: setattr(t.hinge, "use_axis_flange", False),
             r"ac.compile\(model, parameters=\{'hinge.use_axis_flange'",
@@ -105,5 +105,5 @@ def test_parts_and_values_set_in_a_constructor_are_refused_with_the_mend(name, n
 
 
 def test_what_is_found_or_computed_takes_no_value():
-    with pytest.raises(DeclarationError, match="found by itself"):
+    with pytest.raises(DeclarationError, match="found automatically"):
         Body(m=1, world=World())

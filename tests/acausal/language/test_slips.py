@@ -1,4 +1,4 @@
-"""Names that are no fields: nothing is ignored that was meant as a field, a part, a setting or a method."""
+"""Names that are not fields: nothing is ignored that was meant as a field, a part, a setting or a method."""
 
 from __future__ import annotations
 

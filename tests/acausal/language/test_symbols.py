@@ -108,25 +108,25 @@ REFUSED = {
     "concatenate": (lambda self: np.concatenate([self.v, self.v]), "numpy's `concatenate`"),
     "array": (lambda self: np.array([self.s, 1, 2]), r"s is symbolic .*A tuple or a list is a vector"),
     "matrix": (lambda self: np.asarray([[self.s, 0], [0, 1]]), "numpy cannot make an array"),
-    "floor": (lambda self: math.floor(self.s), "would jump unseen"),
+    "floor": (lambda self: math.floor(self.s), "would jump without an event"),
     "rest": (lambda self: self.s % 2, "`%`, `//` and round"),
     "rest of a number": (lambda self: 7 % self.s, "`%`, `//` and round"),
-    "whole part": (lambda self: 7 // self.s, "would jump unseen"),
-    "round": (lambda self: round(self.s, 2), "would jump unseen"),
+    "whole part": (lambda self: 7 // self.s, "would jump without an event"),
+    "round": (lambda self: round(self.s, 2), "would jump without an event"),
     "float": (lambda self: float(self.s), "s is symbolic and has no value .* cannot be a Python number"),
     "range": (lambda self: len(range(self.s)), "declare the field structural"),
-    "beyond": (lambda self: self.v[3], r"`v\[3\]` is outside of v, whose entries are v\[0\] to v\[2\]"),
-    "before": (lambda self: self.v[-4], r"`v\[-4\]` is outside of v"),
-    "slice": (lambda self: self.v[1:7], r"`v\[1:7\]` is outside of v"),
+    "beyond": (lambda self: self.v[3], r"`v\[3\]` is outside v, whose entries are v\[0\] to v\[2\]"),
+    "before": (lambda self: self.v[-4], r"`v\[-4\]` is outside v"),
+    "slice": (lambda self: self.v[1:7], r"`v\[1:7\]` is outside v"),
     "row": (lambda self: self.m[3], "which has 3 rows and 3 columns"),
-    "column": (lambda self: self.m[0, 3], r"`m\[0, 3\]` is outside of m"),
-    "scalar": (lambda self: self.s[1], r"`s\[1\]` is outside of s, which is a scalar"),
-    "too many": (lambda self: self.m[0, 0, 0], r"`m\[0, 0, 0\]` is outside of m"),
-    "symbol": (lambda self: self.v[self.s], r"`v\[s\]`: entries of a symbol are chosen by whole numbers"),
-    "fraction": (lambda self: self.v[0.5], "chosen by whole numbers"),
-    "truth": (lambda self: self.v[True], "chosen by whole numbers"),
-    "none": (lambda self: self.v[None], "chosen by whole numbers"),
-    "set": (lambda self: operator.setitem(self.v, 0, 1), "entries of v are not set"),
+    "column": (lambda self: self.m[0, 3], r"`m\[0, 3\]` is outside m"),
+    "scalar": (lambda self: self.s[1], r"`s\[1\]` is outside s, which is a scalar"),
+    "too many": (lambda self: self.m[0, 0, 0], r"`m\[0, 0, 0\]` is outside m"),
+    "symbol": (lambda self: self.v[self.s], r"`v\[s\]`: entries of a symbol are selected by integers"),
+    "fraction": (lambda self: self.v[0.5], "selected by integers"),
+    "truth": (lambda self: self.v[True], "selected by integers"),
+    "none": (lambda self: self.v[None], "selected by integers"),
+    "set": (lambda self: operator.setitem(self.v, 0, 1), "entries of v cannot be assigned"),
     "method": (lambda self: self.v.sum(), "v is an expression and has no `sum`"),
     "sine of casadi": (lambda self: ca.sin(self.s), "`sin` of CasADi is called with an expression"),
     "call": (
@@ -134,7 +134,7 @@ REFUSED = {
         r"a function or an interpolant of CasADi.*Expr\(function",
     ),
     "stack": (lambda self: ca.vertcat(self.s, self.s), "`vertcat` of CasADi"),
-    "equality": (lambda self: piecewise((1, self.s == 2), 0), "is no condition but an equation"),
+    "equality": (lambda self: piecewise((1, self.s == 2), 0), "is an equation, not a condition"),
     "lonely case": (lambda self: piecewise(self.s > 2, 0), "a case of piecewise is a pair"),
 }
 Q = ca.SX.sym("q")
@@ -180,7 +180,7 @@ def test_fields_in_a_class_body():
     ("use", "text"),
     [
         (lambda: math.sin(Values.s), "a field has no value in the class body, so it cannot be a Python number"),
-        (lambda: round(Values.s), "would jump unseen"),
+        (lambda: round(Values.s), "would jump without an event"),
         (lambda: np.array([Values.s, 0]), "numpy cannot make an array"),
         (lambda: np.maximum(Values.s, 0), "numpy's `maximum`"),
         (lambda: range(InABody.n), "cannot be a Python number"),
@@ -245,14 +245,16 @@ def test_a_prescribed_motion_with_a_kink_is_refused_where_it_is():
     ],
 )
 def test_symbols_of_casadi(use):
-    with pytest.raises(DeclarationError, match=r"(Law|stored_energy).*: `q` is no variable or parameter of this model"):
+    with pytest.raises(
+        DeclarationError, match=r"(Law|stored_energy).*: `q` is not a variable or parameter of this model"
+    ):
         ac.simulate(type("Law", (Values,), use)(), stop_time=1)
 
 
 def test_symbols_of_another_model():
     other = ac.compile(Drag()).tree
-    with pytest.raises(DeclarationError, match=r"test_symbols\.py:\d+: `x` is no variable .* another built\s+model"):
+    with pytest.raises(DeclarationError, match=r"test_symbols\.py:\d+: `x` is not a variable .* another built\s+model"):
         worth(lambda self: other.x)
     result = ac.simulate(Drag(), stop_time=1)
-    with pytest.raises(DeclarationError, match="`x` is no variable or parameter of this model"):
+    with pytest.raises(DeclarationError, match="`x` is not a variable or parameter of this model"):
         result[other.x * 2]

@@ -8,7 +8,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.reduce.constrain import FEEDBACK, constrain
+from acausal.language.functions import feedback
+from acausal.reduce.constrain import constrain
 from acausal.structure import analyse
 from tests.acausal.structure.examples import Model
 
@@ -92,13 +93,13 @@ def test_a_projection_along_unit_vectors_makes_a_coordinate_follow(pendulum):
 
 
 def test_what_is_integrated_comes_back_to_what_is_projected(pendulum):
-    """der(X) = der(x) + (x - X) / s."""
+    """der(X) = der(x) + feedback (x - X)."""
     n = len(pendulum.own)
     p = pendulum.plan.constrained.projections[0]
     x, rate, state, state_rate = (pendulum.elements[v] for v in (p.coordinate, p.rate, p.state, p.state_rate))
-    f = ca.Function("f", [x, rate, state, state_rate], [pendulum.residuals[n + 1]])
-    assert float(f(0.5, 3.0, 0.2, 3.0 + 0.3 * FEEDBACK)) == pytest.approx(0.0, abs=1e-15)
-    assert float(f(0.5, 3.0, 0.2, 3.0)) == pytest.approx(-0.3 * FEEDBACK)
+    f = ca.Function("f", [x, rate, state, state_rate, feedback.sx], [pendulum.residuals[n + 1]])
+    assert float(f(0.5, 3.0, 0.2, 3.0 + 0.3 * 7, 7)) == pytest.approx(0.0, abs=1e-15)
+    assert float(f(0.5, 3.0, 0.2, 3.0, 7)) == pytest.approx(-0.3 * 7)
 
 
 def test_a_closure_that_counts_stays_and_one_that_does_not_gives_way():

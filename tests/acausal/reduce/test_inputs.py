@@ -72,7 +72,7 @@ def test_der_of_an_input_is_refused() -> None:
         def equations(self):
             yield self.y == der(self.u**2)
 
-    with pytest.raises(ac.DeclarationError, match=r"der\(\) is taken.*input `u`"):
+    with pytest.raises(ac.DeclarationError, match=r"der\(\) is applied.*input `u`"):
         ac.compile(Rate())
 
 

@@ -100,7 +100,7 @@ def test_match(result):
         ("piece", "`piece` is a list of 2 parts; name a variable of one, such as `piece[0].k`."),
         ("piece[0]", "`piece[0]` is a part (Piece); name one of its variables, such as `piece[0].k`."),
         ("x[0].q", "there is no `x[0].q` in the model; did you mean `piece[0].q`, `piece[1].q`, `piece[0].k`?"),
-        ("n", "`n` is structural and has no course over time; its value is 2."),
+        ("n", "`n` is structural and does not vary with time; its value is 2."),
         ("check", "there is no `check` in the model."),
         ("", "there is no `` in the model."),
         ("piece[a].q", "there is no `piece[a].q` in the model; did you mean `piece[1].q`, `piece[0].q`, `piece[1].k`?"),

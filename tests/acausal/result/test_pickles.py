@@ -178,7 +178,7 @@ def test_a_local_class_is_named_with_the_mend():
         """Not to be imported."""
 
     compiled = ac.compile(Local())
-    with pytest.raises(ac.ExportError, match=r"Local.*inside of the function test_a_local_class.*top of its module"):
+    with pytest.raises(ac.ExportError, match=r"Local.*inside the function test_a_local_class.*top of its module"):
         pickle.dumps(compiled)
     result = pickle.loads(pickle.dumps(ac.simulate(compiled, **TANK)))
     assert result["x"].shape == (21,)

@@ -71,9 +71,9 @@ def test_a_device_is_not_replaced(result):
 def test_unwritable_paths_tell_the_reason(tmp_path):
     (tmp_path / "file").write_text("")
     for path, reason in {
-        tmp_path: "it is a directory; add the name of a file.",
-        tmp_path / "none" / "a.csv": f"there is no directory {tmp_path / 'none'}; make it first.",
-        tmp_path / "file" / "a.csv": f"there is no directory {tmp_path / 'file'}; make it first.",
+        tmp_path: "it is a directory; append a file name.",
+        tmp_path / "none" / "a.csv": f"there is no directory {tmp_path / 'none'}; create it first.",
+        tmp_path / "file" / "a.csv": f"there is no directory {tmp_path / 'file'}; create it first.",
     }.items():
         with pytest.raises(ExportError) as error:
             check_writable(path)

@@ -297,6 +297,6 @@ def test_command():
 
 def test_elements_that_are_kept_are_told():
     run = CliRunner().invoke(app, ["simulate", "spin-up", "--stop-time", "2", "--accuracy", "0.1"])
-    assert "what they lack is not part of it" in run.output
+    assert "their error is not included" in run.output
     run = CliRunner().invoke(app, ["simulate", "simple-pendulum", "--accuracy", "0.1"])
-    assert "what they lack" not in run.output
+    assert "their error" not in run.output

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from acausal.simulation.estimate import BY_TOLERANCE, estimate, scale
+from acausal.policy import POLICY
+from acausal.simulation.estimate import estimate, scale
 
 t = np.linspace(0, 2, 21)
 EXACT = {"swing": 3 * np.sin(5 * t), "push": 1e3 * t, "rest": np.full_like(t, 7.0), "zero": 0 * t}
@@ -32,7 +33,7 @@ def test_scale_is_the_range_or_the_size_or_1():
 
 @pytest.mark.parametrize("tenths", [0.1, 0.01])
 def test_an_error_that_falls_with_the_least_power_of_the_tolerance_is_found_exactly(tenths):
-    fall = tenths**BY_TOLERANCE
+    fall = tenths**POLICY.estimate.by_tolerance
     found = estimate(run(swing=1e-4, push=-3e-4), run(swing=1e-4 * fall, push=-3e-4 * fall), tenths, None, None)
     expected = {"swing": 1e-4, "push": 3e-4, "rest": 0, "zero": 0}
     assert found.outputs == pytest.approx(expected, rel=1e-3, abs=1e-15)

@@ -75,7 +75,7 @@ class Guessed(Decay):
 def test_initial():
     assert ac.simulate(Guessed()).stats["method"] == "idas"
     assert ac.linearize(Guessed()).A.item() == pytest.approx(-1)
-    with pytest.raises(ac.InitializationError, match="1 freedom open"):
+    with pytest.raises(ac.InitializationError, match="1 state undetermined"):
         ac.simulate(Guessed(), initial="fixed")
     with pytest.raises(DeclarationError, match="initial is 'rest'; it must be one of"):
         ac.simulate(type("M", (Guessed,), {"initial": "rest"})())
@@ -123,7 +123,7 @@ def test_no_stop_time_at_all():
     class Endless(Decay):
         stop_time = None
 
-    with pytest.raises(DeclarationError, match=r"tells no stop_time; give one: stop_time=2\.0"):
+    with pytest.raises(DeclarationError, match=r"declares no stop_time; give one: stop_time=2\.0"):
         ac.simulate(Endless())
     assert ac.simulate(Endless(), stop_time=1).time[-1] == 1
 

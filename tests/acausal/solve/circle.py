@@ -52,5 +52,5 @@ def plane(at: np.ndarray) -> list[float]:
 
 
 def point(x: float, y: float, u: float = 0.0, v: float = 0.0) -> Point:
-    constants = compiled().layout.constants(np.zeros(0))
+    constants = compiled().layout.begin(np.zeros(0), 1.0)
     return Point(0.0, states(x, y, u, v), np.zeros(compiled().nz), constants)

@@ -25,7 +25,7 @@ class Made:
 
     def __init__(self, f: Function, jacobian: Function, n: int, nx: int = 0) -> None:
         self.f, self.jacobian, self.nx, self.nz = f, jacobian, nx, n - nx
-        self.nominal = np.ones(n)
+        self.nominal, self.feedback = np.ones(n), 1.0
         self.seen: list[np.ndarray] = []
         equations = SimpleNamespace(origins=[f"equation {k}" for k in range(n)], initial=[])
         plan = SimpleNamespace(residuals=range(n), differentiated=())

@@ -1,1 +1,1 @@
-"""The scenes spin-up, pendulum and slider-crank next to Exudyn, which is optional: pip install ".[benchmark]"."""
+"""The scenes spin-up, pendulum and slider-crank compared with Exudyn, which is optional: pip install ".[benchmark]"."""

@@ -1,9 +1,9 @@
-"""Benchmark: accuracy against time next to Exudyn; tables in Markdown or for the terminal, and a picture.
+"""Benchmark: accuracy against time, compared with Exudyn; tables in Markdown or for the terminal, and a picture.
 
     OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.exudyn [--markdown] [--plot FILE.png] [SCENE]...
 
 One run on one machine: spin-up, pendulum and slider-crank at several tolerances, steps and formulations. Errors are the
-largest over 401 points against Exudyn with many elements and short steps, in parts of the range; how far our own
+largest over 401 points against Exudyn with many elements and short steps, as a fraction of the range; how far our own
 converged solution is from it is printed too. Times are CPU times, best of several: of SolveDynamic, and of simulate() with
 a compiled model, which counts initialisation and choice of the order. Assembling and compiling are left out; neither
 writes files. Exudyn is optional: pip install ".[benchmark]".

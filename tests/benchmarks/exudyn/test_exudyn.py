@@ -14,7 +14,7 @@ from tests.benchmarks.exudyn.picture import draw
 from tests.benchmarks.exudyn.scenes import SCENES, SLIDER_CRANK
 from tests.benchmarks.exudyn.tables import Compared, best_rows, equal_rows
 
-# Step of Exudyn, our curve and tolerance, and how far the two may then be apart, in parts of the ranges.
+# Step of Exudyn, our curve and tolerance, and how far the two may then be apart, as fractions of the ranges.
 CHEAP = {
     "spin-up 2 rad/s": (0.0125, 3, 1e-5, (2e-2, 2e-2)),
     "pendulum": (2.5e-3, 0, 1e-5, (2e-3, 0.2)),

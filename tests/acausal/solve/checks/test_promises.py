@@ -1,4 +1,4 @@
-"""Laws that are said to be smooth: one that jumps where a run switches it is told, one that does not is believed."""
+"""Laws that are declared smooth: one that jumps where a run switches it is told, one that does not is believed."""
 
 from __future__ import annotations
 

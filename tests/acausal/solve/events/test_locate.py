@@ -13,7 +13,7 @@ from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import uneven
 from acausal.solve.problem import Point
 
-NOTHING = Layout(0, 0, 0, 0, 0).constants(np.zeros(0))
+NOTHING = Layout(0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
 WIDTH = 1e-9
 
 

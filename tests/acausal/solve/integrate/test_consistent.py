@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -220,7 +222,7 @@ class Pulses(Model):
 
 @pytest.mark.parametrize("intervals", [2, 400])
 def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
-    with pytest.warns(ac.AcausalWarning, match=r"turn faster than they are looked at[\s\S]*intervals"):
+    with pytest.warns(ac.AcausalWarning, match=r"change faster than they are checked[\s\S]*intervals"):
         ac.simulate(compiled(Pulses), stop_time=1.0, intervals=intervals, method="idas")
 
 
@@ -268,8 +270,7 @@ def test_many_steps_an_interval_come_to_an_end(intervals, tolerance, method):
 
 
 def test_stretches_are_cut_where_no_number_of_looks_is_enough(monkeypatch):
-    monkeypatch.setattr(stride, "ROWS", 1)
-    monkeypatch.setattr(stride, "DENSEST", 4)
+    monkeypatch.setattr(stride, "LOOKS", replace(stride.LOOKS, rows=1, densest=4))
     result = ac.simulate(compiled(Rings), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")
     assert result["x"][-1] == pytest.approx(np.cos(500.0), abs=1e-2)
 

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import scipy
 
-from acausal.solve.integrate.order import DENSE, FAST, eigenvalues_of, order_limit
+from acausal.policy import POLICY
+from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from tests.acausal.solve.made import linear
 
+DENSE, FAST = POLICY.order.dense, POLICY.order.fast
 SLOW = [1j, -1j]
 
 

@@ -11,7 +11,7 @@ from acausal.solve.problem import Point
 
 
 def constants(*switches: float) -> Constants:
-    return Layout(len(switches), 0, 0, 0, 0).constants(np.array(switches, dtype=float))
+    return Layout(len(switches), 0, 0, 0, 0).begin(np.array(switches, dtype=float), 1.0)
 
 
 def stretch(*times: float, switch: float = 0.0) -> Stretch:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.solve.start.newton import ITERATIONS, InitialSystem, algebraic, follow, newton
+from acausal.policy import POLICY
+from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton
 from tests.acausal.solve.made import Made, linear
 
 
@@ -127,7 +128,7 @@ def exponential() -> Made:
 
 def test_the_homotopy_arrives_where_the_iteration_alone_runs_out_of_steps():
     """From far up an exponential each step is 1, whatever the distance."""
-    start = ITERATIONS + 2.0
+    start = POLICY.newton.iterations + 2.0
     with pytest.raises(ac.InitializationError):
         solved(exponential(), start)
     problem = exponential()

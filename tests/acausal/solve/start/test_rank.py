@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from acausal.solve.start.rank import RANK, null_space, pivots, rank, row_space, scaled
+from acausal.policy import POLICY
+from acausal.solve.start.rank import null_space, pivots, rank, row_space, scaled
+
+RANK = POLICY.ranks.rank
 
 
 def matrix(seed: int, m: int, n: int, r: int, spread: float = 1.0) -> np.ndarray:

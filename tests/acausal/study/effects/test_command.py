@@ -110,7 +110,7 @@ def test_other_commands_take_effects_as_well(scene, tmp_path, command):
         ({"effects": {"leaf.bend": True}}, "no `leaf.bend` among the effects of the scene; did you mean `leaf.bent`"),
         ({"effects": {"leaf_kind": "none", "leaf.bent": True}}, "no `leaf.bent` among the effects of the scene"),
         ({"effects": {"steep": "very"}}, "`steep` of Tree is 'very'; it must be one of True, False"),
-        ({"effects": None}, "holds no choices of effects; `acausal effects"),
+        ({"effects": None}, "contains no choices of effects; `acausal effects"),
         ({"scene": "slider-crank"}, "is for the scene slider-crank, not for"),
     ],
 )
@@ -127,7 +127,7 @@ def test_files_that_are_none(scene, tmp_path):
     (tmp_path / "broken.json").write_text("{")
     code, text = run("simulate", scene, "--effects", tmp_path / "broken.json")
     assert code == 2
-    assert "is no JSON document" in text
+    assert "is not a JSON document" in text
 
 
 def test_what_cannot_be_written_is_refused_before_any_work(scene, tmp_path):

@@ -1,4 +1,4 @@
-"""Deviations in parts of the range of the reference."""
+"""Deviations as fractions of the range of the reference."""
 
 import numpy as np
 import pytest

@@ -62,8 +62,8 @@ def test_a_table_as_reference(run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--tolerances", "1e-3,x"], "--tolerances takes values with commas between them, not `1e-3,x`."),
-        (["--max-orders", "high"], "--max-orders takes values with commas between them, not `high`."),
+        (["--tolerances", "1e-3,x"], "--tolerances takes comma-separated values, not `1e-3,x`."),
+        (["--max-orders", "high"], "--max-orders takes comma-separated values, not `high`."),
         (
             ["--formulation", "fifth"],
             "there is no formulation `fifth` in the scene; it has: square, fourth, off, unstable.",
@@ -72,7 +72,7 @@ def test_a_table_as_reference(run, tmp_path):
         (["--workers", "0"], "workers is 0; it must be a whole number of at least 1."),
         (["--outputs", "z"], "there is no `z` in the model."),
         (["--plot", "a.txt"], "cannot write a.txt: a picture's name ends in .png, .svg or .pdf."),
-        (["--csv", "none/a.csv"], "cannot write none/a.csv: there is no directory {dir}/none; make it first."),
+        (["--csv", "none/a.csv"], "cannot write none/a.csv: there is no directory {dir}/none; create it first."),
         (["--cluster", "nowhere"], "there is no Dask scheduler at nowhere"),
         (["--set", "kind=cube"], "`kind` of Decay is 'cube'; it must be one of 'square', 'fourth', 'off', 'unstable'."),
     ],

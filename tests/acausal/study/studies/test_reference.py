@@ -60,7 +60,7 @@ def test_a_tolerance_too_loose_is_tightened():
 def test_formulations_of_different_limits_are_told():
     found = make(Lab(), [form("a", 6), form("b", 6, limit=0.02)], Case(), 1e-6, 1e-4)
     assert found.floor == pytest.approx(0.02, rel=0.05)
-    assert "1e-04 was asked for and not reached" in str(found)
+    assert "1e-04 was requested but not reached" in str(found)
 
 
 def test_what_cannot_be_refined_is_told():
@@ -96,7 +96,7 @@ def test_read(tmp_path):
         ("time,y\n0,1\n1,3\n", "has no column `x`; its columns: time, y"),
         ("time,x\n0,1\n0.5,2\n1,3\n", "has 3 times up to 1 s, the study 2 up to 1 s"),
         ("time,x\n0,1\n0.9,2\n", "has 2 times up to 0.9 s, the study 2 up to 1 s"),
-        ("time,x\n0,1\n1,\n", "has entries that are no finite numbers"),
+        ("time,x\n0,1\n1,\n", "has entries that are not finite numbers"),
         ("", "cannot read the reference"),
     ],
 )

@@ -150,7 +150,7 @@ def test_an_interrupted_study_goes_on(tmp_path):
     run.send_signal(2)
     _, told = run.communicate(timeout=30)
     assert run.returncode == 130
-    assert told == f"what is done is kept in {journal}: the same command goes on from it\nError: interrupted.\n"
+    assert told == f"finished cases are kept in {journal}: the same command continues from there\nError: interrupted.\n"
     assert not (tmp_path / "a.csv").exists()
     lines = journal.read_text().splitlines()
     assert 4 <= len(lines) < 280
@@ -174,9 +174,7 @@ def test_a_journal_of_another_study_is_refused(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         study(**few, progress=stop)
     assert len(journal.read_text().splitlines()) == 3
-    with pytest.raises(
-        DeclarationError, match=r"holds points of another study \(other stop_time\). Remove it to begin"
-    ):
+    with pytest.raises(DeclarationError, match=r"holds cases of another study \(other stop_time\). Remove it to start"):
         study(**few, stop_time=3.0)
     assert len(journal.read_text().splitlines()) == 3
 

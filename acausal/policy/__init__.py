@@ -1,0 +1,70 @@
+"""Every threshold of the numerical work in one record, each with the theory, test or scene that fixed it.
+
+All are relative: to a tolerance, to the nominal value of an unknown, to the length of the run, or they are counts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from acausal.policy.accuracy import Accuracy, Estimate, Study
+from acausal.policy.checks import Meeting, Promises, Validity
+from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks
+from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
+from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
+
+
+@dataclass(frozen=True)
+class Policy:
+    """Thresholds, by what they decide."""
+
+    newton: Newton
+    ranks: Ranks
+    loops: Loops
+    rest: Rest
+    switches: Switches
+    order: Order
+    rescue: Rescue
+    calls: Calls
+    consistent: Consistent
+    energy: Energy
+    sizes: Sizes
+    instants: Instants
+    agenda: Agenda
+    clock: Clock
+    looks: Looks
+    locate: Locate
+    between: Between
+    meeting: Meeting
+    promises: Promises
+    validity: Validity
+    accuracy: Accuracy
+    estimate: Estimate
+    study: Study
+
+
+POLICY = Policy(
+    Newton(),
+    Ranks(),
+    Loops(),
+    Rest(),
+    Switches(),
+    Order(),
+    Rescue(),
+    Calls(),
+    Consistent(),
+    Energy(),
+    Sizes(),
+    Instants(),
+    Agenda(),
+    Clock(),
+    Looks(),
+    Locate(),
+    Between(),
+    Meeting(),
+    Promises(),
+    Validity(),
+    Accuracy(),
+    Estimate(),
+    Study(),
+)

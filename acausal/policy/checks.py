@@ -1,0 +1,50 @@
+"""Thresholds of what is checked after a run: promises, validity, points that meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Points between which a force acts, and that meet."""
+
+    # Nearer than this fraction of their greatest distance points meet; what acts there less than so much of its greatest
+    # is 0.
+    near: float = 1e-6
+    nothing: float = 1e-4
+    # Points may move so much faster between two rows than at them.
+    reach: float = 3.0
+    # Parts of an interval; shortest part of the run.
+    parts: int = 8
+    shortest: float = 1e-13
+    # Rows that are so few, with so many steps between them, that all are suspect.
+    few: int = 64
+    steps_a_row: int = 4
+    # Meetings without an effect after which the search ends, intervals that are examined, and steps in each.
+    harmless: int = 3
+    looks: int = 2000
+    steps: int = 20_000
+
+
+@dataclass(frozen=True)
+class Promises:
+    """Laws that are said to be smooth."""
+
+    # Part of the largest value of a law that is a step; less may be rounding of its constants.
+    step: float = 1e-4
+    # Switches of one law that are examined more closely, how often, and times at once.
+    switches: int = 3
+    closer: int = 12
+    parts: int = 8
+
+
+@dataclass(frozen=True)
+class Validity:
+    """Ranges in which components hold."""
+
+    # Most output points that are checked, in general and where each check costs a solution of the equations.
+    rows: int = 500
+    dear: int = 40
+    # Of what is not small: values of the integrator that are less are small.
+    nearly: float = 0.3

@@ -1,0 +1,96 @@
+"""Thresholds of events: what is checked, how closely, and what counts as one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Instants:
+    """What happens at one time."""
+
+    # Rounds until switches fit each other.
+    rounds: int = 20
+    # Of the run: what changes sign within that time does so now.
+    short: float = 1e-8
+    # Of the size: a smaller jump is the error with which an event is located.
+    jump: float = 1e-5
+    # Of the size in a run: an excess that changes less does not move.
+    moves: float = 1e-3
+    # Of the run: an excess that falls to 0 within that time does so now.
+    due: float = 1e-6
+    # Events within that part of the run, or without any motion between them, that are chattering.
+    most: int = 100
+    window: float = 1e-9
+
+
+@dataclass(frozen=True)
+class Agenda:
+    """Times that are known before."""
+
+    # Of the time: less is no room for an integration.
+    apart: float = 1e-12
+    # Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
+    added: float = 1e-11
+    # Of the time: a break and an output are one.
+    same: float = 1e-13
+
+
+@dataclass(frozen=True)
+class Clock:
+    """Conditions of time alone: roots of a function that is known everywhere."""
+
+    # Intervals to begin with, and most at once.
+    first: int = 64
+    most: int = 50_000
+    # Of the greatest time.
+    shortest: float = 1e-14
+    # Of the greatest value in an interval.
+    rounding: float = 1e-12
+    # 2^-60 of an interval is rounding of the time.
+    halvings: int = 60
+
+
+@dataclass(frozen=True)
+class Looks:
+    """Rows between outputs at which conditions are checked."""
+
+    # Parts of an interval at least.
+    fine: int = 8
+    # Pairs of rows of an interval that is looked into, and steps of the integrator between two rows: in less than so many
+    # nothing turns back.
+    densest: int = 32
+    steps_a_row: int = 4
+    # The same in all intervals, that there may be at least: few are checked as often as many.
+    rows: int = 12_800
+    # Difference of output intervals, over them, that is rounding.
+    equal: float = 1e-9
+
+
+@dataclass(frozen=True)
+class Locate:
+    """Crossings between two rows."""
+
+    # Levels of closer looks, suspects and trials of one stretch.
+    depth: int = 3
+    suspects: int = 4
+    trials: int = 80
+    trial_steps: int = 20_000
+    # A condition may change within an interval that it could cross so much faster than it moves at the ends.
+    reach: float = 3.0
+    # Times at which a stretch is checked between its rows.
+    looks: int = 4000
+    # Of the run: no two times of a stretch are nearer.
+    shortest: float = 1e-12
+
+
+@dataclass(frozen=True)
+class Between:
+    """Points between rows, by cubics."""
+
+    # Interpolated points are those of the motion where their defect is this part of what the tolerance allows.
+    faithful: float = 0.1
+    # Steps of an integration where it is not.
+    most_steps: int = 20_000
+    # Points of an interval whose defects tell whether its cubic is the motion.
+    looks: int = 5

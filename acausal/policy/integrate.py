@@ -1,0 +1,123 @@
+"""Thresholds of the integration: order, rescues, values on the equations, energies, sizes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Order:
+    """Order limit of the multistep method."""
+
+    # Oscillations that much faster than the motion are not resolved by its steps (design; spin-up and pendulum).
+    fast: float = 30.0
+    # States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
+    dense: int = 64
+    looped: int = 400
+    # Slowest eigenvalues among which the motion is.
+    slow: int = 6
+    # An eigenvalue of less turns in the run does not move.
+    moving: float = 0.1
+    # Steps of the power iterations: the size of an eigenvalue is wanted to some ten per cent.
+    powers: int = 4
+    # Shift of the inverse iteration, over the fastest rate.
+    shift: float = 1e-9
+    # Half angle of the wedge around the negative real axis in which BDF is stable (Hairer & Wanner II, V.2.7), by order.
+    wedge: tuple[tuple[int, float], ...] = ((5, 51.84), (4, 73.35), (3, 86.03))
+
+
+@dataclass(frozen=True)
+class Rescue:
+    """How long a way is tried, and what comes after it."""
+
+    # Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
+    short: int = 40_000
+    long: int = 100_000
+    # Steps for one output at least.
+    fewest_short: int = 100
+    fewest_long: int = 1000
+    # Parts of a run that failed in one call: at most 5 % are lost to the restarts.
+    chunks: int = 25
+    # Steps before a chunk or an output counts as hopeless.
+    hopeless: int = 2_000_000
+    # Halvings of an output interval with new choices of states (bricard needs 3).
+    halvings: int = 6
+    # Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a
+    # singular position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
+    patient: int = 20_000
+    looser: tuple[float, ...] = (1.0, 1e2, 1e4)
+    loosest: float = 1e-4
+
+
+@dataclass(frozen=True)
+class Calls:
+    """One call of an integrator."""
+
+    # Least number of times in a call at which the choice of states is checked.
+    fine: int = 60
+    # Looks at the projection after a call cost about the cube of the number of constraints each: their sum, and bounds.
+    work: float = 2e7
+    looks: tuple[int, int] = (8, 100)
+    # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may
+    # leave; tolerances below the second come near it.
+    rounding: float = 1e-14
+    near_rounding: float = 1e-8
+    # What the Newton iteration may leave, as a fraction of the tolerance: errors of a loose one excite lightly damped
+    # vibrations, which then cost steps; near a singular position of a loop they are enlarged.
+    newton: float = 0.05
+    newton_in_loops: float = 0.005
+    # First step of the one-step method, as a fraction of the call.
+    first: float = 1e-2
+    # States and algebraic unknowns from which `csparse` is left. Spin-up of 40, 80, 160, 320 and 500 volumes (632, 1272,
+    # 2552, 5112 and 7992 unknowns), 20 s at 1e-4: 36, 33, 31, 33 and 32 steps with both; qr took 0.02, 0.03, 0.1, 1 and
+    # 1 s, csparse 0.02, 0.04, 0.1, 40 and 160 s or more.
+    large: int = 2000
+
+
+@dataclass(frozen=True)
+class Consistent:
+    """Algebraic unknowns on their equations."""
+
+    # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
+    settled: float = 1e-7
+    # The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
+    once: float = 1.0
+    # Of the largest unknown: what is smaller may be rounding, which never settles.
+    noise: float = 1e-9
+    # Times at which sizes of terms are taken, and times in a call from which on that is repeated: it costs little then.
+    looks: int = 4
+    many: int = 200
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Integrals of power."""
+
+    # Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
+    fewest: int = 48
+    rows: int = 192
+    most: int = 2**17
+    # Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).
+    resolved: int = 8
+    # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
+    gain: int = 20
+    # Points beside the nodes where the power itself is evaluated, and what a spline through nodes that are near enough to
+    # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
+    probes: int = 24
+    alike: float = 1e-2
+    # Rows at which the stored energy is evaluated.
+    looks: int = 9
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Sizes of states that declare none."""
+
+    # States that reach less than that part of their size need another one: errors were ten times those of the tolerance.
+    smaller: float = 0.1
+    # What reaches less, in nominal values and as a fraction of the absolute tolerance, rests but for rounding: a falling free
+    # body turns by 2e-13 rad/s, which is not worth following. What begins with a value does not rest.
+    rest: float = 1e-11
+    lost: float = 1e-4
+    # Runs after which sizes are accepted: each improves those of a motion lost in the tolerance.
+    passes: int = 5

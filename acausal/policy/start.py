@@ -1,0 +1,126 @@
+"""Thresholds of what finds a start: Newton iterations, ranks, loops, rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Newton:
+    """The damped iteration on the initial system; sizes of unknowns are their nominal values plus what they are."""
+
+    # Deuflhard 2004, section 3.3: a damped iteration that is to converge does so in a few tens of steps.
+    iterations: int = 60
+    # Change in a step, over the size: the next one, of its square, is rounding.
+    converged: float = 1e-8
+    # A last correction below this is rounding itself.
+    rounding: float = 1e-13
+    # Damping below which the residual does not fall; 2^-20 of a step.
+    damping: float = 1e-6
+    # Rounding errors of an equation, over those of one term: sums of up to 1,000 terms.
+    terms: float = 1e3
+    # Residual, over the change that the sizes of its unknowns make in it: ten times `converged`.
+    consistent: float = 1e-7
+    # Shortest step of the homotopy (Allgower & Georg 1990) before the path counts as ended.
+    shortest: float = 1e-4
+
+
+@dataclass(frozen=True)
+class Ranks:
+    """Ranks of Jacobians whose columns count in nominal values and whose rows have length 1."""
+
+    # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions.
+    rank: float = 1e-9
+    # Positions where ranks are lost are known only as well as the root of how well loops close.
+    nearly: float = 1e-5
+    # Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
+    beside: float = 1e-3
+    # Part of a condition that is independent of the ones before: the root of rounding, with some room.
+    independent: float = 1e-7
+    # Small motions after which a rank is computed again, in nominal values; long enough to see a rank that rises with
+    # the square of them, short enough to stay in a mechanism of flat links (n-four-bar).
+    motion: float = 1e-2
+    shake: float = 1e-3
+    # How well the loops must close after such a motion: its effect on ranks is that of `closed` over `motion`.
+    moved: float = 1e-10
+    # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular position.
+    least_norm: float = 1e-12
+    polish: float = 1e-7
+    # A constraint that cannot be dropped counts as that much longer than others.
+    kept: float = 1e3
+
+
+@dataclass(frozen=True)
+class Loops:
+    """Closed loops; a residual counts over the change that nominal values of the states make in it."""
+
+    # Rounding of a loop of some ten joints, with room for one that turned a thousand times.
+    closed: float = 1e-9
+    # Rates beside a singular position are known only as well as the root of that, but for a factor.
+    rough: float = 1e-6
+    # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
+    # needs a large one.
+    attempts: tuple[float, ...] = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
+    # Evaluations of a try.
+    evaluations: int = 200
+    # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
+    # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
+    worn: float = 0.05
+    spared: float = 0.3
+    # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
+    decades: int = 12
+    # Way out of a singular position in nominal values: its square is the error of what is left out.
+    away: float = 1e-4
+    # Speed of joints, in nominal values, that is rest: rates of a singular position are known no better than that.
+    rest: float = 1e-4
+    # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.
+    apart: float = 0.1
+    # Returns of what is integrated to what the constraints allow in a run, e-fold each (Baumgarte 1972): slow against
+    # the motion, and enough for errors of a run not to add up.
+    feedback: float = 10.0
+
+
+@dataclass(frozen=True)
+class Rest:
+    """Equilibrium."""
+
+    # A derivative that is 0, over the change that nominal values of the unknowns make in it.
+    still: float = 1e-7
+    # Newton steps, and implicit Euler steps that follow the motion.
+    newton: int = 60
+    relaxation: int = 400
+    # Largest change of a state in a step, in nominal values: a fifth of a radian and more keeps to a branch.
+    far: float = 0.3
+    # Steps of the relaxation over the time of the feedback: the first, their growth, the last, and the shortest.
+    first: float = 1e-3
+    growth: float = 1.5
+    last: float = 1e8
+    shortest: float = 1e-12
+    # Change in a step, over the size, that is rounding.
+    converged: float = 1e-12
+    halvings: int = 6
+    # Steps back to the guess, the shortest part of one, and the way back that is none.
+    back: int = 20
+    short: float = 0.1
+    there: float = 1e-9
+    # A state is at its guess within that, in nominal values.
+    guess: float = 1e-6
+    # Push off an unstable equilibrium, in nominal values.
+    push: float = 1e-2
+    # Influence of a state on everything, over the greatest, that is rounding.
+    faint: float = 1e-13
+    # Singular value of what is free, but for rounding.
+    weak: float = 1e-11
+    # Growth that is none, over the size of the eigenvalue.
+    grows: float = 1e-6
+    attempts: int = 3
+
+
+@dataclass(frozen=True)
+class Switches:
+    """Switches that fit the start."""
+
+    # Rounds until they do; each settles one switch at least, and chains of ideal parts have a few.
+    rounds: int = 20
+    # Change of a discrete variable, over its value, that is none.
+    same: float = 1e-9

@@ -1,0 +1,41 @@
+"""The pages that are programs run, and print what they show."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+NUMBER = re.compile(r"-?\d+\.\d+")
+
+
+def blocks(page: str) -> list[tuple[str, str]]:
+    """Language and text of the fenced blocks, in order."""
+    return re.findall(r"^```(\w+)\n(.*?)^```$", (DOCS / page).read_text(), re.M | re.S)
+
+
+def same(shown: str, printed: str) -> bool:
+    """Equal but for the last digits of numbers; seconds may be any."""
+    texts = [re.sub(r"^  seconds .*$", "", text, flags=re.M) for text in (shown, printed)]
+    values = [[float(x) for x in NUMBER.findall(text)] for text in texts]
+    equal = all(math.isclose(a, b, rel_tol=5e-3, abs_tol=2e-3) for a, b in zip(*values, strict=True))
+    return equal and NUMBER.sub("", texts[0]) == NUMBER.sub("", texts[1])
+
+
+@pytest.mark.parametrize(("page", "outputs"), [("tutorial.md", 8), ("signs.md", 3)])
+def test_a_page_prints_what_it_shows(
+    page: str, outputs: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    file, names, code, printed, compared = tmp_path / "crane.py", {"__name__": "crane"}, "", "", 0
+    for language, text in blocks(page):
+        if language == "python":
+            # One file that grows, so that messages name its lines.
+            exec(compile("\n" * code.count("\n") + text, str(file), "exec"), names)
+            code += text
+            printed = capsys.readouterr().out.replace(f"{tmp_path}/", "")
+        else:
+            assert same(text, printed), printed
+            compared += 1
+    assert compared == outputs
