@@ -86,5 +86,5 @@ class Held(Double):
 
 @pytest.mark.parametrize("model", [Held, FourBar, Squeezer])
 def test_fixed_values_that_do_not_rest_are_named(model: type[Model]) -> None:
-    with pytest.raises(ac.InitializationError, match=r"(?s)there is an equilibrium, but the initial.*phi = .*off by"):
+    with pytest.raises(ac.InitializationError, match=r"(?s)can rest, but not.*phi = .*off by"):
         started(model())
