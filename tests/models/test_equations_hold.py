@@ -8,7 +8,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 from models import SCENES
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
 from tests.components.test_properties import SCENES as WITH_COMPONENT
@@ -30,13 +30,14 @@ def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
     found = result._evaluate(column)
     residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
     J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
-    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, flat.discontinuities.constants, initial.sx]
-    slopes = ca.Function("slopes", arguments, [ca.fabs(J)], {"allow_free": True})
-    free = ca.Function("slopes", [*arguments, *slopes.free_sx()], [ca.fabs(J)]) if slopes.free_sx() else slopes
-    constants = result._evaluate.constants[:, : flat.discontinuities.constants.numel()]
+    switches = flat.discontinuities.constants
+    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, switches, feedback.sx, initial.sx]
+    slopes = ca.Function("slopes", arguments, [ca.fabs(J)])
+    constants = result._evaluate.constants
     p, worst = model.parameter_values(None), 0.0
     for k in range(0, len(result.time), 7):
-        terms = np.array(free(values[k], p, result.time[k], constants[k], 0)) @ np.abs(values[k]) + 1
+        here, back = constants[k, : switches.numel()], constants[k, -1]
+        terms = np.array(slopes(values[k], p, result.time[k], here, back, 0)) @ np.abs(values[k]) + 1
         worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
     return worst
 
