@@ -252,11 +252,28 @@ def test_values_that_are_numbers(run):
     assert "Warning" not in done.stderr
 
 
-def start(tmp_path, *arguments):
-    (tmp_path / "ends.py").write_text(MODELS)
-    command = [sys.executable, ROOT / "tests/acausal/study/command.py", *map(str, arguments)]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    return subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, env=environment, text=True)
+def heed_interrupts():
+    """What is started in the background ignores interrupts, and so does what that starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Start a command that ends with the test at the latest."""
+    started = []
+
+    def begin(*arguments):
+        (tmp_path / "ends.py").write_text(MODELS)
+        command = [sys.executable, ROOT / "tests/acausal/study/command.py", *map(str, arguments)]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+        how = {"cwd": tmp_path, "stderr": subprocess.PIPE, "env": environment, "text": True}
+        started.append(subprocess.Popen(command, preexec_fn=heed_interrupts, **how))
+        return started[-1]
+
+    yield begin
+    for process in started:
+        process.kill()
+        process.wait()
 
 
 needs_signals = pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
@@ -267,9 +284,9 @@ needs_signals = pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
     ("number", "status", "word"), [(signal.SIGTERM, 143, "terminated"), (signal.SIGINT, 130, "interrupted")]
 )
 @pytest.mark.parametrize("method", ["auto", "idas"])
-def test_what_was_computed_is_written(tmp_path, number, status, word, method):
+def test_what_was_computed_is_written(start, tmp_path, number, status, word, method):
     arguments = ("--stop-time", 1000, "--intervals", 200_000, "--csv", "a.csv", "--json", "a.json", "--method", method)
-    process = start(tmp_path, "simulate", "ends.py:Fast", *arguments, "--quiet")
+    process = start("simulate", "ends.py:Fast", *arguments, "--quiet")
     end = clock.monotonic() + 60
     while not (tmp_path / "started").exists() and clock.monotonic() < end:
         clock.sleep(0.1)
@@ -298,9 +315,9 @@ def lives(pid):
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks into /proc")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_workers_do_not_outlive_a_study(tmp_path, number):
+def test_workers_do_not_outlive_a_study(start, number):
     arguments = ("--stop-time", 1000, "--tolerances", "1e-8,1e-9", "--workers", 2, "--quiet")
-    process = start(tmp_path, "study", "ends.py:Fast", *arguments)
+    process = start("study", "ends.py:Fast", *arguments)
     end = clock.monotonic() + 30
     while len(workers := children(process.pid)) < 3 and clock.monotonic() < end:  # two and the tracker of resources
         clock.sleep(0.2)

@@ -22,6 +22,7 @@ def test_supplied_energy_is_stored(options):
     assert -1e-5 < run.dissipated < 1e-3
 
 
+@pytest.mark.slow
 def test_sizes_of_rates_leave_the_motion():
     model = build()
     exact = simulate(model, Method("rosenbrock", 1e-4, 10.0))

@@ -15,14 +15,14 @@ def within(what: str, figure: float, bound: float) -> None:
 
 
 def single_coordinate(
-    inertia: Callable[[float], float], times: np.ndarray, start: float, rate: float, moment: float = 0.0
+    inertia: Callable[[float], tuple[float, float]], times: np.ndarray, start: float, rate: float, moment: float = 0.0
 ) -> np.ndarray:
-    """Solve J(q) q'' + J'(q) q'^2 / 2 = moment in q and p = J q', which needs J alone; return q at each time.
+    """Solve J(q) q'' + J'(q) q'^2 / 2 = moment in q and p = J q'; return q at each time.
 
     Parameters
     ----------
     inertia : callable
-        Reduced inertia J(q).
+        Reduced inertia J(q), and J'(q).
     times : array
         Increasing times from 0.
     start, rate : float
@@ -30,16 +30,20 @@ def single_coordinate(
     moment : float
         Constant generalised force.
     """
-    step = 1e-6
 
     def derivative(_: float, state: np.ndarray) -> list[float]:
         q, p = state
-        J = inertia(q)
-        slope = (inertia(q + step) - inertia(q - step)) / (2 * step)
+        J, slope = inertia(q)
         return [p / J, moment + slope * (p / J) ** 2 / 2]
 
-    momentum = inertia(start) * rate
+    momentum = inertia(start)[0] * rate
     return solve_ivp(derivative, (0.0, times[-1]), [start, momentum], "DOP853", times, rtol=1e-11, atol=1e-12).y[0]
+
+
+def with_slope(inertia: Callable[[float], float]) -> Callable[[float], tuple[float, float]]:
+    """Append the derivative by differences of a reduced inertia that is exact to rounding."""
+    step = 1e-6
+    return lambda q: (inertia(q), (inertia(q + step) - inertia(q - step)) / (2 * step))
 
 
 def travel_time(inertia: Callable[[float], float], energy: float, q0: float, q1: float, points: list[float]) -> float:

@@ -99,23 +99,44 @@ def crossed(phi: float | np.ndarray) -> float | np.ndarray:
     return phi + 2 * np.arctan2((RATIO - 1) * s * c, c**2 + RATIO * s**2)
 
 
-def crossed_inertia(phi: float) -> float:
-    """Twice the kinetic energy of the antiparallelogram at crank speed 1."""
-    step = 1e-5
-    slope = float(crossed(phi + step) - crossed(phi - step)) / (2 * step)
+def crossed_inertia(phi: float) -> tuple[float, float]:
+    """Twice the kinetic energy of the antiparallelogram at crank speed 1, and its derivative by the crank's angle.
 
-    def coupler(at: float) -> complex:
-        return 2 + np.exp(1j * crossed(at)) - np.exp(1j * at)
-
-    centre = (1j * np.exp(1j * phi) + 1j * slope * np.exp(1j * crossed(phi))) / 2
-    turn = np.angle(coupler(phi + step) / coupler(phi - step)) / (2 * step)
-    return 1 / 3 + slope**2 / 3 + 2 * abs(centre) ** 2 + 2 * 4 / 12 * turn**2
+    The loop |d| = 2 with the coupler d = 2 + exp(i psi) - exp(i phi) differentiates to Re(conj(d) d') = 0; the coupler
+    turns with Im(conj(d) d') / |d|^2. The half angles give psi' = RATIO / (cos^2 + RATIO^2 sin^2).
+    """
+    c, s = np.cos(phi / 2), np.sin(phi / 2)
+    below = c**2 + RATIO**2 * s**2
+    slope, bend = RATIO / below, -RATIO * (RATIO**2 - 1) * s * c / below**2
+    crank, rocker = np.exp(1j * phi), np.exp(1j * crossed(phi))
+    coupler = 2 + rocker - crank
+    first = 1j * slope * rocker - 1j * crank
+    second = (1j * bend - slope**2) * rocker + crank
+    turn, turning = np.imag(np.conj(coupler) * first) / 4, np.imag(np.conj(coupler) * second) / 4
+    centre, centre_bend = (1j * crank + 1j * slope * rocker) / 2, (-crank + (1j * bend - slope**2) * rocker) / 2
+    inertia = 1 / 3 + slope**2 / 3 + 2 * abs(centre) ** 2 + 2 * 4 / 12 * turn**2
+    by_angle = 2 * slope * bend / 3 + 4 * np.real(np.conj(centre) * centre_bend) + 4 * 4 / 12 * turn * turning
+    return float(inertia), float(by_angle)
 
 
 def test_the_closed_form_of_the_antiparallelogram_closes():
     phi = np.linspace(-2, 2, 41)
     np.testing.assert_allclose(abs(2 + np.exp(1j * crossed(phi)) - np.exp(1j * phi)), 2, atol=1e-12)
-    assert crossed_inertia(0.3) > 0
+
+
+@pytest.mark.parametrize("phi", [-2.0, -0.4, 0.0, 0.3, 1.0, 3.0])
+def test_the_inertia_of_the_antiparallelogram_is_that_of_small_differences(phi):
+    step = 1e-5
+    ends = phi + step * np.array([-1, 1])
+    crank, rocker = np.exp(1j * ends), np.exp(1j * crossed(ends))
+    coupler = 2 + rocker - crank
+    slope = np.ptp(crossed(ends)) / (2 * step)
+    centre = abs(np.diff(crank + rocker)[0] / 2) / (2 * step)
+    turn = np.angle(coupler[1] / coupler[0]) / (2 * step)
+    inertia, by_angle = crossed_inertia(phi)
+    assert inertia == pytest.approx(1 / 3 + slope**2 / 3 + 2 * centre**2 + 2 * 4 / 12 * turn**2, rel=1e-8)
+    below, above = (crossed_inertia(end)[0] for end in ends)
+    assert by_angle == pytest.approx((above - below) / (2 * step), abs=1e-7)
 
 
 @FLAT

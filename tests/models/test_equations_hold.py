@@ -8,10 +8,11 @@ import pytest
 
 import acausal as ac
 from acausal import Model
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
 from models import SCENES
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
 from tests.components.test_properties import SCENES as WITH_COMPONENT
+from tests.shared import compiled
 
 SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank": 0.75, "bricard": 2.0}
 # Where one method alone takes minutes to follow vibrations, or does not get past a flat position.
@@ -22,20 +23,21 @@ MACHINES: dict[str, tuple[type[Model], float]] = {c.__name__: (c, 1.0) for c in 
 MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in SCENES.items()}
 
 
-def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
+def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
     """Largest residual of any equation as it was stated, in parts of the sizes of its terms."""
-    flat = compiled.reduced.flat
+    flat = model.reduced.flat
     column = ca.vertcat(flat.equations.residuals, flat.unknowns.symbols)
     found = result._evaluate(column)
     residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
     J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
-    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, flat.discontinuities.constants, initial.sx]
-    slopes = ca.Function("slopes", arguments, [ca.fabs(J)], {"allow_free": True})
-    free = ca.Function("slopes", [*arguments, *slopes.free_sx()], [ca.fabs(J)]) if slopes.free_sx() else slopes
-    constants = result._evaluate.constants[:, : flat.discontinuities.constants.numel()]
-    p, worst = compiled.parameter_values(None), 0.0
+    switches = flat.discontinuities.constants
+    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, switches, feedback.sx, initial.sx]
+    slopes = ca.Function("slopes", arguments, [ca.fabs(J)])
+    constants = result._evaluate.constants
+    p, worst = model.parameter_values(None), 0.0
     for k in range(0, len(result.time), 7):
-        terms = np.array(free(values[k], p, result.time[k], constants[k], 0)) @ np.abs(values[k]) + 1
+        here, back = constants[k, : switches.numel()], constants[k, -1]
+        terms = np.array(slopes(values[k], p, result.time[k], here, back, 0)) @ np.abs(values[k]) + 1
         worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
     return worst
 
@@ -46,17 +48,17 @@ def worst_equation(result: ac.Result, compiled: ac.CompiledModel) -> float:
 @pytest.mark.parametrize("name", MODELS)
 def test_every_equation_holds_at_every_output(name, tolerance, method):
     cls, stop = MODELS[name]
-    compiled = ac.compile(cls())
+    model = compiled(cls)
     options = {"tolerance": tolerance, "intervals": 60, "method": method}
     if name in CHOOSY and (tolerance, method) in CHOOSY[name]:
         options["method"] = "auto"
-    result = ac.simulate(compiled, stop_time=stop, **options)
-    assert worst_equation(result, compiled) < 1e-10
+    result = ac.simulate(model, stop_time=stop, **options)
+    assert worst_equation(result, model) < 1e-10
 
 
 @pytest.mark.parametrize("name", WITH_COMPONENT)
 def test_every_equation_holds_around_every_component(name):
-    compiled = ac.compile(WITH_COMPONENT[name]())
+    model = compiled(WITH_COMPONENT[name])
     for tolerance, method in ((1e-3, "idas"), (1e-6, "rosenbrock")):
-        result = ac.simulate(compiled, stop_time=0.5, tolerance=tolerance, method=method, intervals=20)
-        assert worst_equation(result, compiled) < 1e-10
+        result = ac.simulate(model, stop_time=0.5, tolerance=tolerance, method=method, intervals=20)
+        assert worst_equation(result, model) < 1e-10

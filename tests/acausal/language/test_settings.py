@@ -15,13 +15,11 @@ from acausal import (
     guess,
     output,
     parameter,
-    part,
-    parts,
     structural,
     variable,
 )
 from acausal.study.measuring.shipping import pack, unpack
-from components import Body, FixedTranslation, Prismatic, Revolute, World
+from components import Body, FixedTranslation, Revolute, World
 from components.rotational import Damper
 from models import SpinUp
 
@@ -63,9 +61,6 @@ def value(model: Model, name: str, **values) -> float:
 
 def last(model: Model, **values) -> float:
     return ac.simulate(model, stop_time=1, **values)["x"][-1]
-
-
-# In a class body.
 
 
 class Heavy(Swing):
@@ -118,88 +113,6 @@ def test_a_structural_value_and_a_choice():
 def test_a_wrong_value_is_refused(name, wrong, text):
     with pytest.raises(DeclarationError, match=text):
         ac.compile(type("Wrong", (SpinUp,), {name: wrong})())
-
-
-class Undamped(Swing):
-    damper = None
-
-
-class Free(Swing):
-    damper = None
-    hinge = Prismatic
-
-
-def test_none_leaves_a_part_out_and_a_class_stands_for_an_instance():
-    tree = ac.compile(Undamped()).tree
-    assert tree.damper is None
-    free = ac.compile(Free()).tree
-    assert isinstance(free.hinge, Prismatic)
-    assert str(Free().hinge.s) == "hinge.s"
-    assert value(Swing(damper=None, hinge=Prismatic), "hinge.s", initial="guesses") == 0
-
-
-class Plain(Model):
-    world = World
-    tip = Body(m=1, r_CM=(1, 0, 0))
-    hinge = Revolute
-
-    class Inner(Revolute):
-        """A class that is defined here is no part."""
-
-    Joint = Revolute
-    kind: type = Revolute
-    made_of = None
-
-    def connections(self):
-        yield chain(self.world, self.hinge, self.tip)
-
-
-class Data(Plain):
-    made_of = Revolute
-
-
-class Early(Plain):
-    early: Scalar = parameter("needs what is not there yet", default=lambda s: s.tip.m)
-
-
-def test_a_class_as_a_new_part():
-    tree = ac.compile(Plain()).tree
-    assert [c._path for c in (tree.world, tree.hinge)] == ["world", "hinge"]
-    assert not {"Inner", "Joint", "kind", "made_of"} & set(Data.fields)
-    assert (Data.kind, Data().made_of) == (Revolute, Revolute)
-
-
-class Twice(Plain):
-    left = right = Body(m=2, r_0=fixed((0, 0, 0)))
-    third = Plain.hinge
-
-
-def test_one_template_under_two_names():
-    model = Twice()
-    paths = [str(p) for p in (model.left.m, model.right.m, model.hinge.phi, model.third.phi)]
-    assert paths == ["left.m", "right.m", "hinge.phi", "third.phi"]
-
-
-def test_a_default_of_a_part_is_refused():
-    with pytest.raises(DeclarationError, match=r"Early.* does not have its `tip` yet: it exists in connections"):
-        ac.compile(Early())
-
-
-class Method(Rate):
-    def a(self):
-        return 3 * self.b
-
-
-class Chosen(Swing):
-    heavy: bool = structural("two kilograms", default=True)
-
-    def tip(self):
-        return Body(m=2 if self.heavy else 1)
-
-
-def test_functions_in_place_of_values_and_parts():
-    assert last(Method()) == pytest.approx(12)
-    assert (value(Chosen(), "tip.m"), value(Chosen(heavy=False), "tip.m")) == (2, 1)
 
 
 class Started(Rate):
@@ -283,9 +196,6 @@ def test_other_collections_of_parts_are_refused(several):
         type("Wrong", (Swing,), {"bodies": several})
 
 
-# Defaults.
-
-
 class PerLength(Rate):
     a = lambda s: s.per_length * 2  # noqa: E731
     per_length: Scalar = parameter("mass per length", default=lambda s: s.b / 2)
@@ -314,123 +224,6 @@ def test_a_circle_of_defaults_is_named():
         ac.compile(Own())
     assert last(Circle(c=2)) == pytest.approx(4)
     assert last(Own(n=2)) == pytest.approx(6)
-
-
-# On an instance, a built tree, or a class that is made.
-
-
-@pytest.mark.parametrize(
-    ("change", "text"),
-    [
-        (lambda s: setattr(s, "load", 2), r"`Swing\(load=2\)`.*parameters=\{'load': 2\}"),
-        (lambda s: setattr(s, "tip", Body(m=2)), r"`Swing\(tip=Body\(m=2\)\)`"),
-        (lambda s: setattr(s, "damper", None), r"`Swing\(damper=None\)`"),
-        (lambda s: setattr(s, "height", 2), r"`Swing\(height=fixed\(2\)\)`"),
-        (lambda s: setattr(s.tip, "m", 2), r"parameters=\{'tip.m': 2\}.*`tip = Body\(m=2\)`"),
-        (lambda s: setattr(s.tip, "mass", 2), "Body has no field `mass`; did you mean `m`"),
-        (lambda s: setattr(s.hinge, "phi", 0.3), r"`hinge = Revolute\(phi=fixed\(0.3\)\)`"),
-        (lambda s: s.tip.r_CM.__setitem__(0, 2), "give the whole array"),
-        (lambda s: setattr(s, "laod", 2), "did you mean `load`"),
-        (lambda s: setattr(s, "second", Body(m=2)), r"class body, `second = Body\(m=2\)`"),
-        (lambda s: setattr(s, "others", [Body(m=2)]), "class body"),
-    ],
-)
-def test_setting_on_an_instance_is_refused_with_the_mend(change, text):
-    with pytest.raises(DeclarationError, match=text):
-        change(Swing())
-
-
-@pytest.mark.parametrize(
-    ("change", "text"),
-    [
-        (lambda t: setattr(t, "load", 5), r"ac.simulate\(compiled, ..., parameters=\{'load': 5\}\)"),
-        (lambda t: setattr(t.bar, "r", (2, 0, 0)), r"`bar.r` cannot be set on a built model.*parameters=\{'bar.r'"),
-        (
-            lambda t: setattr(t.hinge, "use_axis_flange", False),
-            r"ac.compile\(model, parameters=\{'hinge.use_axis_flange'",
-        ),
-        (lambda t: setattr(t, "tip", None), "Parts are given in the class body"),
-        (lambda t: setattr(t.hinge, "phi", 1), "start value is given in the model"),
-    ],
-)
-def test_setting_on_a_built_tree_is_refused_with_the_mend(change, text):
-    with pytest.raises(DeclarationError, match=text):
-        change(ac.compile(Swing()).tree)
-
-
-@pytest.mark.parametrize(
-    ("name", "new", "text"),
-    [
-        ("load", 3, r"class MySwing\(Swing\): load = 3.*Swing\(load=3\)"),
-        ("tip", Body(m=2), r"class MySwing\(Swing\): tip = Body\(m=2\)"),
-        ("second", Body(m=2), "write it in the class body"),
-        ("several", [Body(m=2)], "write it in the class body"),
-    ],
-)
-def test_setting_on_a_class_is_refused_with_the_mend(monkeypatch, name, new, text):
-    derived = type("Derived", (Swing,), {})
-    monkeypatch.setattr(Swing, name, new, raising=False)
-    for model in (Swing(), derived()):
-        with pytest.raises(DeclarationError, match=text):
-            ac.compile(model)
-
-
-class OwnConstructor(Swing):
-    """A constructor of its own may keep plain values."""
-
-    def __init__(self, times, **values):
-        super().__init__(load=times * 2.0, **values)
-        self.times = times
-
-    def equations(self):
-        yield self.height == self.times * self.tip.r_0[1]
-
-
-def test_a_constructor_of_the_users_own():
-    model = OwnConstructor(3)
-    result = ac.simulate(model, stop_time=1)
-    assert (result["load"][-1], result["height"][-1]) == pytest.approx((6, 3 * result["tip.r_0"][-1, 1]))
-    assert model._origin.startswith(__file__)
-
-
-@pytest.mark.parametrize(
-    ("name", "new", "text"),
-    [
-        ("tip", Body(m=3), r"super\(\).__init__\(tip=Body\(m=3\)\)"),
-        ("extra", Body(m=3), "@part"),
-        ("load", 3, r"load=3"),
-    ],
-)
-def test_parts_and_values_set_in_a_constructor_are_refused_with_the_mend(name, new, text):
-    class Set(Swing):
-        def __init__(self):
-            super().__init__()
-            setattr(self, name, new)
-
-    with pytest.raises(DeclarationError, match=text):
-        Set()
-
-
-def test_what_is_found_or_computed_takes_no_value():
-    with pytest.raises(DeclarationError, match="found automatically"):
-        Body(m=1, world=World())
-
-
-class Several(Model):
-    @parts
-    def bodies(self):
-        return None
-
-    @part
-    def one(self):
-        return 5
-
-
-def test_parts_must_be_parts():
-    with pytest.raises(DeclarationError, match="bodies: it must be a list of parts, not None"):
-        ac.compile(Several())
-    with pytest.raises(DeclarationError, match="one must be a component"):
-        ac.compile(Several(bodies=[]))
 
 
 def test_class_values_reach_another_process():

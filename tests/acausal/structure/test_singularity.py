@@ -1,11 +1,11 @@
 from __future__ import annotations
 
 import pytest
-from structure_examples import Model, random_model
 
 from acausal.structure import StructuralSingularity, Subsystem, analyse, components, decompose
 from acausal.structure.incidence import transpose
 from acausal.structure.matching import augment, maximum_matching
+from tests.acausal.structure.examples import Model, random_model
 
 
 def test_augmenting_path_shifts_the_matching_or_reports_what_it_saw() -> None:

@@ -9,12 +9,10 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, der, fixed, guess, parameter, structural, variable
+from acausal import Model, Scalar, chain, connect, der, guess, structural, variable
 from components import (
     Body,
-    BodyBox,
     BodyRod,
-    Fixed,
     FixedTranslation,
     FlexibleBeam,
     Prismatic,
@@ -23,9 +21,8 @@ from components import (
     Spring,
     SpringDamperParallel,
     World,
-    rotational,
 )
-from models import FlexiblePendulum, FourBar, FreeVibration, NFourBar, SliderCrank, SpinUp, Squeezer
+from models import FlexiblePendulum, FreeVibration, NFourBar, SliderCrank, SpinUp
 
 I = 0.01 * np.eye(3)
 
@@ -237,78 +234,6 @@ def test_what_nothing_determines_takes_its_guess() -> None:
     assert result["hinge.phi"] == pytest.approx(0.4, abs=1e-9)
 
 
-class Falling(Model):
-    world, rail, body = World(g=9.81), Prismatic(n=(0, 1, 0)), Body(m=1)
-
-    def connections(self):
-        yield chain(self.world, self.rail, self.body)
-
-
-class Driven(Model):
-    d: Scalar = parameter("damping", unit="N.m.s/rad", default=0.5)
-    torque, rotor = rotational.Torque(tau=1), rotational.Inertia(J=1)
-
-    def connections(self):
-        yield connect(self.torque.flange, self.rotor.flange_a)
-
-
-class Braked(Driven):
-    """It turns at a constant speed, which is not at rest."""
-
-    brake, ground = rotational.Damper(d=0.5), rotational.Fixed()
-
-    def connections(self):
-        yield from super().connections()
-        yield chain(self.rotor, self.brake, self.ground)
-
-
-class Turned(Model):
-    drive, rotor = rotational.Speed(w_ref=2), rotational.Inertia(J=1)
-
-    def connections(self):
-        yield connect(self.drive.flange, self.rotor.flange_a)
-
-
-class Carried(Model):
-    drive, rotor = rotational.Position(phi_ref=0.1 * ac.time), rotational.Inertia(J=1)
-
-    def connections(self):
-        yield connect(self.drive.flange, self.rotor.flange_a)
-
-
-class Drifting(Model):
-    """A free body without weight rests anywhere, but not under a force."""
-
-    world, body, push = World(g=9.81), Body(m=1, I=I), FixedTranslation(r=(1, 0, 0))
-
-    def connections(self):
-        yield connect(self.body.frame_a, self.push.frame_a)
-
-
-@pytest.mark.parametrize(
-    ("model", "name"),
-    [(Falling, "rail.v"), (Driven, "rotor.w"), (Braked, "rotor"), (Turned, "rotor.phi"), (Carried, "rotor.phi")],
-)
-def test_what_cannot_rest_is_refused(model: type[Model], name: str) -> None:
-    with pytest.raises(ac.InitializationError, match=rf"keeps moving:(.|\n)*der\({name}"):
-        started(model())
-
-
-def test_a_free_fall_is_refused() -> None:
-    with pytest.raises(ac.InitializationError, match="keeps moving"):
-        started(Drifting())
-
-
-class Held(Double):
-    hinge = Revolute(phi=fixed(0.3))
-
-
-@pytest.mark.parametrize("model", [Held, FourBar, Squeezer])
-def test_fixed_values_that_do_not_rest_are_named(model: type[Model]) -> None:
-    with pytest.raises(ac.InitializationError, match=r"(?s)there is an equilibrium, but the initial.*phi = .*off by"):
-        started(model())
-
-
 @pytest.mark.parametrize("N", [1, 3])
 def test_loops_hang(N: int) -> None:
     class Hanging(NFourBar):
@@ -355,55 +280,3 @@ def test_first_order_systems() -> None:
     result = started(Tanks())
     assert result["first"] == pytest.approx(4, abs=1e-8)
     assert result["second"] == pytest.approx(4, abs=1e-8)
-
-
-def test_a_box_that_hangs_by_two_springs_turns_over() -> None:
-    """Guessed above its springs' feet, it comes out below them."""
-
-    class Hung(Model):
-        world, box = World(g=9.81), BodyBox(r=(0.4, 0, 0), width=0.1, density=500, r_0=guess((0.1, 0.3, 0.1)))
-        left, right = Spring(c=400, s_unstretched=0.3), Spring(c=400, s_unstretched=0.3)
-        foot = FixedTranslation(r=(0.6, 0, 0))
-
-        def connections(self):
-            yield chain(self.world, self.left, self.box)
-            yield chain(self.world, self.foot, self.right, self.box.frame_b)
-
-    result = started(Hung())
-    assert result["box.r_0"][0, 1] < 0
-    assert moved(result, "box.r_0") < 1e-7
-
-
-ABOVE = [(1, 0, 1), (-0.5, 0.866, 1), (-0.5, -0.866, 1)]
-BELOW = [(0.3, 0.1, 0), (-0.2, 0.25, 0), (-0.2, -0.3, 0)]
-
-
-class Suspended(Model):
-    """A free body on six springs; guesses are far from where it hangs."""
-
-    world = World(g=3.0, n=(0, 0, -1))
-    body = Body(m=2, I=0.1 * np.eye(3), r_0=guess((0.02, 0.01, 0.05)), angles_start=(0.02, 0.01, 0.3))
-    anchors = tuple(Fixed(r=r) for r in ABOVE * 2)
-    arms = tuple(FixedTranslation(r=BELOW[k]) for k in (0, 1, 2, 1, 2, 0))
-    springs = tuple(Spring(c=400, s_unstretched=0.9) for _ in range(6))
-
-    def connections(self):
-        for anchor, spring, arm in zip(self.anchors, self.springs, self.arms, strict=True):
-            yield chain(anchor.frame_b, spring, arm.frame_b)
-            yield connect(arm.frame_a, self.body.frame_a)
-
-
-class Askew(Suspended):
-    body = Body(m=2, I=0.1 * np.eye(3), r_0=guess((0.3, -0.2, 0.4)), angles_start=(0.5, -0.4, 1.5))
-
-
-class Soft(Suspended):
-    springs = tuple(Spring(c=150, s_unstretched=0.5) for _ in range(6))
-
-
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("model", [Suspended, Askew, Soft])
-def test_a_free_body_finds_where_it_hangs(model: type[Model]) -> None:
-    result = ac.simulate(model(), stop_time=0.1, initial="steady")
-    np.testing.assert_allclose(result["body.r_0"], np.broadcast_to(result["body.r_0"][0], (401, 3)), atol=1e-6)
-    assert np.max(ac.linearize(model(), initial="steady").eigenvalues.real) < 1e-6

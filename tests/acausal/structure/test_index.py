@@ -3,10 +3,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.optimize import linear_sum_assignment
-from structure_examples import Model, freedom, random_model
 
 from acausal.structure import StructuralSingularity, Subsystem, analyse
 from acausal.structure.extension import Extension
+from tests.acausal.structure.examples import Model, freedom, random_model
 
 PENDULUM = ["x lam | ax", "y lam | ay", "x y"]
 PENDULUM_CHAINS = {"x": "vx", "vx": "ax", "y": "vy", "vy": "ay"}

@@ -1,11 +1,11 @@
 from __future__ import annotations
 
 import pytest
-from structure_examples import Model, freedom, random_model, rods
 
 from acausal.structure import Block, Plan, StructuralSingularity, analyse
 from acausal.structure.blt import block_triangular
 from acausal.structure.tearing import tear, worthwhile
+from tests.acausal.structure.examples import Model, freedom, random_model, rods
 
 
 def test_blocks_in_order_of_solution() -> None:

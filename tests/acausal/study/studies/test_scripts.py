@@ -15,7 +15,7 @@ from acausal.study import pack
 from acausal.study.measuring import workers
 from acausal.study.measuring.pool import cluster, processes
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 CRANE = """
 from acausal import Model, Scalar, der, fixed, output, parameter, variable
 from beside_the_crane import doubled

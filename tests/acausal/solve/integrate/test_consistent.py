@@ -16,6 +16,7 @@ from acausal.solve.integrate.ladder import Kind, Refusal
 from components import rotational
 from models import SCENES, FourBarSpatial, NFourBar, SpinUp
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
+from tests.shared import compiled
 
 TOLERANCES = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10]
 
@@ -23,7 +24,7 @@ TOLERANCES = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10]
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_length_of_a_spring_is_the_distance_of_its_ends(tolerance, method):
-    result = ac.simulate(Fall(), stop_time=3.0, tolerance=tolerance, method=method)
+    result = ac.simulate(compiled(Fall), stop_time=3.0, tolerance=tolerance, method=method)
     apart = np.linalg.norm(result["spring.frame_b.r_0"] - result["spring.frame_a.r_0"], axis=1)
     np.testing.assert_allclose(result["spring.s"], apart, rtol=1e-13)
     np.testing.assert_allclose(result["spring.v"], np.gradient(apart, result.time), atol=0.5)
@@ -43,7 +44,7 @@ class Implicit(Model):
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_implicit_equation_holds_to_rounding(tolerance):
-    result = ac.simulate(Implicit(), stop_time=2.0, tolerance=tolerance, method="idas")
+    result = ac.simulate(compiled(Implicit), stop_time=2.0, tolerance=tolerance, method="idas")
     y, x = result["y"], result["x"]
     np.testing.assert_allclose(y**3 + 1e-3 * y, x, atol=1e-14)
 
@@ -98,7 +99,9 @@ def collision(tolerance: float = 1e-12) -> np.ndarray:
 @pytest.mark.parametrize("intervals", [400, 20, 7])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-10])
 def test_no_contact_is_missed(tolerance, intervals, method):
-    result = ac.simulate(Two(), stop_time=2.0, tolerance=tolerance, intervals=intervals, method=method, energy=True)
+    result = ac.simulate(
+        compiled(Two), stop_time=2.0, tolerance=tolerance, intervals=intervals, method=method, energy=True
+    )
     assert result.stats["events"] == 2
     first = (1 - np.sqrt(0.1**2 - 0.02**2)) / 1
     assert result.stats["event_times"][0] == pytest.approx(first, abs=1e-9)
@@ -113,7 +116,7 @@ def test_no_contact_is_missed(tolerance, intervals, method):
 def test_contact_shorter_than_an_interval(speed, intervals):
     """Both ends of the contact lie between two outputs."""
     stop = 2.0 / speed
-    result = ac.simulate(Two(speed=speed), stop_time=stop, intervals=intervals, method="idas", tolerance=1e-6)
+    result = ac.simulate(compiled(Two, speed=speed), stop_time=stop, intervals=intervals, method="idas", tolerance=1e-6)
     assert result.stats["event_times"][0] == pytest.approx((1 - np.sqrt(0.1**2 - 0.02**2)) / speed, rel=1e-8)
 
 
@@ -132,7 +135,7 @@ class Bounce(Model):
 @pytest.mark.parametrize(("stop", "intervals"), [(100.0, 400), (20.0, 10), (1.3, 3)])
 def test_end_of_a_contact_much_shorter_than_an_interval(stop, intervals, method, tolerance):
     """The release is the first one, not one some periods later."""
-    result = ac.simulate(Bounce(), stop_time=stop, intervals=intervals, method=method, tolerance=tolerance)
+    result = ac.simulate(compiled(Bounce), stop_time=stop, intervals=intervals, method=method, tolerance=tolerance)
     contact = np.pi / np.sqrt(1e7)
     np.testing.assert_allclose(result.stats["event_times"], [0.5, 0.5 + contact], atol=contact * 100 * tolerance**0.75)
     assert result["v"][-1] == pytest.approx(2, rel=100 * tolerance)
@@ -142,7 +145,7 @@ def test_end_of_a_contact_much_shorter_than_an_interval(stop, intervals, method,
 @pytest.mark.parametrize("intervals", [400, 20])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-10])
 def test_rope_is_found_taut_when_it_is(tolerance, intervals, method):
-    result = ac.simulate(Tether(), stop_time=1.2, tolerance=tolerance, intervals=intervals, method=method)
+    result = ac.simulate(compiled(Tether), stop_time=1.2, tolerance=tolerance, intervals=intervals, method=method)
     taut = np.sqrt(2 * np.sqrt(1 - 0.3**2) / 9.80665)
     assert result.stats["event_times"][0] == pytest.approx(taut, abs=1e-6)
     assert result.stats["events"] == 4
@@ -153,7 +156,7 @@ def test_rope_is_found_taut_when_it_is(tolerance, intervals, method):
 @pytest.mark.parametrize("intervals", [2000, 500, 100])
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
 def test_friction_sticks_at_rest_only(intervals, tolerance, method):
-    result = ac.simulate(Axis(), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method)
+    result = ac.simulate(compiled(Axis), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method)
     stuck = np.abs(result["friction.mode"]) < 0.5
     assert result.stats["events"] == 5 or stuck.any()
     assert np.max(np.abs(result["motor.w"][stuck]), initial=0.0) < 1e-8
@@ -220,7 +223,7 @@ class Pulses(Model):
 @pytest.mark.parametrize("intervals", [2, 400])
 def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
     with pytest.warns(ac.AcausalWarning, match=r"change faster than they are checked[\s\S]*intervals"):
-        ac.simulate(Pulses(), stop_time=1.0, intervals=intervals, method="idas")
+        ac.simulate(compiled(Pulses), stop_time=1.0, intervals=intervals, method="idas")
 
 
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
@@ -229,7 +232,7 @@ def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
 def test_no_turn_of_a_guard_is_missed(rate, least, intervals, method):
     """Also where it turns by whole or half turns from one look to the next."""
     changes = {"rate": rate, "least": least}
-    result = ac.simulate(Pulses(), stop_time=1.0, intervals=intervals, method=method, parameters=changes)
+    result = ac.simulate(compiled(Pulses), stop_time=1.0, intervals=intervals, method=method, parameters=changes)
     assert result["n"][-1] == 1 + (rate - np.arcsin(least)) // (2 * np.pi)
 
 
@@ -261,14 +264,14 @@ class Rings(Model):
     [(8, 1e-8, "auto"), (10, 1e-6, "idas"), (20, 1e-6, "auto"), (10, 1e-6, "rosenbrock"), (1, 1e-6, "idas")],
 )
 def test_many_steps_an_interval_come_to_an_end(intervals, tolerance, method):
-    result = ac.simulate(Rings(), stop_time=1.0, intervals=intervals, tolerance=tolerance, method=method)
+    result = ac.simulate(compiled(Rings), stop_time=1.0, intervals=intervals, tolerance=tolerance, method=method)
     assert result["x"][-1] == pytest.approx(np.cos(1000.0), abs=1e4 * tolerance)
     assert result.stats["steps"] < 200_000
 
 
 def test_stretches_are_cut_where_no_number_of_looks_is_enough(monkeypatch):
     monkeypatch.setattr(stride, "LOOKS", replace(stride.LOOKS, rows=1, densest=4))
-    result = ac.simulate(Rings(), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")
+    result = ac.simulate(compiled(Rings), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")
     assert result["x"][-1] == pytest.approx(np.cos(500.0), abs=1e-2)
 
 

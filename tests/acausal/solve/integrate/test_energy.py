@@ -11,6 +11,7 @@ from acausal import Model, chain, connect, cos, fixed, quantity, sin, time
 from components import rotational
 from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
+from tests.shared import compiled
 
 
 @pytest.mark.parametrize("method", ["idas", "rosenbrock"])
@@ -18,7 +19,7 @@ from tests.acausal.solve.machines import Cranked, Two, Wound
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-6, 1e-8, 1e-10])
 def test_work_of_winding_a_spring(tolerance, intervals, method):
     stats = ac.simulate(
-        Wound(), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method, energy=True
+        compiled(Wound), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method, energy=True
     ).stats
     assert stats["energy_supplied"] == pytest.approx(10 * 0.5**2 / 2, rel=1e-9)
     assert abs(stats["energy_method"]) < 1e-9
@@ -30,7 +31,7 @@ def test_work_of_winding_a_spring(tolerance, intervals, method):
 def test_work_of_a_crank_at_constant_speed(tolerance, intervals, method):
     """The crank turns by 3.9 rad: the spring's energy there and at the start is in closed form."""
     stats = ac.simulate(
-        Cranked(), stop_time=1.3, tolerance=tolerance, intervals=intervals, method=method, energy=True
+        compiled(Cranked), stop_time=1.3, tolerance=tolerance, intervals=intervals, method=method, energy=True
     ).stats
 
     def stretch(phi: float) -> float:
@@ -53,7 +54,7 @@ class Spinning(Cranked):
 def test_work_of_many_turns(tolerance, stop, intervals, method):
     """The integrator's steps are far longer than a turn; the last stop has two whole turns in each interval."""
     stats = ac.simulate(
-        Spinning(), stop_time=stop, tolerance=tolerance, intervals=intervals, method=method, energy=True
+        compiled(Spinning), stop_time=stop, tolerance=tolerance, intervals=intervals, method=method, energy=True
     ).stats
     turned = np.array([0.0, 30 * stop])
     s = np.hypot(1 - 0.3 * np.cos(turned), 0.2 - 0.3 * np.sin(turned)) - 0.1
@@ -79,7 +80,7 @@ class Slipping(Model):
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
 def test_work_up_to_an_event_between_outputs(tolerance, intervals):
     stats = ac.simulate(
-        Slipping(), stop_time=3.0, tolerance=tolerance, intervals=intervals, method="idas", energy=True
+        compiled(Slipping), stop_time=3.0, tolerance=tolerance, intervals=intervals, method="idas", energy=True
     ).stats
 
     def power(t: float) -> float:
@@ -105,7 +106,7 @@ class Moved(Model):
 @pytest.mark.parametrize("intervals", [400, 3])
 @pytest.mark.parametrize("stop", [1.0, 0.3])
 def test_work_without_states(intervals, stop):
-    result = ac.simulate(Moved(), stop_time=stop, intervals=intervals, energy=True)
+    result = ac.simulate(compiled(Moved), stop_time=stop, intervals=intervals, energy=True)
     assert result.stats["states"] == 0
     heat = 0.3 * 1.5**2 * (stop / 2 + np.sin(6 * stop) / 12)
     assert result.stats["energy_stored_change"] == pytest.approx(10 * (0.5 * np.sin(3 * stop)) ** 2 / 2)
@@ -130,7 +131,7 @@ class Shaken(Model):
 def test_work_of_many_turns_between_outputs(intervals, tolerance):
     t = np.linspace(0, 3, 200001)
     w = 5 * np.cos(50 * t) * np.cos(3 * t) - 0.3 * np.sin(50 * t) * np.sin(3 * t)
-    stats = ac.simulate(Shaken(), stop_time=3.0, intervals=intervals, tolerance=tolerance, energy=True).stats
+    stats = ac.simulate(compiled(Shaken), stop_time=3.0, intervals=intervals, tolerance=tolerance, energy=True).stats
     heat = simpson(2 * w**2, x=t)
     assert stats["energy_dissipated"] == pytest.approx(heat, rel=tolerance)
     assert abs(stats["energy_method"]) < tolerance * heat
@@ -148,8 +149,8 @@ def test_works_are_the_integrals_of_the_powers(name, tolerance):
     """Many outputs show the powers of the same motion, which few outputs must integrate as well."""
     cls = SCENES[name]
     stop = cls.stop_time / 2
-    few = ac.simulate(cls(), stop_time=stop, tolerance=tolerance, energy=True, intervals=40)
-    many = ac.simulate(cls(), stop_time=stop, tolerance=tolerance, energy=True, intervals=8000)
+    few = ac.simulate(compiled(cls), stop_time=stop, tolerance=tolerance, energy=True, intervals=40)
+    many = ac.simulate(compiled(cls), stop_time=stop, tolerance=tolerance, energy=True, intervals=8000)
     held = np.max(np.abs(along(many, "stored_energy")))
     for power, work in (("supplied_power", "energy_supplied"), ("dissipated_power", "energy_dissipated")):
         exact = simpson(along(many, power), x=many.time)
@@ -159,6 +160,6 @@ def test_works_are_the_integrals_of_the_powers(name, tolerance):
 
 def test_energy_of_an_impact_is_balanced():
     rough, fine = (
-        ac.simulate(Two(), stop_time=2.0, tolerance=t, energy=True).stats["energy_method"] for t in (1e-6, 1e-9)
+        ac.simulate(compiled(Two), stop_time=2.0, tolerance=t, energy=True).stats["energy_method"] for t in (1e-6, 1e-9)
     )
     assert abs(fine) < 1e-7 < 1e-1 * max(abs(rough), 1e-6)

@@ -16,7 +16,7 @@ from acausal.study import cluster, processes
 from tests.acausal.study import decay
 from tests.acausal.study.decay import Decay, study
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 
 
 @pytest.fixture(scope="module")

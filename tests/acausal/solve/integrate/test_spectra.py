@@ -37,6 +37,20 @@ class Spread(Model):
         yield der(self.x[self.n - 1]) == -self.rate * self.x[self.n - 1]
 
 
+class Counters(Model):
+    """Rates that depend on nothing."""
+
+    n: int = structural("how many", default=100)
+    x: Any = variable("states", shape=lambda self: (self.n,), fixed=True)
+
+    def equations(self):
+        yield der(self.x) == np.ones(self.n)
+
+
+def test_rates_that_depend_on_nothing() -> None:
+    assert np.allclose(ac.simulate(Counters(), stop_time=2, intervals=4)["x"][-1], 2)
+
+
 @pytest.mark.parametrize("n", [20, 50, 100])
 def test_points_that_nothing_holds(n: int) -> None:
     result = ac.simulate(Drifting(n=n), stop_time=2, intervals=4)

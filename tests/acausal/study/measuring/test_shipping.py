@@ -49,6 +49,6 @@ def test_a_model_arrives(tmp_path):
     (tmp_path / "mine.py").write_text(MINE)
     data = pack(find_scene(f"{tmp_path}/mine.py:Mine")())
     command = [sys.executable, "-c", RECEIVER]
-    done = subprocess.run(command, input=data, capture_output=True, cwd=Path(__file__).parents[3], check=False)
+    done = subprocess.run(command, input=data, capture_output=True, cwd=Path(__file__).parents[4], check=False)
     assert done.stderr == b""
     assert abs(float(done.stdout) - 6 * np.sin(1)) < 1e-6

@@ -1,0 +1,52 @@
+"""A problem of hand-made functions in place of a compiled model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+import scipy
+
+from acausal.compiler.compiled_model import Local
+from acausal.solve.problem import Point
+
+Function = Callable[[np.ndarray], np.ndarray]
+
+
+class Made:
+    """Equations f(y) with their Jacobian; the first `nx` unknowns are states.
+
+    Attributes
+    ----------
+    seen : list of array
+        Where the Jacobian was asked for: the iterates.
+    """
+
+    def __init__(self, f: Function, jacobian: Function, n: int, nx: int = 0) -> None:
+        self.f, self.jacobian, self.nx, self.nz = f, jacobian, nx, n - nx
+        self.nominal, self.feedback = np.ones(n), 1.0
+        self.seen: list[np.ndarray] = []
+        equations = SimpleNamespace(origins=[f"equation {k}" for k in range(n)], initial=[])
+        plan = SimpleNamespace(residuals=range(n), differentiated=())
+        reduced = SimpleNamespace(flat=SimpleNamespace(equations=equations), plan=plan)
+        self.compiled = SimpleNamespace(
+            nz=self.nz, reduced=reduced, constraints=SimpleNamespace(size=0), states=[f"x{k}" for k in range(nx)]
+        )
+
+    def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
+        return np.asarray(self.f(at.y), dtype=float)
+
+    def local(self, at: Point, flag: float = 0.0) -> Local:
+        self.seen.append(at.y)
+        return Local(self.values(at), scipy.sparse.csc_matrix(self.jacobian(at.y), dtype=float))
+
+    def at(self, *y: float) -> Point:
+        """Return a point."""
+        x, z = np.split(np.array(y, dtype=float), [self.nx])
+        return Point(0.0, x, z, None)  # type: ignore[arg-type]
+
+
+def linear(A: np.ndarray, nx: int) -> Made:
+    """Return y' = A y, of which the rows beyond the first `nx` are 0 = A y."""
+    return Made(lambda y: A @ y, lambda y: A, len(A), nx)

@@ -1,0 +1,113 @@
+"""Joints, each in a scene."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import acausal as ac
+from acausal import Component, chain, connect, fixed, part, sin, structural, time
+from components import (
+    Body,
+    BodyRod,
+    FixedTranslation,
+    Prismatic,
+    Revolute,
+    RevolutePlanarLoopConstraint,
+    Spherical,
+    Spring,
+    TranslationalFlange,
+)
+from tests.components.scenes.scene import SPIN, OnSpherical, Scene
+
+
+class OnPlanarLoop(Scene):
+    """A four-bar in the xy plane of the place; the tip rides on the coupler."""
+
+    first, second, third = Revolute(phi=fixed(0), w=fixed(3.0)), Revolute(), Revolute()
+    crank, coupler, rocker = BodyRod(r=(0.2, 0, 0), m=1), BodyRod(r=(0.1, 0.5, 0), m=1), BodyRod(r=(0.4, 0.05, 0), m=1)
+    ground = FixedTranslation(r=(-0.1, 0.45, 0))
+    it = RevolutePlanarLoopConstraint()
+
+    def graph(self):
+        a, b = self.through(self.it)
+        yield chain(self.place, self.first, self.crank, self.second, self.coupler, self.tip)
+        yield chain(self.place, self.ground, self.third, self.rocker, b)
+        yield connect(self.coupler.frame_b, a)
+
+
+class OnRevolute(Scene):
+    @part
+    def it(self):
+        s = -1 if self.turned else 1
+        return Revolute(n=(0, 1, 2), phi=fixed(0.4 * s), w=fixed(3.0 * s), d=0.02, tau_dry=0.05, w_dry=0.5)
+
+    def graph(self):
+        yield from self.path(self.it)
+
+
+BRAKE = ac.quantity(3.0, "N.s/m")
+
+
+class Rod(Component):
+    """A drive rod that pushes with a force that varies and is braked, as a flange's neighbour in a scene."""
+
+    ends = ("flange", "flange")
+    flange = ac.port(TranslationalFlange, "rod")
+    v = ac.variable("speed", unit="m/s")
+
+    def equations(self):
+        yield self.v == ac.der(self.flange.s)
+        yield self.flange.f == -20 * sin(5 * time) + BRAKE * self.v
+
+    def supplied_power(self):
+        """Power of the push."""
+        return 20 * sin(5 * time) * self.v
+
+    def dissipated_power(self):
+        """Power of the brake."""
+        return BRAKE * self.v**2
+
+
+class OnPrismatic(OnSpherical):
+    """The joint slides on a body that turns; a spring keeps it near."""
+
+    use_axis_flange = structural("whether the joint has a drive rod", default=False)
+    base = Body(m=2.0, I=np.diag([0.1, 0.2, 0.15]))
+    spring = Spring(c=60.0, s_unstretched=0.2)
+
+    @part
+    def it(self):
+        s = -1 if self.turned else 1
+        drive = {"compliance": 2e-3, "f": fixed(5.0), "use_axis_flange": True} if self.use_axis_flange else {}
+        return Prismatic(n=(1, 2, 2), s=fixed(0.3 * s), v=fixed(0.5 * s), d=0.5, f_dry=0.4, v_dry=0.2, **drive)
+
+    def graph(self):
+        yield from super().graph()
+        yield connect(self.joint.frame_b, self.base.frame_a)
+        yield connect(self.base.frame_a, self.spring.frame_a)
+        yield connect(self.spring.frame_b, self.tip.frame_a)
+
+
+class OnDrivenPrismatic(OnPrismatic):
+    """Not for turning round: the drive force changes its sense then."""
+
+    use_axis_flange = structural("whether the joint has a drive rod", default=True)
+    rod = Rod()
+
+    def graph(self):
+        yield from super().graph()
+        yield connect(self.it.axis, self.rod.flange)
+
+
+class OnSphericalJoint(Scene):
+    @part
+    def it(self):
+        angles, sequence = (0.3, -0.2, 0.5), (1, 2, 3)
+        if self.turned:
+            opposite = tuple(-a for a in angles[::-1])
+            w = fixed(tuple(-SPIN))
+            return Spherical(angles_start=opposite, sequence_start=sequence[::-1], angles_fixed=True, w_rel=w)
+        return Spherical(angles_start=angles, sequence_start=sequence, angles_fixed=True, w_rel_a=fixed(tuple(SPIN)))
+
+    def graph(self):
+        yield from self.path(self.it)
