@@ -1,0 +1,135 @@
+"""No threshold is absolute: a scene in other units of length, mass and time takes the same steps to the same result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import asin, exp, piecewise, sin, time
+from acausal.flatten import attributes, given, variables
+from acausal.language import fields as f
+from acausal.language.expression import Expr
+from acausal.units import parse
+from components.rotational import Torque
+from models import SCENES, CarAxis, SliderCrank
+
+MUCH = 2.0**10  # a power of 2 changes no digit
+COUNTS = ("steps", "factorisations", "residual_evaluations")
+
+
+def scale(unit: Any, units: tuple[float, ...]) -> Any:
+    """What 1 in a unit is in other units of length, mass and time."""
+    if isinstance(unit, tuple):
+        return np.array([scale(u, units) for u in unit])
+    return 1.0 if unit is None else float(np.prod([u ** float(e) for u, e in zip(units, unit.exponents, strict=False)]))
+
+
+def scaled(value: Any, factor: Any) -> Any:
+    """A value in other units; what refers to others follows them."""
+    if isinstance(value, list | tuple):
+        return tuple(scaled(v, factor) for v in value)
+    if isinstance(value, f.InitialValue):
+        return f.InitialValue(scaled(value.value, factor), value.fixed, scaled(value.nominal, factor))
+    number = isinstance(value, int | float | np.ndarray) and not isinstance(value, bool)
+    return value * factor if number and np.any(factor != 1) else value
+
+
+@contextmanager
+def measured_in(units: tuple[float, ...]) -> Iterator[None]:
+    """Take all numbers that models, components and their defaults state in SI in other units."""
+    given_value, fill, start, derivative = (
+        given.Given._given,
+        given.Given.fill,
+        variables._fill,
+        attributes.Attributes.derivative,
+    )
+
+    def parameter(self: Any, bound: Any, name: str, declared: Any) -> Any:
+        value = given_value(self, bound, name, declared)
+        default = bound._class_values.get(name, declared.default)
+        if bound._values.get(name, f.MISSING) is f.MISSING and (callable(default) or isinstance(default, f.Deferrable)):
+            return value  # of others, which are scaled
+        return scaled(value, scale(given.unit_of(declared, bound), units))
+
+    def variables_of(self: Any, bound: Any, owner: Any) -> None:
+        fill(self, bound, owner)
+        own = {n: v for n, v in bound._values.items() if isinstance(bound.fields.get(n), f.Variable)}
+        own = {n: v for n, v in own.items() if not isinstance(v, f.InitialValue)}
+        factors = {n: scale(given.unit_of(bound.fields[n], bound), units) for n in own}
+        vars(bound)["_values"] = {**bound._values, **{n: scaled(v, factors[n]) for n, v in own.items()}}
+
+    def attribute(value: Any, shape: Any, variable: Expr, what: str) -> Expr:
+        found, factor = start(value, shape, variable, what), scale(variable.unit, units)
+        if not found.sx.is_constant():
+            factor = factor / scale(found.unit, units) if what == "nominal" else 1.0
+        return Expr(found.sx * (ca.DM(factor) if np.ndim(factor) else factor), found.unit)
+
+    def of_derivative(self: Any) -> Any:
+        found = derivative(self)
+        found.nominal = scale(found.unit, units)
+        return found
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(given.Given, "_given", parameter)
+        patch.setattr(given.Given, "fill", variables_of)
+        patch.setattr(variables, "_fill", attribute)
+        patch.setattr(attributes.Attributes, "derivative", of_derivative)
+        yield
+
+
+def scene(name: str, units: tuple[float, ...]) -> Any:
+    """A scene; numbers in its own laws of time are scaled by hand."""
+    length, mass, second = units
+
+    class Crank(SliderCrank):
+        torque = 0.01 * mass * length**2 / second**2
+        drive = Torque(tau=piecewise((torque * (1 - exp(-time / (0.167 * second))), time <= 0.7 * second), 0))
+
+    class Axis(CarAxis):
+        def equations(self):
+            yield self.drive.phi_ref == asin(0.1 * sin(10 / second * time))
+            yield from (self.xl == self.left.r_0[0], self.yl == self.left.r_0[1])
+            yield from (self.xr == self.right.r_0[0], self.yr == self.right.r_0[1])
+
+    return {"slider-crank": Crank, "car-axis": Axis}.get(name, SCENES[name])()
+
+
+def run(name: str, units: tuple[float, ...], part: float = 1.0) -> tuple[dict[str, int], dict[str, np.ndarray]]:
+    """Counts of a run, and its outputs in SI."""
+    with measured_in(units):
+        result = ac.simulate(scene(name, units), stop_time=part * SCENES[name].stop_time * units[2])
+    dimensions = {output: parse(SCENES[name].fields[output].unit) for output in result.outputs}
+    return (
+        {count: result.stats[count] for count in COUNTS},
+        {output: result[output] / scale(dimensions[output], units) for output in result.outputs},
+    )
+
+
+def agree(name: str, others: list[tuple[float, ...]]) -> None:
+    """Runs take as many steps, to 2 %, and lead to the same, but for what 1000 times the tolerance may make of rounding."""
+    part = 0.05 if name == "free-vibration" else 1.0
+    counts, outputs = run(name, (1.0, 1.0, 1.0), part)
+    for units in others:
+        found, values = run(name, units, part)
+        assert found == pytest.approx(counts, rel=0.02, abs=2), units
+        for output, expected in outputs.items():
+            assert np.max(np.abs(values[output] - expected)) <= 1e-3 * np.max(np.abs(expected)), (units, output)
+
+
+@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
+@pytest.mark.parametrize("name", SCENES)
+def test_units_change_neither_counts_nor_results(name):
+    agree(name, [(MUCH, 1.0, 1.0), (1.0, 1 / MUCH, 1.0), (1.0, 1.0, 1 / MUCH)])
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
+@pytest.mark.parametrize("name", SCENES)
+def test_nor_do_the_other_way(name):
+    agree(name, [(1 / MUCH, 1.0, 1.0), (1.0, MUCH, 1.0), (1.0, 1.0, MUCH)])
