@@ -22,6 +22,19 @@ class Order:
     powers: int = 4
     # Shift of the inverse iteration, over the fastest rate.
     shift: float = 1e-9
+    # Steps of BDF 5 on an undamped oscillation, in radians of it, up to which it is stable.
+    stable: float = 0.71
+    highest: int = 5
+    # Steps for all outputs together, and for one, after which a limit that may be wrong is in doubt: ten times the trial.
+    doubt: int = 20_000
+    fewest: int = 40
+    # Parts of a run on which both limits are tried, parts after which they are tried again, and by how much the highest
+    # order must win (free vibration at 1e-6: 6 times, at 1e-4 it loses; the pendulum gets cheap with order 2).
+    heads: int = 200
+    chunks: int = 4
+    gain: int = 3
+    # A limit of 2 that takes so many times the steps with which the highest order is stable has lost.
+    dear: float = 4.0
     # Half angle of the wedge around the negative real axis in which BDF is stable (Hairer & Wanner II, V.2.7), by order.
     wedge: tuple[tuple[int, float], ...] = ((5, 51.84), (4, 73.35), (3, 86.03))
 

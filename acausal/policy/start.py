@@ -41,6 +41,7 @@ class Ranks:
     # the square of them, short enough to stay in a mechanism of flat links (n-four-bar).
     motion: float = 1e-2
     shake: float = 1e-3
+    away: float = 0.1
     # How well the loops must close after such a motion: its effect on ranks is that of `closed` over `motion`.
     moved: float = 1e-10
     # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular position.
@@ -71,6 +72,8 @@ class Loops:
     decades: int = 12
     # Way out of a singular position in nominal values: its square is the error of what is left out.
     away: float = 1e-4
+    # Change of speeds on it, over the greatest: on a branch it is of the order of the way.
+    stays: float = 1e-2
     # Speed of joints, in nominal values, that is rest: rates of a singular position are known no better than that.
     rest: float = 1e-4
     # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.

@@ -21,7 +21,7 @@ class Statistics(Mapping[str, Any]):
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
         Seconds; the last are those inside the integrators.
-    method, method_steps, max_order, tolerance, fastest_rate, constraints
+    method, method_steps, max_order, order_reason, tolerance, fastest_rate, constraints
         What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
         the start in 1/s, and how loops stayed closed.
     sizes : dict of str to float
@@ -58,6 +58,7 @@ class Statistics(Mapping[str, Any]):
     choices: int = 0
     consistent_evaluations: int = 0
     max_order: int = 0
+    order_reason: str = ""
     tolerance: float = 0.0
     sizes: dict[str, float] = field(default_factory=dict)
     method: str = ""

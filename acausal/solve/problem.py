@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.compiled_model import Local
 from acausal.compiler.constants import Constants
+from acausal.policy import POLICY
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,9 +107,16 @@ class Problem:
 
     def sizes(self, at: Point) -> np.ndarray:
         """Return the change that nominal values of the states make in each residual of the constraints, see `gaps`."""
-        kinds = self.compiled.constraints.kinds
+        own, c = np.linalg.norm(self.gradients(at), axis=1), self.compiled.constraints
+        forces = [row for k, rows in enumerate(c.rows) if k not in c.closures for row in rows]
+        if forces:
+            # Where a force has no direction its gradient is very large, but not beside it.
+            away = np.random.default_rng(0).standard_normal(self.nx) * self.nominal[: self.nx]
+            beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
+            own[forces] = np.minimum(own[forces], np.nan_to_num(np.linalg.norm(beside, axis=1)))
+        kinds = c.kinds
         most = np.zeros(len(kinds))
-        np.maximum.at(most, kinds, np.linalg.norm(self.gradients(at), axis=1))
+        np.maximum.at(most, kinds, own)
         sizes = most[kinds]
         return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
 

@@ -102,6 +102,7 @@ class _Done:
     at: Point
     integrator: Integrator
     course: Run
+    reason: str
     failure: BaseException | None
 
     @property
@@ -123,13 +124,14 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     """Integrate, again where states turn out to be much smaller than they were taken for."""
     at, span = go_on(problem, begun), task.stop_time - task.start_time
     rates = eigenvalues_of(problem, at)
-    max_order = task.max_order or order_limit(rates, span)
+    max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
     fastest = float(np.max(np.abs(rates), initial=0.0))
     fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
+    is_open = task.max_order is None and max_order < POLICY.order.highest
     nominal, counts = problem.nominal, Trace()
     for _ in range(POLICY.sizes.passes):
-        integrator = Integrator(problem, Settings(nominal, *fixed), (task.start_time, task.stop_time), counts)
-        done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), None)
+        integrator = Integrator(problem, Settings(nominal, *fixed, is_open), (task.start_time, task.stop_time), counts)
+        done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), reason, None)
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:
@@ -179,7 +181,8 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
         residual_evaluations=trace.residual_evaluations,
         calls=trace.calls,
         choices=trace.choices,
-        max_order=run.settings.max_order,
+        max_order=run.way.order,
+        order_reason="; ".join([done.reason, *trace.orders]),
         tolerance=run.settings.tolerance,
         sizes=absolute_sizes(compiled, run.settings.nominal),
         method=" and ".join(trace.methods) or "none",

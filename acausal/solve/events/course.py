@@ -17,7 +17,8 @@ from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse
 from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Failure, Refusal, accepted, next_ways
+from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
+from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
@@ -162,6 +163,10 @@ class Run:
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
         """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
         run = self.integrator
+        if refusal.kind is Kind.STEPS and is_open(run, grid) and run.way.order == run.settings.max_order:
+            choose(run, at, grid[:2])
+            if run.way.order != run.settings.max_order:
+                return at
         following = next_ways(run.way, refusal, run.settings.rescues(grid, run.loops))
         if not following:
             return self._shorter(at, grid, Failure.of(refusal))

@@ -86,10 +86,12 @@ class Integrator:
         found = self.attempt(at, times, way, works=False)
         return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found
 
-    def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True) -> Stretch | Refusal:
+    def attempt(
+        self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False
+    ) -> Stretch | Refusal:
         """Integrate from a point, at times[0], through all other times in one call.
 
-        Works are 0 unless requested.
+        Works are 0 unless requested; a refusal holds what was reached if `keep`.
         """
         c = self.compiled
         if not c.nx:
@@ -118,7 +120,11 @@ class Integrator:
         except KeyboardInterrupt:
             self._keep_reached(call, setup, at, times, parts)
             raise
-        return found if isinstance(found, Refusal) else self._settled(found.every(parts), way.tolerance)
+        if isinstance(found, Stretch):
+            return self._settled(found.every(parts), way.tolerance)
+        rows = self._reached(call, setup, at, times, parts) if keep else None
+        settled = rows and self._settled(rows, way.tolerance)
+        return replace(found, reached=settled) if isinstance(settled, Stretch) else found
 
     def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
         """Evaluate a call; return its rows, unless it failed or left the solution."""
@@ -132,7 +138,7 @@ class Integrator:
         states, algebraics, energy = setup.rows(call)
         if self._is_worn(times[1:], states, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
-        few = POLICY.energy.resolved if setup.plugin == "idas" and self.settings.max_order <= 2 else 1
+        few = POLICY.energy.resolved if setup.plugin == "idas" and way.order <= 2 else 1
         if energy is not None and not c.powers.is_zero() and steps < n * few:
             rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
             given = np.vstack([np.zeros((1, 2)), energy])
@@ -146,11 +152,16 @@ class Integrator:
         begin, end = self.span
         last = self.trace.last().times if self.trace.pieces else begin
         here = np.isclose(at.time, last, rtol=1e-9, atol=1e-9 * (end - begin))
-        found = reached(self.consistent, call, setup, at, times) if here else None
+        found = self._reached(call, setup, at, times, parts) if here else None
+        if found and (not self.settings.energy or call.function.nnz_out("qf")):
+            self.trace.add(found)
+
+    def _reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> Stretch | None:
+        """Return the rows that a call had written before it ended, if they can be used."""
+        found = reached(self.consistent, call, setup, at, times)
         if found is None or self._is_worn(found.times, found.x, at.constants) or len(found.times) < parts:
-            return
-        if not self.settings.energy or call.function.nnz_out("qf"):
-            self.trace.add(found.every(parts))
+            return None
+        return found.every(parts)
 
     def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
         """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""

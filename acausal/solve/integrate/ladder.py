@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from acausal.policy import POLICY
 
@@ -26,14 +26,20 @@ class Way:
         Relative tolerance.
     max_steps : int
         Steps after which to give up.
+    order : int
+        Highest order of the multistep method.
+    gentle : bool
+        Whether to begin with a short step.
     careful : bool
-        Whether to begin with a short step, and to factorise without reusing earlier pivots.
+        The same, and to factorise without reusing earlier pivots.
     """
 
     method: str
     moves: bool
     tolerance: float
     max_steps: int
+    order: int = 5
+    gentle: bool = False
     careful: bool = False
 
 
@@ -64,11 +70,14 @@ class Refusal:
         Where it had got to, in s.
     reason : str
         What the integrator reported, if anything.
+    reached : Stretch or None
+        Rows before that, where they were asked for.
     """
 
     kind: Kind
     time: float
     reason: str = ""
+    reached: Any = None
 
 
 class Failure(Exception):

@@ -75,7 +75,7 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
     options = {
         "reltol": tolerance,
         "abstolv": np.maximum(tolerance * nominal, floor).tolist(),
-        "max_multistep_order": settings.max_order,
+        "max_multistep_order": way.order,
         "suppress_algebraic": True,
         "max_num_steps": way.max_steps,
         "disable_internal_warnings": True,
@@ -85,9 +85,9 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
         "nonlin_conv_coeff": CALLS.newton_in_loops if c.constraints.size else CALLS.newton,
         "show_eval_warnings": False,
         "linear_solver": "qr" if way.careful or c.nx + c.nz > CALLS.large else "csparse",
-        "calc_ic": steepest > 1 and not way.careful,
+        "calc_ic": steepest > 1 and not (way.gentle or way.careful),
     }
-    if way.careful and steepest > 1:
+    if (way.gentle or way.careful) and steepest > 1:
         options["step0"] = 10.0 ** -np.ceil(np.log10(10 * steepest))
     return Setup("idas", options, (np.ones(c.nx), 1.0))
 

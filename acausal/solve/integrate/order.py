@@ -75,8 +75,8 @@ def _dominant(apply: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     return np.roots([1.0, -c1, -c0]).astype(complex)
 
 
-def order_limit(values: np.ndarray, duration: float) -> int:
-    """Choose the highest order that keeps every fast oscillation stable.
+def order_limit(values: np.ndarray, duration: float) -> tuple[int, str]:
+    """Choose the highest order that keeps every fast oscillation stable, and say why.
 
     Parameters
     ----------
@@ -92,4 +92,7 @@ def order_limit(values: np.ndarray, duration: float) -> int:
     motion = moving.min() if moving.size else 2 * np.pi / duration
     fast = values[(size > ORDER.fast * motion) & (np.imag(values) != 0) & (size * duration > ORDER.fast)]
     angle = np.degrees(np.max(np.abs(np.angle(-fast)), initial=0.0))
-    return next((order for order, wedge in ORDER.wedge if angle < wedge), 2)
+    order = next((order for order, wedge in ORDER.wedge if angle < wedge), 2)
+    if order == ORDER.highest:
+        return order, "no oscillation is both fast and lightly damped"
+    return order, f"oscillations of up to {np.max(np.abs(fast)):.3g} 1/s, fast against the motion, are lightly damped"

@@ -9,6 +9,7 @@ import numpy as np
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal, Way, accepted, next_ways
+from acausal.solve.integrate.order_trial import settle
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.problem import Point
 
@@ -23,6 +24,9 @@ def segment(run: Integrator, at: Point, times: np.ndarray) -> Point:
     Failure
         If the integrator gives up; the trace holds what was reached.
     """
+    at, times = settle(run, at, times)
+    if len(times) == 1:
+        return at
     found = quickly(run, at, times)
     if isinstance(found, Stretch):
         run.trace.add(found)

@@ -35,6 +35,8 @@ class Settings:
         As of `simulate`.
     fastest : float
         Size of the largest eigenvalue at the start in 1/s.
+    order_is_open : bool
+        Whether a trial may decide on the highest order.
     """
 
     nominal: np.ndarray
@@ -45,6 +47,7 @@ class Settings:
     constraints: str = "auto"
     method: str = "auto"
     fastest: float = 0.0
+    order_is_open: bool = False
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -55,7 +58,7 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        return Way(self.methods[0], self.constraints == "projection", self.tolerance, RESCUE.long)
+        return Way(self.methods[0], self.constraints == "projection", self.tolerance, RESCUE.long, self.max_order)
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""

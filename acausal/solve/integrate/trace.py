@@ -35,6 +35,7 @@ class Trace:
     before: np.ndarray = field(default_factory=lambda: np.zeros(2))
     methods: dict[str, int] = field(default_factory=dict)
     loosened: list[float] = field(default_factory=list)
+    orders: list[str] = field(default_factory=list)
     rough: bool = False
 
     def emptied(self) -> Trace:

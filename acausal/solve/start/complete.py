@@ -152,4 +152,11 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     later = LOOPS.away / float(np.max(np.abs(x[rates]) / nominal[coordinates]))
     moved = x.copy()
     moved[coordinates] += later * x[rates]
-    return close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]
+    left = close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]
+    allowed = LOOPS.stays * np.max(np.abs(x[rates]) / nominal[rates]) * nominal[rates]
+    if np.any(np.abs(left.x[rates] - x[rates]) > allowed):
+        raise InitializationError(
+            f"the start at t = {at.time:g} s is a singular position, which the loops leave on no branch with these velocities. "
+            "Give those of one branch, guess(...) for the joints that follow, or start 0.01 rad beside it."
+        )
+    return left

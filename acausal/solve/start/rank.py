@@ -26,14 +26,8 @@ def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
 
 def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[np.ndarray], np.ndarray]:
     """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
-    length = np.linalg.norm(rows * sizes, axis=1)
-    length = np.where(length > 0, length, 1.0)
-    matrix = rows * sizes / length[:, None]
-
-    def solve(right: np.ndarray) -> np.ndarray:
-        return (sizes * np.linalg.lstsq(matrix, (right.T / length).T, rcond=cutoff)[0].T).T
-
-    return solve
+    matrix = rows * sizes
+    return lambda right: (sizes * np.linalg.lstsq(matrix, right, rcond=cutoff)[0].T).T
 
 
 def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:

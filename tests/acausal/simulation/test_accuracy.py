@@ -222,7 +222,7 @@ class Growing(Model):
 
 def test_what_cannot_be_reached_is_refused_with_the_best():
     """exp(-t) goes over into exp(t) by rounding."""
-    with pytest.raises(ac.SimulationError, match=r"accuracy is not reached.*estimated error") as caught:
+    with pytest.raises(ac.SimulationError, match=r"accuracy was not reached.*estimated error") as caught:
         ac.simulate(Growing(), stop_time=40.0, accuracy=1e-6)
     result = caught.value.result
     assert isinstance(result, ac.Result)

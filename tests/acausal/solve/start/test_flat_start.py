@@ -127,7 +127,7 @@ class Stuck(Flat):
         return Revolute()
 
 
-def test_a_run_that_cannot_leave_a_singular_position_says_so() -> None:
-    with pytest.raises(ac.SimulationError, match="singular position") as caught:
+def test_a_start_that_cannot_leave_a_singular_position_says_so() -> None:
+    with pytest.raises(ac.InitializationError, match="singular position") as caught:
         ac.simulate(Stuck(lengths=(1.0, 2.0, 0.5, 2.5)), stop_time=1, initial="guesses", method="rosenbrock")
     assert "no reason" not in str(caught.value)

@@ -1,0 +1,130 @@
+"""Order limit by trial: where eigenvalues leave it open, runs of both on the first part of a chunk decide.
+
+Whether fast oscillations matter depends on how much they are excited. At rest, an order limit of 2 is the best; where the
+motion needs many steps all the same, high orders may take fewer, as long as these are short enough to be stable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.policy import POLICY
+from acausal.solve.integrate.attempt import Integrator
+from acausal.solve.integrate.ladder import Kind, Refusal, Way
+from acausal.solve.integrate.trace import Stretch
+from acausal.solve.problem import Point
+
+ORDER = POLICY.order
+
+
+def is_open(run: Integrator, times: np.ndarray) -> bool:
+    """Whether the highest order may take fewer steps than are allowed, although it is stable in short ones only."""
+    settings = run.settings
+    return (
+        settings.order_is_open and run.way.method == "idas" and _stable(run, times) < settings.patience(run.way, times)
+    )
+
+
+def _stable(run: Integrator, times: np.ndarray) -> float:
+    """Steps for an output interval with which the highest order is stable."""
+    return run.settings.fastest * float(np.max(np.diff(times), initial=0.0)) / ORDER.stable
+
+
+def _patience(run: Integrator, times: np.ndarray) -> int:
+    """Steps for an output interval after which the present order is given up."""
+    most = run.settings.patience(run.way, times)
+    return (
+        most if run.way.order == ORDER.highest else min(most, max(ORDER.fewest, int(ORDER.dear * _stable(run, times))))
+    )
+
+
+def doubt(run: Integrator, times: np.ndarray) -> int:
+    """Steps for an output interval after which the order limit is in doubt."""
+    return min(_patience(run, times), max(ORDER.fewest, ORDER.doubt // (len(times) - 1)))
+
+
+def settle(run: Integrator, at: Point, times: np.ndarray) -> tuple[Point, np.ndarray]:
+    """Integrate as far as neither doubt nor refusal stops it; return the last point, and the times from there on.
+
+    Parameters
+    ----------
+    run : Integrator
+        The run; its way takes the order limit that was found.
+    at : Point
+        Where to begin.
+    times : array
+        Time of that point and output times, in s.
+    """
+    if not is_open(run, times):
+        return at, times
+    size = len(times) - 1
+    head, chunk = max(1, size // ORDER.heads), max(1, size // ORDER.chunks)
+    for wait in (head, 0):
+        way = replace(run.way, max_steps=doubt(run, times), gentle=not wait)
+        found = run.attempt(at, times, way, keep=True)
+        at, times = _kept(run, at, times, found.reached if isinstance(found, Refusal) else found)
+        if isinstance(found, Stretch) or found.kind is not Kind.STEPS:
+            return at, times
+        # What rings at a start may be damped soon.
+        at, times = _through(run, at, times, wait, run.settings.patience(run.way, times[: head + 1]))
+    while len(times) > 1:
+        found = choose(run, at, times[: head + 1])
+        at, times = _kept(run, at, times, found)
+        left = len(times)
+        at, times = _through(run, at, times, chunk, _patience(run, times[: chunk + 1]))
+        if left == len(times):
+            break
+    return at, times
+
+
+def choose(run: Integrator, at: Point, times: np.ndarray) -> Stretch | None:
+    """Integrate a short way with both order limits, and take the one with fewer evaluations of the equations from here on.
+
+    The highest order must win by far: a limit of 2 damps what it does not follow, and what is dear at first is cheap then.
+
+    Returns
+    -------
+    Stretch or None
+        What was integrated on the way, if the limit stays.
+    """
+    # Amid vibrations, values that are consistent at the first order are hard to find: begin with a short step.
+    low, high, before = run.settings.max_order, ORDER.highest, replace(run.way, gentle=True)
+    patience = _patience(run, times)
+    found, work = _tried(run, at, times, replace(before, max_steps=patience))
+    gain = ORDER.gain if before.order == low else 1
+    most = run.settings.patience(before, times) * (len(times) - 1)
+    steps = most if isinstance(found, Refusal) else max(1, found.steps // gain)
+    other = replace(before, order=high if before.order == low else low, max_steps=steps)
+    rival, less = _tried(run, at, times[[0, -1]], other)
+    if isinstance(rival, Refusal) or (isinstance(found, Stretch) and gain * less >= work):
+        return found if isinstance(found, Stretch) else None
+    run.way = replace(run.way, order=other.order)
+    run.trace.orders.append(
+        f"{other.order} from t = {at.time:.6g} s on, by trial: {less} evaluations instead of {work} with {before.order}"
+    )
+    return None
+
+
+def _through(run: Integrator, at: Point, times: np.ndarray, size: int, most: int) -> tuple[Point, np.ndarray]:
+    """Integrate through the next output times, if no refusal stops it; at most so many steps for each."""
+    part = times[: size + 1]
+    if len(part) == 1:
+        return at, times
+    found = run.attempt(at, part, replace(run.way, max_steps=most, gentle=True))
+    return _kept(run, at, times, found if isinstance(found, Stretch) else None)
+
+
+def _tried(run: Integrator, at: Point, times: np.ndarray, way: Way) -> tuple[Stretch | Refusal, int]:
+    before = run.trace.residual_evaluations
+    found = run.attempt(at, times, way)
+    return found, run.trace.residual_evaluations - before
+
+
+def _kept(run: Integrator, at: Point, times: np.ndarray, stretch: Stretch | None) -> tuple[Point, np.ndarray]:
+    if stretch is None:
+        return at, times
+    run.trace.add(stretch)
+    run.report(float(stretch.times[-1]))
+    return stretch.end(at), times[len(stretch.times) :]
