@@ -20,11 +20,14 @@ ORDER = POLICY.order
 
 
 def is_open(run: Integrator, times: np.ndarray) -> bool:
-    """Whether the highest order may take fewer steps than are allowed, although it is stable in short ones only."""
+    """Whether the highest order may take fewer steps than are allowed, although it is stable in short ones only.
+
+    Vibrations that may be damped do not matter: where they need many steps, the one-step method takes over.
+    """
     settings = run.settings
-    return (
-        settings.order_is_open and run.way.method == "idas" and _stable(run, times) < settings.patience(run.way, times)
-    )
+    if not settings.order_is_open or run.way.method != "idas" or settings.may_ring(times):
+        return False
+    return _stable(run, times) < settings.patience(run.way, times)
 
 
 def _stable(run: Integrator, times: np.ndarray) -> float:
