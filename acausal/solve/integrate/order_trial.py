@@ -65,6 +65,8 @@ def settle(run: Integrator, at: Point, times: np.ndarray) -> tuple[Point, np.nda
     size = len(times) - 1
     head, chunk = max(1, size // ORDER.heads), max(1, size // ORDER.chunks)
     for wait in (head, 0):
+        if len(times) == 1:
+            return at, times
         way = replace(run.way, max_steps=doubt(run, times), gentle=not wait)
         found = run.attempt(at, times, way, keep=True)
         at, times = _kept(run, at, times, found.reached if isinstance(found, Refusal) else found)

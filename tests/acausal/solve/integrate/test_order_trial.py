@@ -55,6 +55,13 @@ def test_modes_are_followed_by_the_better_order(tolerance):
     assert error <= 1e4 * tolerance
 
 
+@pytest.mark.parametrize("intervals", [1, 2, 3, 7])
+def test_few_outputs(intervals):
+    found = ac.simulate(compiled(Modes), stop_time=20.0, tolerance=1e-8, method="idas", intervals=intervals)
+    assert len(found.time) == intervals + 1
+    assert np.max(np.abs(found["slow"] - np.cos(found.time))) <= 1e-4
+
+
 def test_the_reason_is_told():
     stats = ac.simulate(compiled(Modes), stop_time=40.0, tolerance=1e-8, method="idas").stats
     assert stats["max_order"] == 5
