@@ -77,10 +77,10 @@ def settle(run: Integrator, at: Point, times: np.ndarray) -> tuple[Point, np.nda
     while len(times) > 1:
         found = choose(run, at, times[: head + 1])
         at, times = _kept(run, at, times, found)
-        left = len(times)
-        at, times = _through(run, at, times, chunk, _patience(run, times[: chunk + 1]))
-        if left == len(times):
-            break
+        if (left := len(times)) > 1:
+            at, times = _through(run, at, times, chunk, _patience(run, times[: chunk + 1]))
+            if left == len(times):
+                break
     return at, times
 
 
@@ -116,7 +116,7 @@ def choose(run: Integrator, at: Point, times: np.ndarray) -> Stretch | None:
 def _through(run: Integrator, at: Point, times: np.ndarray, size: int, most: int) -> tuple[Point, np.ndarray]:
     """Integrate through the next output times, if no refusal stops it; at most so many steps for each."""
     part = times[: size + 1]
-    if len(part) == 1:
+    if not size:
         return at, times
     found = run.attempt(at, part, replace(run.way, max_steps=most, gentle=True))
     return _kept(run, at, times, found if isinstance(found, Stretch) else None)
