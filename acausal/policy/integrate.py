@@ -9,7 +9,8 @@ from dataclasses import dataclass
 class Order:
     """Order limit of the multistep method."""
 
-    # Oscillations that much faster than the motion are not resolved by its steps (design; spin-up and pendulum).
+    # Oscillations that much faster than the motion are not resolved by its steps: spin-up at 1e-6 with order 5 took 394,523
+    # steps, a rigid pendulum over 100 s at 1e-10 with order 2 took 500,760.
     fast: float = 30.0
     # States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.
     dense: int = 64
@@ -53,7 +54,7 @@ class Rescue:
     chunks: int = 25
     # Steps before a chunk or an output counts as hopeless.
     hopeless: int = 2_000_000
-    # Halvings of an output interval with new choices of states (bricard needs 3).
+    # Halvings of an output interval with new choices of states: 2^-6 of it.
     halvings: int = 6
     # Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a
     # singular position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).

@@ -92,7 +92,7 @@ class Rest:
     # Newton steps, and implicit Euler steps that follow the motion.
     newton: int = 60
     relaxation: int = 400
-    # Largest change of a state in a step, in nominal values: a fifth of a radian and more keeps to a branch.
+    # Largest change of a state in a step, in nominal values: a joint that turns by no more stays on its branch.
     far: float = 0.3
     # Steps of the relaxation over the time of the feedback: the first, their growth, the last, and the shortest.
     first: float = 1e-3
