@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
@@ -13,7 +12,7 @@ from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
-from acausal.solve.start.rank import least_norm, null_space, pivots, rank, row_space
+from acausal.solve.start.rank import factored, null_space, pivots, rank, row_space
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
@@ -98,10 +97,7 @@ def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) ->
     M, size = problem.gradients(at)[:, free], problem.nominal[free]
     J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
-    try:
-        dz = -scipy.sparse.linalg.splu(inner).solve(right) if nz else right
-    except RuntimeError:
-        dz = -least_norm(inner.toarray(), problem.nominal[nx:], POLICY.ranks.rank)(right)
+    dz = -factored(inner, problem.nominal[nx:], POLICY.ranks.rank)(right) if nz else right
     return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size
 
 

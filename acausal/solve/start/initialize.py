@@ -16,7 +16,7 @@ from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.complete import closed_guess, rows_and_knowns
 from acausal.solve.start.loop_states import choose_projection, independent
-from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton
+from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.redundancy import Redundancy
 from acausal.solve.start.steady import Equilibrium
 from acausal.solve.start.words import contradiction_text, missing_text
@@ -256,7 +256,7 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
         at = found
     if system.surplus.size:
         local = problem.local(at, 1.0)
-        allowed = POLICY.newton.consistent * (abs(local.jacobian) @ (np.abs(at.y) + problem.nominal))[problem.nx :]
+        allowed = POLICY.newton.consistent * reach(local.jacobian, at.y, problem.nominal)[problem.nx :]
         value = local.value[problem.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,7 @@ import scipy
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
-from acausal.solve.start.rank import least_norm
+from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text
 
 NEWTON = POLICY.newton
@@ -74,7 +73,9 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     for _ in range(NEWTON.iterations):
         J = problem.local(at.with_y(y), flag).jacobian
         block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
-        solve = _factor(block, "NATURAL" if free[0] == nx else "COLAMD", scale)
+        # Where the block is singular, the step of least norm, if there is one, leads on.
+        order = "NATURAL" if free[0] == nx else "COLAMD"
+        solve = factored(block, scale, POLICY.ranks.least_norm, order)
         step = -solve(value)
         damping = 1.0
         while True:
@@ -95,7 +96,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= NEWTON.converged:
             y[free] -= simplified if change > NEWTON.rounding else 0.0
-            if np.any(np.abs(value) > NEWTON.consistent * (abs(J[rows]) @ (np.abs(y) + problem.nominal))):
+            if np.any(np.abs(value) > NEWTON.consistent * reach(J[rows], y, problem.nominal)):
                 break
             return at.with_y(y)
     here = residual(y)
@@ -113,7 +114,12 @@ def algebraic(problem: Problem, at: Point) -> Point:
 
 def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
-    return NEWTON.terms * np.finfo(float).eps * (abs(J) @ (np.abs(y) + nominal))
+    return NEWTON.terms * np.finfo(float).eps * reach(J, y, nominal)
+
+
+def reach(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+    """Return the change that unknowns as large as they are, and nominal ones, make in each row."""
+    return abs(J) @ (np.abs(y) + nominal)
 
 
 def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
@@ -128,12 +134,3 @@ def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.
 
 def _is_range(indices: np.ndarray) -> bool:
     return bool(np.all(np.diff(indices) == 1))
-
-
-def _factor(J: scipy.sparse.csc_matrix, order: str, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    try:
-        return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
-    except (RuntimeError, ValueError):
-        pass
-    # Singular here, or with rows to spare: the step of least norm, if there is one, leads on.
-    return least_norm(J.toarray(), sizes, POLICY.ranks.least_norm)

@@ -30,6 +30,16 @@ def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[
     return lambda right: (sizes * np.linalg.lstsq(matrix, right, rcond=cutoff)[0].T).T
 
 
+def factored(
+    J: scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float, order: str = "COLAMD"
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a solver by sparse factors; where the matrix is singular or has rows to spare, by `least_norm`."""
+    try:
+        return scipy.sparse.linalg.splu(J.tocsc(), permc_spec=order).solve
+    except (RuntimeError, ValueError):
+        return least_norm(J.toarray(), sizes, cutoff)
+
+
 def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
     """Orthonormal rows that span what all given rows map to 0.
 

@@ -8,10 +8,8 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-import scipy
 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
@@ -20,7 +18,7 @@ from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motio
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
 from acausal.solve.start.newton import algebraic
-from acausal.solve.start.rank import least_norm, scaled
+from acausal.solve.start.rank import factored, scaled
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
@@ -111,15 +109,10 @@ class Equilibrium:
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         J = local.jacobian.tocsc()
-        dz = self._solve(J[nx : nx + nz, nx:].tocsc(), -J[nx : nx + nz, :nx].toarray()) if nz else np.zeros((0, nx))
+        solve = factored(J[nx : nx + nz, nx:], self.problem.nominal[nx:], POLICY.ranks.rank) if nz else None
+        dz = solve(-J[nx : nx + nz, :nx].toarray()) if solve else np.zeros((0, nx))
         A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
         return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
-
-    def _solve(self, matrix: Any, right: np.ndarray) -> np.ndarray:
-        try:
-            return scipy.sparse.linalg.splu(matrix).solve(right)
-        except RuntimeError:
-            return least_norm(matrix.toarray(), self.problem.nominal[self.nx :], POLICY.ranks.rank)(right)
 
     def _close(self, at: Point) -> Point:
         """Close the loops, and choose again which states follow from others."""
