@@ -8,6 +8,8 @@ from functools import wraps
 from threading import RLock
 from typing import ParamSpec, TypeVar
 
+from acausal.signals import Signals
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -19,7 +21,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def alone(function: Callable[P, R]) -> Callable[P, R]:
-    """Let one thread at a time into all functions marked so; the one inside may call others of them.
+    """Let one thread at a time into all functions marked so, and no interrupt be lost in them; they may call each other.
 
     Parameters
     ----------
@@ -29,7 +31,7 @@ def alone(function: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(function)
     def call(*arguments: P.args, **keywords: P.kwargs) -> R:
-        with LOCK:
+        with LOCK, Signals():
             return function(*arguments, **keywords)
 
     return call

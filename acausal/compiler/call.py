@@ -12,7 +12,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.signals import Signals
+from acausal.signals import Signals
 
 
 class _Noise(io.StringIO):
@@ -33,6 +33,7 @@ class _Noise(io.StringIO):
 def quiet() -> Iterator[io.StringIO]:
     """Hide the output of solvers from the terminal, and from solvers the interrupts that they would take for failures."""
     noise = _Noise()
+    Signals.raise_lost()
     with Signals(), contextlib.redirect_stderr(noise):
         yield noise
 

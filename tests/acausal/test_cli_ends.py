@@ -285,7 +285,7 @@ needs_signals = pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 )
 @pytest.mark.parametrize("method", ["auto", "idas"])
 def test_what_was_computed_is_written(start, tmp_path, number, status, word, method):
-    arguments = ("--stop-time", 1000, "--intervals", 200_000, "--csv", "a.csv", "--json", "a.json", "--method", method)
+    arguments = ("--stop-time", 100, "--intervals", 200_000, "--csv", "a.csv", "--json", "a.json", "--method", method)
     process = start("simulate", "ends.py:Fast", *arguments, "--quiet")
     end = clock.monotonic() + 60
     while not (tmp_path / "started").exists() and clock.monotonic() < end:

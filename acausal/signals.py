@@ -1,0 +1,66 @@
+"""Interrupts that come while foreign code runs, which swallows what a handler raises or takes it for its own failure."""
+
+from __future__ import annotations
+
+import signal
+from threading import current_thread, main_thread
+from types import FrameType, TracebackType
+from typing import Any, ClassVar
+
+WATCHED = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGALRM") if hasattr(signal, name)]
+
+
+class Signals:
+    """Raises at the end of the block what a handler raised inside it, whatever became of that meanwhile.
+
+    Solvers report it as a failure of theirs, and CasADi passes over it where it converts arguments. Blocks may be nested.
+    """
+
+    _open: ClassVar[list[Signals]] = []
+
+    def __init__(self) -> None:
+        self._before: dict[int, Any] = {}
+        self._caught: BaseException | None = None
+
+    def __enter__(self) -> Signals:
+        try:
+            # Only the main thread runs handlers, and may set them.
+            if current_thread() is main_thread():
+                self._open.append(self)
+                for number in WATCHED:
+                    handler = signal.getsignal(number)
+                    if callable(handler):
+                        self._before[number] = handler
+                        signal.signal(number, self._handle)
+            return self
+        except BaseException:  # interrupted here, where no end of the block follows
+            self._close()
+            raise
+
+    def _close(self) -> None:
+        if self in self._open:
+            del self._open[self._open.index(self) :]
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def _handle(self, number: int, frame: FrameType | None) -> None:
+        try:
+            self._before[number](number, frame)
+        except BaseException as error:
+            self._caught = error
+            raise
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._close()
+        if self._caught is not None and error is not self._caught:
+            raise self._caught from None
+
+    @classmethod
+    def raise_lost(cls) -> None:
+        """Raise what a handler raised since the outermost block began: for use before work that takes long."""
+        for block in cls._open if current_thread() is main_thread() else ():
+            lost, block._caught = block._caught, None
+            if lost is not None:
+                raise lost
