@@ -17,6 +17,7 @@ from acausal.compiler.constants import Layout
 from acausal.compiler.constraints import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
+from acausal.compiler.once import once
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
 from acausal.compiler.report import AtStart, report, summary
@@ -59,7 +60,7 @@ class CompiledModel:
     seconds: dict[str, float] = field(default_factory=dict)
     source: Source | None = None
     integrators: dict[tuple, Call] = field(default_factory=dict)
-    cache: dict[Any, Any] = field(default_factory=dict)
+    kept: dict[Any, Any] = field(default_factory=dict)
 
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
@@ -159,12 +160,10 @@ class CompiledModel:
         """Function of ode, alg and conditions."""
         return Call(ca.Function("values", self.arguments, [ca.densify(self._equations)]))
 
-    def passes(self, unknowns: np.ndarray, equations: np.ndarray) -> tuple[Pass, ...]:
-        """Newton steps that solve equations for as many algebraic unknowns, one part after the other."""
-        key = ("passes", tuple(unknowns))
-        if key not in self.cache:
-            self.cache[key] = make_passes(self.reduced, self.arguments[:-1], unknowns, equations)
-        return self.cache[key]
+    @once
+    def passes(self, wanted: tuple[int, ...]) -> tuple[Pass, ...]:
+        """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
+        return make_passes(self.reduced, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:
@@ -274,11 +273,9 @@ class CompiledModel:
         """Function of parameters: what the integrated equations need of them."""
         return Call(ca.Function("hoist", [self.reduced.p], [ca.densify(self._hoisted[2])]))
 
+    @once
     def _dae(self, quadratures: bool, moves: bool) -> dict[str, ca.SX]:
-        key = ("dae", quadratures, moves)
-        if key not in self.cache:
-            self.cache[key] = make_dae(self.reduced, self._hoisted, quadratures, moves)
-        return self.cache[key]
+        return make_dae(self.reduced, self._hoisted, quadratures, moves)
 
     @alone
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:

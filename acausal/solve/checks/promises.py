@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.flatten.discontinuities import Promise
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import Watch, watch
@@ -38,9 +39,7 @@ class _Look:
 
     def __init__(self, integrator: Integrator, run: Evaluator) -> None:
         compiled = integrator.compiled
-        if "promises" not in compiled.cache:
-            compiled.cache["promises"] = _known(compiled)
-        self.seen = compiled.cache["promises"]
+        self.seen = _known(compiled)
         self.integrator, self.run = integrator, run
 
     def rows(self, rows: np.ndarray) -> np.ndarray:
@@ -63,6 +62,7 @@ class _Look:
         return self.seen.function(x, z, solver.p, t, constants)
 
 
+@once
 def _known(compiled: CompiledModel) -> Watch:
     """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
     r = compiled.reduced

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.compiler.requirements import Stated, refuse, statements
 from acausal.compiler.rowwise import Rowwise
 from acausal.errors import InitializationError
@@ -50,23 +51,28 @@ def _validity(compiled: CompiledModel) -> list[Stated]:
     return statements(compiled.tree, "validity", (Expectation, Separation))
 
 
+@once
 def separations(compiled: CompiledModel) -> Watch:
     """What must not meet in a run: rate, effect and offset of each, in turn."""
-    if "separations" not in compiled.cache:
-        stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
-        entries = [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)]
-        compiled.cache["separations"] = watch(compiled, stated, entries)
-    return compiled.cache["separations"]
+    stated = [item for item in _validity(compiled) if isinstance(item[0], Separation)]
+    return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.rate, s.effect, s.offset)])
+
+
+@once
+def _expectations(compiled: CompiledModel) -> Watch:
+    stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
+    return watch(compiled, stated, [e.sx for s, _ in stated for e in (s.part, s.whole)])
+
+
+@once
+def _at_start(compiled: CompiledModel) -> Watch:
+    stated = compiled.requirements.at_start
+    return watch(compiled, stated, [r.sx for r, _ in stated])
 
 
 def check_start(problem: Problem, at: Point) -> None:
     """Raise InitializationError if variables break a requirement at the start."""
-    compiled = problem.compiled
-    key = "start requirements"
-    if key not in compiled.cache:
-        stated = compiled.requirements.at_start
-        compiled.cache[key] = watch(compiled, stated, [r.sx for r, _ in stated])
-    found = compiled.cache[key]
+    found = _at_start(problem.compiled)
     if found.stated:
         row = found.function(at.x[None], at.z[None], problem.p, np.array([at.time]), at.constants.vector)[0]
         refuse(found.stated, row, InitializationError)
@@ -82,11 +88,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     run : Evaluator
         Its output points.
     """
-    if "validity" not in compiled.cache:
-        stated = [item for item in _validity(compiled) if isinstance(item[0], Expectation)]
-        entries = [e.sx for s, _ in stated for e in (s.part, s.whole)]
-        compiled.cache["validity"] = watch(compiled, stated, entries)
-    seen = compiled.cache["validity"]
+    seen = _expectations(compiled)
     if not seen.stated:
         return []
     rows = np.unique(

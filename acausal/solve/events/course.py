@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from contextlib import suppress
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -69,7 +70,7 @@ class Run:
         ends = [*self.breaks, float(self.times[-1])]
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
-        self.first = at = self._happen(at, event=False, fired=acts)
+        self.first = at = self._happen(at, acts)
         for end in ends:
             if at.time != self.times[0]:
                 now = self.agenda.between(at.time, end)
@@ -87,7 +88,7 @@ class Run:
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
         """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
         plan = self.agenda.planned(at, at.time - self.agenda.near)
-        new = self._happen(at, event=False, fired=fired, constants=constants)
+        new = self._happen(at, fired, constants)
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
@@ -194,7 +195,7 @@ class Run:
         due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
         if not due.any():
             raise failure
-        return self._happen(at, event=True, due=due)
+        return self._jump(at, at.time, np.zeros(2), due=due)
 
     def _passed(self, at: Point, stretch: Stretch, crossing: Crossing | None) -> Point:
         """Keep a stretch, up to the first event in it."""
@@ -223,42 +224,38 @@ class Run:
         time, x, z = (np.array(pair) for pair in zip(last, (after.time, after.x, after.z), strict=True))
         gained = work_between(self.integrator, after.constants, time, x, z)
         reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, constants=after.constants)
-        new = self._happen(reached, event=True, crossed=out, label=label, energy=gained)
+        new = self._jump(reached, label, gained, crossed=out)
         if on_output and near == at.time:
             self.integrator.trace.put(-2, new)
         self.stride.begin(after.time - at.time)
         return new
 
-    def _happen(
-        self,
-        at: Point,
-        event: bool,
-        *,
-        fired: list[int] | None = None,
-        constants: Constants | None = None,
-        due: np.ndarray | None = None,
-        crossed: np.ndarray | None = None,
-        label: float | None = None,
-        energy: np.ndarray | None = None,
-    ) -> Point:
-        """Let everything happen at an instant; record the values after it and what the stored energy lost."""
+    def _happen(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
+        """Let everything happen at an instant that has a row already."""
+        new, gained, _ = self._settled(at, fired=fired, constants=constants)
+        self.integrator.trace.spend(gained)
+        return new
+
+    def _jump(self, at: Point, label: float, gained: np.ndarray, **causes: np.ndarray) -> Point:
+        """Let everything happen at an event; record the values after it and what energy was gained since the last row."""
+        new, stored, changed = self._settled(at, **causes)
+        if changed:
+            self.events.append(at.time)
+        energy = (gained + stored)[None]
+        self.integrator.trace.add(Stretch(np.array([label]), new.x[None], new.z[None], energy, new.constants, 0))
+        return new
+
+    def _settled(self, at: Point, **causes: Any) -> tuple[Point, np.ndarray, bool]:
+        """Return the values after an instant, what stored energy it gained and lost, and whether anything changed."""
         try:
-            new, changed = self.instants.settle(at, fired, constants, due, crossed)
+            new, changed = self.instants.settle(at, **causes)
         except Cycling as cycling:
             raise Chattering(self._text(at.time, cycling.guards, "switch back and forth")) from None
         except InitializationError as error:
             raise Failure(at.time, f"the equations have no solution after an event: {error}") from None
-        if event and changed:
-            self.events.append(at.time)
-        gained = np.zeros(2) if energy is None else energy
-        if self.integrator.settings.energy and changed:
-            change = self._stored(new) - self._stored(at)
-            gained = gained + np.array([max(change, 0.0), max(-change, 0.0)])
-        if event:
-            time = np.array([at.time if label is None else label])
-            self.integrator.trace.add(Stretch(time, new.x[None], new.z[None], gained[None], new.constants, 0))
-        self.integrator.trace.spend(np.zeros(2) if event else gained)
-        return new
+        stored = self.integrator.settings.energy and changed
+        change = self._stored(new) - self._stored(at) if stored else 0.0
+        return new, np.array([max(change, 0.0), max(-change, 0.0)]), changed
 
     def _stored(self, at: Point) -> float:
         problem = self.integrator.problem

@@ -69,7 +69,7 @@ class Consistent:
         first, z = z, z.copy()
         size = self._sizes(x, z, t, constants, unknowns, equations)
         doubtful: set[int] = set()
-        for step in c.passes(unknowns, equations):
+        for step in c.passes(tuple(unknowns.tolist())):
             doubtful |= self._settle(step, size[step.unknowns], x, z, t, constants)
         for row in sorted(doubtful):
             if not self.holds(

@@ -106,9 +106,9 @@ def choose(run: Integrator, at: Point, times: np.ndarray) -> Stretch | None:
     if isinstance(rival, Refusal) or (isinstance(found, Stretch) and gain * less >= work):
         return found if isinstance(found, Stretch) else None
     run.way = replace(run.way, order=other.order)
-    others = f"{work} evaluations" if isinstance(found, Stretch) else f"more than {patience} steps for an output"
+    than = f"{work}" if isinstance(found, Stretch) else f"more than {patience} steps for an output"
     run.trace.orders.append(
-        f"{other.order} from t = {at.time:.6g} s on, by trial: {less} evaluations, with {before.order} {others}"
+        f"{other.order} from t = {at.time:.6g} s on: a trial took {less} evaluations, where order {before.order} took {than}"
     )
     return None
 

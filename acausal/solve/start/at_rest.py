@@ -10,6 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
+from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
@@ -19,33 +20,29 @@ from acausal.symbols import scalars
 NEWTON = POLICY.newton
 
 
+@once
 def meters(compiled: CompiledModel) -> list[int]:
     """States on which nothing depends, and whose rates are not differentiated: counters that hold nothing."""
-    if "meters" not in compiled.cache:
-        r, system = compiled.reduced, compiled.reduced.plan.system
-        used = np.array(ca.which_depends(ca.vertcat(r.ode, r.alg, ca.SX(0)), r.x, 1, False), dtype=bool)
-        counting = [system.derivative[system.derivative[v]] < 0 for v in r.plan.states]
-        compiled.cache["meters"] = np.flatnonzero(~used & np.array(counting, dtype=bool)).tolist() if used.size else []
-    return compiled.cache["meters"]
+    r, system = compiled.reduced, compiled.reduced.plan.system
+    used = np.array(ca.which_depends(ca.vertcat(r.ode, r.alg, ca.SX(0)), r.x, 1, False), dtype=bool)
+    counting = [system.derivative[system.derivative[v]] < 0 for v in r.plan.states]
+    return np.flatnonzero(~used & np.array(counting, dtype=bool)).tolist() if used.size else []
 
 
+@once
 def kinematic(compiled: CompiledModel) -> list[int]:
     """States whose rates follow from other states without any parameter, as position and turn of a free body do."""
     if not compiled.nx:
         return []
-    if "kinematic" not in compiled.cache:
-        r = compiled.reduced
-        given = ca.vertcat(r.p, r.constants, ca.SX.sym("none"))
-        forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
-        unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
-        through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))
-        driven = forced[compiled.nz :] | np.array(
-            ca.which_depends(ca.vertcat(r.ode, 0), through, 1, True)[:-1], dtype=bool
-        )
-        uses = np.zeros((compiled.nx, compiled.nx), dtype=bool)
-        uses[tuple(np.array(k, dtype=int) for k in ca.jacobian_sparsity(r.ode, r.x).get_triplet())] = True  # type: ignore[attr-defined]
-        compiled.cache["kinematic"] = np.flatnonzero(~driven & uses[:, driven].any(axis=1)).tolist()
-    return compiled.cache["kinematic"]
+    r = compiled.reduced
+    given = ca.vertcat(r.p, r.constants, ca.SX.sym("none"))
+    forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
+    unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
+    through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))
+    driven = forced[compiled.nz :] | np.array(ca.which_depends(ca.vertcat(r.ode, 0), through, 1, True)[:-1], dtype=bool)
+    uses = np.zeros((compiled.nx, compiled.nx), dtype=bool)
+    uses[tuple(np.array(k, dtype=int) for k in ca.jacobian_sparsity(r.ode, r.x).get_triplet())] = True  # type: ignore[attr-defined]
+    return np.flatnonzero(~driven & uses[:, driven].any(axis=1)).tolist()
 
 
 def at_rest(problem: Problem, at: Point) -> bool:
@@ -96,10 +93,9 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     return [(names[k], float(value[k])) for k in order]
 
 
+@once
 def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.ndarray, np.ndarray, tuple[int, int]]]:
     """Names of all derivatives but those of meters, their values and Jacobian, and its pattern."""
-    if "derivatives" in compiled.cache:
-        return compiled.cache["derivatives"]
     r = compiled.reduced
     plan, elements = r.plan, scalars(r.unknowns)
     apart = {plan.states[k] for k in meters(compiled)}
@@ -111,8 +107,7 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     J = ca.jacobian(column, ca.vertcat(r.x, r.z))
     call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))
     rows, columns = (np.array(k, dtype=int) for k in J.sparsity().get_triplet())
-    compiled.cache["derivatives"] = names, call, (rows, columns, J.shape)
-    return compiled.cache["derivatives"]
+    return names, call, (rows, columns, J.shape)
 
 
 def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:

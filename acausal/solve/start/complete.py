@@ -152,7 +152,8 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     allowed = LOOPS.stays * np.max(np.abs(x[rates]) / nominal[rates]) * nominal[rates]
     if np.any(np.abs(left.x[rates] - x[rates]) > allowed):
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position, which the loops leave on no branch with these velocities. "
-            "Give those of one branch, guess(...) for the joints that follow, or start 0.01 rad beside it."
+            f"the start at t = {at.time:g} s is a singular position, where several branches meet, and these velocities are "
+            "tangent to none of them. Give those of one branch (guess(...) leaves the joints that follow free), or start "
+            "0.01 rad beside it."
         )
     return left

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
@@ -176,19 +177,20 @@ def _direct_values(problem: Problem, direct: tuple[tuple[int, int], ...], at: Po
     return replace(at, x=x)
 
 
+@once
 def _flag_matters(compiled: CompiledModel) -> bool:
-    if "flag" not in compiled.cache:
-        column = ca.vertcat(compiled.reduced.ode, compiled.reduced.alg)
-        compiled.cache["flag"] = any(ca.which_depends(column, initial_flag.sx, 1, True))
-    return compiled.cache["flag"]
+    return any(ca.which_depends(ca.vertcat(compiled.reduced.ode, compiled.reduced.alg), initial_flag.sx, 1, True))
+
+
+@once
+def _curved(compiled: CompiledModel) -> list[bool]:
+    """Which conditions are not linear in the unknowns."""
+    return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)
 
 
 def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
-    """Choose conditions, from the pattern of the equations alone."""
+    """Choose conditions, from the pattern of the equations."""
     compiled = problem.compiled
-    key = ("initial system", initial)
-    if key in compiled.cache:
-        return compiled.cache[key]
     nx, nz = compiled.nx, compiled.nz
     rows = _rows(problem, at)
     equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
@@ -207,11 +209,9 @@ def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     direct = _direct(problem, used, rows)
     solved = [row for row in used if row not in direct]
     known = sorted([*guessed, *direct.values()])
-    system = InitialSystem(
+    return InitialSystem(
         np.array([*range(nz), *solved], int), np.array(surplus, int), np.array(known, int), tuple(direct.items())
     )
-    compiled.cache[key] = system
-    return system
 
 
 def _is_guessed(compiled: CompiledModel, state: int) -> bool:
@@ -236,8 +236,7 @@ def _direct(problem: Problem, used: list[int], rows: list[list[int]]) -> dict[in
     if not used:
         return {}
     compiled = problem.compiled
-    unknowns = ca.vertcat(compiled.reduced.x, compiled.reduced.z)
-    curved = ca.which_depends(compiled.conditions, unknowns, 2, True)
+    curved = _curved(compiled)
     found: dict[int, int] = {}
     for row in used:
         inside = rows[compiled.nx + row]

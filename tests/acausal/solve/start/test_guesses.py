@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, der, fixed, guess, structural, variable
+from acausal import Model, Scalar, chain, connect, der, fixed, guess, parameter, structural, variable
 from components import Body, BodyBox, FixedTranslation, Revolute, World
 
 
@@ -131,3 +131,29 @@ class Welded(Model):
 def test_fixed_angles_of_a_body_that_is_held_are_refused(model: type[Model]) -> None:
     with pytest.raises(ac.DeclarationError, match=r"angles_fixed=True has no effect.*joint"):
         ac.compile(model())
+
+
+class Weighted(Model):
+    """One condition for two states."""
+
+    a: Scalar = parameter("weight of x", default=1.0)
+    b: Scalar = parameter("weight of y", default=1e-3)
+    x: Scalar = variable("first", start=3.0)
+    y: Scalar = variable("second", start=5.0)
+
+    def equations(self):
+        yield der(self.x) == -self.x
+        yield der(self.y) == -self.y
+
+    def initial_equations(self):
+        yield self.a * self.x + self.b * self.y == 1
+
+
+def test_which_guess_is_kept_depends_on_no_start_before() -> None:
+    model = ac.compile(Weighted())
+    first = ac.simulate(model, stop_time=0.1, initial="guesses")
+    assert first["x"][0] == pytest.approx(0.995)
+    assert first["y"][0] == 5.0
+    second = ac.simulate(model, stop_time=0.1, initial="guesses", parameters={"a": 1e-3, "b": 1.0})
+    assert second["x"][0] == 3.0
+    assert second["y"][0] == pytest.approx(0.997)
