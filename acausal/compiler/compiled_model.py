@@ -28,7 +28,7 @@ from acausal.language import fields as f
 from acausal.language.functions import initial, time
 from acausal.locks import alone
 from acausal.reduce import Dependence, ReducedModel
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class CompiledModel:
     def conditions(self) -> ca.SX:
         """Residuals of fixed start values and initial equations, in x, z, parameters and time."""
         entries = [condition.residual for condition in self.reduced.flat.equations.initial]
-        return self.reduced.resolve(ca.vertcat(ca.SX(0, 1), *entries), unprojected=True)
+        return self.reduced.resolve(stacked(entries), unprojected=True)
 
     @cached_property
     def constraints(self) -> Constraints:
@@ -199,7 +199,7 @@ class CompiledModel:
         start = [*scalars(own), *[ca.SX(0)] * (plan.system.n_variables - own.numel())]
         for p in plan.constrained.projections:
             start[p.state] = start[p.coordinate]
-        chosen = ca.densify(ca.vertcat(ca.SX(0, 1), *[start[k] for k in (*plan.states, *plan.algebraic)]))
+        chosen = ca.densify(stacked([start[k] for k in (*plan.states, *plan.algebraic)]))
         return Call(ca.Function("start", [self.reduced.p, time.sx], [chosen]))
 
     @cached_property

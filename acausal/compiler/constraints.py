@@ -8,6 +8,7 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
+from acausal.symbols import stacked
 
 
 class Constraints:
@@ -62,7 +63,7 @@ class Constraints:
         self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._follows = np.array([place for place, _ in found], dtype=int)
-        following = ca.vertcat(ca.SX(0, 1), *[r.running.following[k] for _, k in found])
+        following = stacked([r.running.following[k] for _, k in found])
         self._following = Call(ca.Function("following", arguments, [ca.densify(following)]))
         same = [
             (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic

@@ -15,7 +15,7 @@ from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked
 
 
 class Guards:
@@ -69,7 +69,7 @@ class Guards:
         self.watched = [k for k in range(len(self.guards)) if k not in set(self.timed)]
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
-        column = ca.vertcat(ca.SX(0, 1), *entries)
+        column = stacked(entries)
         return ca.densify(self.reduced.running.resolve(column, unprojected))
 
     @cached_property
@@ -101,7 +101,7 @@ class Guards:
         parts = iter(scalars(ca.if_else(ca.fabs(excess) <= reach, 0, excess)))
         held = [truth(self.guards[k].condition, parts) for k in self.timed]
         given = [self.reduced.p, time.sx, near]
-        return Call(ca.Function("holds_at", given, [ca.densify(ca.vertcat(ca.SX(0, 1), *held))]))
+        return Call(ca.Function("holds_at", given, [ca.densify(stacked(held))]))
 
     @cached_property
     def planned(self) -> Call:
@@ -141,7 +141,7 @@ class Guards:
         inclusive = [guard.inclusive for guard in self.guards]
         switches = [e <= 0 if inside else e < 0 for e, inside in zip(excesses, inclusive, strict=False)]
         discretes = [start for _, start in self.reduced.flat.discontinuities.discretes]
-        return ca.vertcat(ca.SX(0, 1), *switches, self._resolve(discretes))
+        return stacked([*switches, self._resolve(discretes)])
 
     @cached_property
     def continuous(self) -> Call:
@@ -160,7 +160,7 @@ class Guards:
 
     @cached_property
     def _entries(self) -> list[tuple[ca.SX, Origin]]:
-        return [(e, origin) for column, origin in self.reduced.continuous for e in scalars(ca.vec(ca.densify(column)))]
+        return [(e, origin) for column, origin in self.reduced.continuous for e in scalars(column)]
 
     @cached_property
     def scale(self) -> Call:

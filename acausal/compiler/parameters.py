@@ -17,6 +17,7 @@ from acausal.flatten.given import numeric
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
+from acausal.symbols import vec
 
 
 class Settable:
@@ -112,7 +113,7 @@ class Settable:
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
         """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
         own = self.own
-        column = ca.vertcat(*[ca.densify(ca.vec(sx)) for _, sx, _ in own.limits])
+        column = ca.vertcat(*[ca.densify(vec(sx)) for _, sx, _ in own.limits])
         owners = np.repeat(np.arange(len(own.limits)), [sx.numel() for _, sx, _ in own.limits])
         least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
         positive = np.array([d.positive for _, _, d in own.limits])[owners]

@@ -15,7 +15,7 @@ from acausal.flatten.origin import Origin, line_of, with_place
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.language.validity import Requirement
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked
 
 Stated = tuple[Any, Origin]
 
@@ -55,7 +55,7 @@ class Requirements:
 
     @cached_property
     def _call(self) -> Call:
-        column = ca.vertcat(ca.SX(0, 1), *[r.sx for r, _ in self._split[0]])
+        column = stacked([r.sx for r, _ in self._split[0]])
         return Call(ca.Function("requirements", [self.parameters], [ca.densify(column)]))
 
     def check(self, values: np.ndarray) -> None:

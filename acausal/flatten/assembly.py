@@ -24,11 +24,11 @@ from acausal.flatten.flat_model import (
 )
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said, column
+from acausal.flatten.said import Said
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
 from acausal.flatten.tape import Linear, Tape
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, stacked, vec
 
 
 @dataclass(frozen=True)
@@ -78,16 +78,16 @@ class Assembly:
         self.raw, self.chain, self.declared = raw, chain, declared
         self.size = chain.levels[0].numel()
         closures = raw.equations.closures
-        residuals = column([*raw.equations.residuals, *[c.dual for c in closures]])
+        residuals = stacked([*raw.equations.residuals, *[c.dual for c in closures]])
         self.residuals, starts, energies = resolved(
-            [residuals, column(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
+            [residuals, stacked(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
         self.symbols = ca.vertcat(*chain.levels)
         self.discontinuities = FlatDiscontinuities(
             tuple(switch for switch, _ in raw.pending.switches),
             guards(raw.pending, raw.discretes, resolved),
-            tuple(zip([ca.vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
+            tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
             tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
             promises(raw.pending, resolved),
         )
@@ -100,11 +100,11 @@ class Assembly:
         left = self._simplified()
         done, elements = left.done, scalars(self.symbols)
         removed = list(done.solved)
-        was = column([elements[k] for k in removed])
-        becomes = column([_expression(left.values[k], elements) for k in removed])
+        was = stacked([elements[k] for k in removed])
+        becomes = stacked([_expression(left.values[k], elements) for k in removed])
         residuals = ca.vertcat(
             ca.substitute(self.residuals, was, becomes),
-            column([_expression(value, elements) for value, _ in done.left]),
+            stacked([_expression(value, elements) for value, _ in done.left]),
         )
         return FlatModel(
             unknowns=self._unknowns(left, (was, becomes)),
@@ -120,7 +120,7 @@ class Assembly:
 
     def _simplified(self) -> _Left:
         """Propagate constants and aliases."""
-        own = column(self.raw.build.parameters.symbols)
+        own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
         tape = Tape(self.symbols, given, self.residuals)
         present = set(tape.input) | self._asked()
@@ -138,9 +138,9 @@ class Assembly:
         found = attributes(self.raw, len(self.chain.levels) - 1, self._jumping(), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
-        declared = scalars(ca.substitute(column([self.declared[k] for k in at]), *eliminated)) if at else []
+        declared = scalars(ca.substitute(stacked([self.declared[k] for k in at]), *eliminated)) if at else []
         return FlatUnknowns(
-            symbols=column([self.symbols[k] for k in left.unknowns]),
+            symbols=stacked([self.symbols[k] for k in left.unknowns]),
             names=tuple(a.name for a in own),
             derivative=tuple(left.place.get(left.done.derivative[k], -1) for k in left.unknowns),
             declared={left.place[k]: e for k, e in zip(at, declared, strict=True)},
@@ -148,7 +148,7 @@ class Assembly:
             nominal=np.array([a.nominal for a in own]),
             sized=np.array([a.sized for a in own], dtype=bool),
             units=tuple(a.unit for a in own),
-            start=column([a.start for a in own]),
+            start=stacked([a.start for a in own]),
             guessed=np.array([a.guessed for a in own], dtype=bool),
             eliminated=eliminated,
         )
@@ -159,7 +159,7 @@ class Assembly:
             entries[row] = _expression(value, elements)
         defines = self._defines(left)
         return FlatEquations(
-            residuals=column([entries[r] for r in left.rows]),
+            residuals=stacked([entries[r] for r in left.rows]),
             origins=tuple(self.origins[r] for r in left.rows),
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
@@ -169,7 +169,7 @@ class Assembly:
     def _parameters(self) -> FlatParameters:
         own = self.raw.build.parameters
         return FlatParameters(
-            symbols=column(own.symbols),
+            symbols=stacked(own.symbols),
             names=tuple(own.names),
             values=np.array(own.values),
             weighing=weighing(self.raw),
@@ -225,7 +225,7 @@ class Assembly:
         rows, place = set(left.rows), left.place
         row = 0
         for lhs, _ in self.raw.equations.sides:
-            for k, entry in enumerate(scalars(ca.vec(ca.densify(lhs)))):
+            for k, entry in enumerate(scalars(lhs)):
                 index = self.raw.index.get(entry.element_hash(), -1)
                 if index not in self.declared or row + k not in rows:
                     continue
@@ -254,14 +254,14 @@ class Assembly:
     def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
         """Fixed start values, then the initial equations of components."""
         fixed = [a for a in self.raw.arrays if a.fixed]
-        residuals = [ca.vec(a.expr.sx - a.start.sx) for a in fixed] + [self.initial_residuals]
+        residuals = [vec(a.expr.sx - a.start.sx) for a in fixed] + [self.initial_residuals]
         texts = [
             (f"{name} = {entry}", Origin(a.owner._path, type(a.owner).__name__, a.owner._origin))
             for a in fixed
-            for name, entry in zip(a.names, scalars(ca.vec(ca.densify(a.start.sx))), strict=True)
+            for name, entry in zip(a.names, scalars(a.start.sx), strict=True)
         ]
         texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
-        entries = ca.substitute([column([ca.densify(r) for r in residuals])], [was], [becomes])[0]
+        entries = ca.substitute([stacked([dense(r) for r in residuals])], [was], [becomes])[0]
         if not texts:
             return ()
         return tuple(Initial(r, text, o) for r, (text, o) in zip(scalars(entries), texts, strict=True))

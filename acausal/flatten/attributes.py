@@ -8,14 +8,15 @@ from dataclasses import dataclass, field
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.said import Said, column
+from acausal.flatten.said import Said
 from acausal.flatten.tape import Linear
 from acausal.flatten.variables import VariableArray
 from acausal.language.fields import ALWAYS
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, stacked, vec
 from acausal.units import Dimension, parse
 
 SECOND = parse("s")
+ZERO = ca.SX(0)
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Attributes:
     preference: int = 0
     nominal: float = 1.0
     sized: bool = False
-    start: ca.SX = field(default_factory=lambda: ca.SX(0))
+    start: ca.SX = field(default_factory=lambda: ZERO)
     guessed: bool = False
     weight: int = 0
 
@@ -89,7 +90,7 @@ def weighing(raw: Said) -> tuple[str, ...]:
 def _declared(array: VariableArray) -> Iterator[Attributes]:
     """Yield what is declared of each entry of a variable, except for its nominal value."""
     guessed = array.guessed or array.fixed
-    starts = scalars(ca.vec(ca.densify(array.start.sx)))
+    starts = scalars(array.start.sx)
     for name, unit, start in zip(array.names, array.units, starts, strict=True):
         weight = 2 if guessed else int(not start.is_zero())
         yield Attributes(
@@ -99,11 +100,11 @@ def _declared(array: VariableArray) -> Iterator[Attributes]:
 
 def _weights(raw: Said) -> ca.SX:
     """Nominal values of all variables, in parameters."""
-    return ca.densify(column([ca.vec(a.nominal.sx) for a in raw.arrays]))
+    return dense(stacked([vec(a.nominal.sx) for a in raw.arrays]))
 
 
 def _nominals(raw: Said) -> list[float]:
     """Nominal values of all variables as they are when compiled."""
     own = raw.build.parameters
-    function = ca.Function("nominal", [column(own.symbols)], [_weights(raw)])
+    function = ca.Function("nominal", [stacked(own.symbols)], [_weights(raw)])
     return np.array(function(np.array(own.values))).ravel().tolist()

@@ -21,7 +21,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, vec
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Equations:
 
     def add(self, statement: Equation, origin: Origin) -> None:
         """Append an equation."""
-        self.residuals.append(ca.densify(ca.vec(statement.lhs.sx - statement.rhs.sx)))
+        self.residuals.append(dense(vec(statement.lhs.sx - statement.rhs.sx)))
         self.sides.append((statement.lhs.sx, statement.rhs.sx))
         self.origins.append(origin)
 
@@ -102,7 +102,7 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
         number = len(found.sides)
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
-        for k, entry in enumerate(scalars(ca.densify(as_expr(dual).sx))):
+        for k, entry in enumerate(scalars(as_expr(dual).sx)):
             found.closures.append(Closure(row + k, entry, cut, number))
 
 
@@ -140,7 +140,7 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
             continue
         if not isinstance(statement, Equation):
             raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {_shown(statement)}.")
-        residual = ca.vec(statement.lhs.sx - statement.rhs.sx)
+        residual = vec(statement.lhs.sx - statement.rhs.sx)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()
             if np.any(value != 0):

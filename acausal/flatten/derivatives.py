@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 
 from acausal.language.functions import time
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, vec
 
 
 class Derivatives:
@@ -38,11 +38,11 @@ class Derivatives:
             first[index] = expression
         at = ca.vertcat(*self.levels[:-1], time.sx)
         seeds = ca.vertcat(*first, *self.levels[2:], 1)
-        return ca.densify(ca.jtimes(expressions, at, seeds))
+        return dense(ca.jtimes(expressions, at, seeds))
 
     def resolve(self, pending: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
         """Return placeholders and the derivatives that they stand for; an expression may hold other placeholders."""
-        names = {s.element_hash(): k for k, (p, _) in enumerate(pending) for s in scalars(ca.vec(p))}
+        names = {s.element_hash(): k for k, (p, _) in enumerate(pending) for s in scalars(p)}
         depth: list[int] = []
         for _, expression in pending:
             inside = (names.get(s.element_hash()) for s in ca.symvar(expression))
@@ -50,8 +50,8 @@ class Derivatives:
         placeholders, derivatives = ca.SX(0, 1), ca.SX(0, 1)
         for level in range(1, max(depth, default=0) + 1):
             chosen = [pending[k] for k, d in enumerate(depth) if d == level]
-            expressions = ca.vertcat(*[ca.densify(ca.vec(e)) for _, e in chosen])
+            expressions = ca.vertcat(*[dense(vec(e)) for _, e in chosen])
             expressions = ca.substitute([expressions], [placeholders], [derivatives])[0]
-            placeholders = ca.vertcat(placeholders, *[ca.vec(p) for p, _ in chosen])
+            placeholders = ca.vertcat(placeholders, *[vec(p) for p, _ in chosen])
             derivatives = ca.vertcat(derivatives, self.of(expressions))
         return placeholders, derivatives

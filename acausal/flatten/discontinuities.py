@@ -18,7 +18,7 @@ from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import PENDING, Pending
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, vec
 
 Resolve = Callable[[list[ca.SX]], list[ca.SX]]
 
@@ -36,7 +36,7 @@ class Discrete:
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
         given = as_expr(value)
-        sx = ca.densify(ca.vec(given.sx))
+        sx = dense(vec(given.sx))
         size = self.expr.sx.numel()
         if sx.numel() not in (1, size):
             raise DeclarationError(f"start of `{self.expr.name}` has {sx.numel()} entries; it must have {size}.")
@@ -106,7 +106,7 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
                 expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path)
                 vars(component)[name] = expr
                 found.append(Discrete(expr, declared, component))
-                PENDING.get().discrete.update(s.element_hash() for s in scalars(ca.vec(expr.sx)))
+                PENDING.get().discrete.update(s.element_hash() for s in scalars(expr.sx))
     return found
 
 
@@ -140,7 +140,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     resolve : callable
         Replaces placeholders of derivatives.
     """
-    place = {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(ca.vec(d.expr.sx)))}
+    place = {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.expr.sx))}
     conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
     excess = iter(resolve([part.excess.sx for condition in conditions for part in condition.comparisons]))
     conditions = [c.replaced(lambda part: Condition(Expr(next(excess)), part.kind)) for c in conditions]
@@ -148,7 +148,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     for condition, (when, origin) in zip(conditions[len(found) :], pending.whens, strict=True):
         jumps = []
         for jump in when.jumps:
-            target, value = resolve([ca.densify(ca.vec(s.sx)) for s in (jump.variable, jump.value)])
+            target, value = resolve([dense(vec(s.sx)) for s in (jump.variable, jump.value)])
             for t, v in zip(scalars(target), scalars(value), strict=True):
                 jumps.append(Jump(t, v, place.get(t.element_hash()) if t.is_symbolic() else None))
         found.append(Guard(condition, origin, tuple(jumps), when.at_start))

@@ -12,6 +12,7 @@ from acausal.flatten.discontinuities import Guard, Promise
 from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.symbols import stacked
 from acausal.units import Dimension
 
 
@@ -205,7 +206,7 @@ class FlatDiscontinuities:
     @property
     def constants(self) -> ca.SX:
         """Symbols that are constant between instants: switches, then discrete variables."""
-        return ca.vertcat(ca.SX(0, 1), *self.switches, *[symbol for symbol, _ in self.discretes])
+        return stacked([*self.switches, *[symbol for symbol, _ in self.discretes]])
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ from acausal.flatten.flat_model import FlatModel
 from acausal.flatten.foreign import refuse_foreign
 from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said, column, hear
+from acausal.flatten.said import Said, hear
 from acausal.language.component import Component
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked, vec
 
 
 def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> FlatModel:
@@ -39,7 +39,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     """
     raw = hear(model, overrides)
     refuse_foreign(raw)
-    variables = column([ca.vec(a.expr.sx) for a in raw.arrays])
+    variables = stacked([vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
@@ -64,7 +64,7 @@ def _declared(raw: Said) -> dict[int, ca.SX]:
     return {
         raw.index[s.element_hash()]: e
         for variable, derivative in raw.declared
-        for s, e in zip(scalars(ca.vec(variable.sx)), scalars(ca.vec(ca.densify(derivative.sx))), strict=True)
+        for s, e in zip(scalars(variable.sx), scalars(derivative.sx), strict=True)
     }
 
 
@@ -76,11 +76,11 @@ def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
     defined = {k for lhs, _ in raw.equations.sides for k in _bare(raw, lhs)}
     for connector in raw.graph.roots:
         for variable, _ in connector.declared_derivatives():
-            found.update(raw.index[s.element_hash()] for s in scalars(ca.vec(variable.sx)))
+            found.update(raw.index[s.element_hash()] for s in scalars(variable.sx))
     return sorted(k for k in found if k in declared and k not in defined)
 
 
 def _bare(raw: Said, side: ca.SX) -> list[int]:
     """Indices of the variables if a side of an equation is nothing but variables."""
-    indices = [raw.index.get(s.element_hash(), -1) for s in scalars(ca.vec(ca.densify(side)))]
+    indices = [raw.index.get(s.element_hash(), -1) for s in scalars(side)]
     return indices if -1 not in indices else []

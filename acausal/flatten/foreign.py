@@ -12,7 +12,7 @@ import casadi as ca
 from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked, vec
 
 if TYPE_CHECKING:
     from acausal.flatten.said import Said
@@ -94,10 +94,10 @@ def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], f
 
 
 def _column(entries: Iterable[ca.SX]) -> ca.SX:
-    return ca.vertcat(ca.SX(0, 1), *[ca.vec(e) for e in entries])
+    return stacked([vec(e) for e in entries])
 
 
 def _calls(expression: ca.SX, symbols: list[ca.SX] | None = None) -> bool:
     """Whether an expression, of these symbols, calls functions instead of holding what they do."""
     symbols = ca.symvar(expression) if symbols is None else symbols
-    return bool(ca.Function("all", [ca.vertcat(ca.SX(0, 1), *symbols)], [expression]).get_function())
+    return bool(ca.Function("all", [stacked(symbols)], [expression]).get_function())

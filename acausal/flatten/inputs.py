@@ -10,7 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.said import Said
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.symbols import scalars
+from acausal.symbols import dense, scalars, vec
 
 MEND = (
     "Pass it through a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
@@ -29,7 +29,7 @@ def refuse_rates_of_inputs(raw: Said) -> None:
     inputs = inputs_of(raw.build.root)
     if not inputs or not raw.pending.derivatives:
         return
-    column = ca.vertcat(*[ca.vec(ca.densify(e)) for _, e in raw.pending.derivatives])
+    column = ca.vertcat(*[vec(dense(e)) for _, e in raw.pending.derivatives])
     found = [inputs[s.element_hash()] for s in ca.symvar(column) if s.element_hash() in inputs]
     if found:
         raise DeclarationError(
@@ -39,4 +39,4 @@ def refuse_rates_of_inputs(raw: Said) -> None:
 
 
 def _symbols(sx: Any) -> list[Any]:
-    return [s for s in scalars(ca.vec(ca.densify(sx))) if s.is_symbolic()]
+    return [s for s in scalars(sx) if s.is_symbolic()]

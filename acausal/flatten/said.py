@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -58,7 +58,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         graph = build_graph(components)
         discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
-        pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(ca.vec(a.expr.sx))}
+        pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(a.expr.sx)}
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
         # Far more statements than any component needs, few enough to count them quickly.
@@ -79,11 +79,6 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
     finally:
         PENDING.reset(token)
     return Said(build, graph, arrays, equations, starts, declared, energies, pending, discretes, discrete_values)
-
-
-def column(entries: Iterable[Any]) -> ca.SX:
-    """Stack columns; of nothing an empty column of symbols, where CasADi gives numbers."""
-    return ca.vertcat(ca.SX(0, 1), *entries)
 
 
 def _power(component: Component, name: str) -> Expr:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -16,6 +17,7 @@ from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
+from acausal.symbols import combined
 from acausal.units import Dimension
 
 
@@ -39,7 +41,7 @@ class VariableArray:
         n, unit = self.expr.sx.numel(), self.expr.unit
         return list(unit) * (n // max(1, len(unit))) if isinstance(unit, tuple) else [unit] * n
 
-    @property
+    @cached_property
     def names(self) -> list[str]:
         """Names of the entries in the user's words."""
         shape = self.expr.shape
@@ -127,7 +129,7 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
     if given.sx.is_constant() and not given.sx.is_regular():
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
-        given = Expr(ca.repmat(given.sx, *(shape if len(shape) == 2 else (*shape, 1))), given.unit)
+        given = Expr(combined(ca.SX.ones(*shape), "*", given.sx), given.unit)
     elif given.shape != shape:
         raise DeclarationError(f"{what} of `{path}` has shape {given.shape}; it must have shape {shape}.")
     if what == "start":

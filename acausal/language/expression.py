@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +15,7 @@ from acausal.language.condition import Condition
 from acausal.language.entries import chosen
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
+from acausal.symbols import combined
 from acausal.units import Dimension, parse
 
 
@@ -29,9 +30,14 @@ class Expr(Symbolic):
         Its unit, one for each row, or None where it is not known (as of numbers).
     name : str
         The path of a declared variable or parameter, for messages.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Shape as numpy would give it: (), (n,) or (n, m).
     """
 
-    __slots__ = ("name", "sx", "unit")
+    __slots__ = ("name", "shape", "sx", "unit")
     _lacks = "is symbolic and has no value while the model is built"
     _instead = "declare the field structural(...) if it is a size or a count"
 
@@ -39,18 +45,14 @@ class Expr(Symbolic):
         self.sx = sx
         self.unit = unit
         self.name = name
+        n, m = sx.size1(), sx.size2()
+        self.shape: tuple[int, ...] = (n, m) if m != 1 else ((n,) if n != 1 else ())
 
     def __copy__(self) -> Expr:
         return self
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Expr:
         return self  # a symbol is itself by its identity
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape as numpy would give it: (), (n,) or (n, m)."""
-        n, m = self.sx.shape
-        return (n, m) if m != 1 else ((n,) if n != 1 else ())
 
     @property
     def T(self) -> Expr:
@@ -68,7 +70,7 @@ class Expr(Symbolic):
 
     def __getitem__(self, index: Any) -> Expr:
         places = chosen(self._shown, self.shape, index)
-        sx = self.sx[places.ravel(order="F").tolist()]
+        sx = self.sx[places.ravel(order="F").tolist() if places.ndim else int(places)]
         if places.ndim == 2:
             sx = ca.reshape(sx, *places.shape)
         unit: Unit = self.unit if isinstance(self.unit, Dimension) else None
@@ -88,16 +90,16 @@ class Expr(Symbolic):
         return (self[k] for k in range(len(self)))
 
     def __add__(self, other: Any) -> Any:
-        return _sum(self, other, "+", lambda a, b: a + b)
+        return _sum(self, other, "+")
 
     def __radd__(self, other: Any) -> Any:
-        return _sum(other, self, "+", lambda a, b: a + b)
+        return _sum(other, self, "+")
 
     def __sub__(self, other: Any) -> Any:
-        return _sum(self, other, "-", lambda a, b: a - b)
+        return _sum(self, other, "-")
 
     def __rsub__(self, other: Any) -> Any:
-        return _sum(other, self, "-", lambda a, b: a - b)
+        return _sum(other, self, "-")
 
     def __mul__(self, other: Any) -> Any:
         return _product(self, other)
@@ -175,7 +177,9 @@ def as_expr(value: Any) -> Expr:
     """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
     if isinstance(value, Expr):
         return value
-    if isinstance(value, int | float | np.number | np.ndarray):
+    if isinstance(value, int | float | np.number):
+        return Expr(ca.SX(float(value)) if value else ca.SX(1, 1))
+    if isinstance(value, np.ndarray):
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))))
     if isinstance(value, ca.DM | ca.SX):
@@ -238,13 +242,13 @@ def _short(value: Expr) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _sum(left: Any, right: Any, symbol: str, operate: Callable[[Any, Any], Any]) -> Any:
+def _sum(left: Any, right: Any, symbol: str) -> Any:
     if is_deferred(left, right):
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if a.shape != b.shape:
         raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} {symbol} {_short(b)}")
-    return Expr(operate(a.sx, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"))
+    return Expr(combined(a.sx, symbol, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"))
 
 
 def _product(left: Any, right: Any) -> Any:
@@ -255,18 +259,19 @@ def _product(left: Any, right: Any) -> Any:
         raise DeclarationError(
             f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices"
         )
-    return Expr(a.sx * b.sx, unit_rules.of_product(a, b))
+    return Expr(combined(a.sx, "*", b.sx), unit_rules.of_product(a, b))
 
 
 def _matrix_product(left: Any, right: Any) -> Any:
     if is_deferred(left, right):
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
-    left = a.sx.T if len(a.shape) == 1 else a.sx
-    if not a.shape or not b.shape or left.shape[1] != b.sx.shape[0]:
+    if not a.shape or not b.shape or a.shape[-1] != b.shape[0]:
         raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} @ {_short(b)}")
-    sx = left @ b.sx
-    return Expr(sx.T if len(a.shape) == 1 and len(b.shape) == 2 else sx, unit_rules.of_inner_product(a, b))
+    unit = unit_rules.of_inner_product(a, b)
+    if len(a.shape) == len(b.shape) == 1:
+        return Expr(ca.dot(a.sx, b.sx), unit)
+    return Expr(b.sx.T @ a.sx if len(a.shape) == 1 else a.sx @ b.sx, unit)
 
 
 def _quotient(left: Any, right: Any) -> Any:
@@ -275,4 +280,4 @@ def _quotient(left: Any, right: Any) -> Any:
     a, b = as_expr(left), as_expr(right)
     if b.shape:
         raise DeclarationError(f"cannot divide by an array of shape {b.shape}: {_short(b)}")
-    return Expr(a.sx / b.sx, unit_rules.of_quotient(a, b))
+    return Expr(combined(a.sx, "/", b.sx), unit_rules.of_quotient(a, b))

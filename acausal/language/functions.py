@@ -16,6 +16,7 @@ from acausal.language.condition import Condition
 from acausal.language.events import When
 from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
+from acausal.symbols import scalars, vec
 from acausal.units import DIMENSIONLESS, Dimension, parse
 
 _SECOND = parse("s")
@@ -72,7 +73,7 @@ class Pending:
         """Note the steps of a smooth law from each case to the next; an earlier case that holds hides them."""
         hidden = ca.SX(0)
         for condition, step in steps if self.watches else ():
-            self.promises.append((condition, ca.vec(ca.if_else(hidden, 0, step)), ca.vec(value)))
+            self.promises.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
             hidden = ca.logic_or(hidden, _truth(condition))
 
     def differentiate(self, x: ca.SX) -> ca.SX:
@@ -146,7 +147,7 @@ def sign(x: Any) -> Any:
         return Expr(ca.sign(x.sx), DIMENSIONLESS)
     if pending is None:
         return Deferred(sign, (x,))
-    entries = [_watched_sign(Expr(entry), pending) for entry in ca.vec(x.sx).elements()]
+    entries = [_watched_sign(Expr(entry), pending) for entry in scalars(x.sx)]
     return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), DIMENSIONLESS)
 
 
@@ -166,7 +167,7 @@ def absolute(x: Any) -> Any:
         return Expr(ca.fabs(x.sx), x.unit)
     if pending is None:
         return Deferred(absolute, (x,))
-    entries = [piecewise((-entry, entry < 0), entry).sx for entry in map(Expr, ca.vec(x.sx).elements())]
+    entries = [piecewise((-entry, entry < 0), entry).sx for entry in map(Expr, scalars(x.sx))]
     return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), x.unit)
 
 

@@ -13,6 +13,7 @@ from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
+from acausal.symbols import vec
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Requirement:
     @property
     def sx(self) -> ca.SX:
         """What has to be evaluated, a column."""
-        return ca.vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
+        return vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
 
     def broken(self, value: np.ndarray) -> str:
         """Return what is wrong with a value, "" if nothing is."""

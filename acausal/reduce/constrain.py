@@ -11,6 +11,7 @@ from acausal.flatten import FlatModel
 from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
+from acausal.symbols import stacked
 
 
 @dataclass(frozen=True)
@@ -64,8 +65,8 @@ def constrain(
         Constant coefficients by (residual, unknown); changed in place.
     """
     projections = plan.constrained.projections
-    coordinates = ca.vertcat(ca.SX(0, 1), *[elements[p.coordinate] for p in projections])
-    states = ca.vertcat(ca.SX(0, 1), *[elements[p.state] for p in projections])
+    coordinates = stacked([elements[p.coordinate] for p in projections])
+    states = stacked([elements[p.state] for p in projections])
     bare, following = _bare(plan, elements, residuals, explicit)
     counts = _counting(flat, plan, elements, residuals)
     bare, following = ca.substitute([bare, following], [coordinates], [states])
@@ -108,7 +109,7 @@ def _bare(
     """Return the constraints at all levels, and what follows from states, in terms of states."""
     constrained = plan.constrained
     rows = [row for c in constrained.constraints for row in c.rows]
-    column = ca.vertcat(ca.SX(0, 1), *[residuals[row] for row in rows])
+    column = stacked([residuals[row] for row in rows])
     pairs = constrained.following
     if not {v for v, _ in pairs}.issuperset(constrained.reached):
         raise StructurallySingularError(

@@ -18,6 +18,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
 from acausal.language.functions import time
+from acausal.symbols import vec
 
 Key = str | Path | Expr
 READABLE = (f.Variable, f.Parameter, f.Observed)
@@ -144,7 +145,7 @@ def find(tree: Tree, key: Key) -> Quantity:
 
 
 def _of_expression(tree: Component, expr: Expr) -> Quantity:
-    column = ca.vec(ca.densify(expr.sx))
+    column = vec(ca.densify(expr.sx))
     try:
         declared = _walk(tree, expr.name)
         if _symbols(declared.column) == _symbols(column):
@@ -218,7 +219,7 @@ def _quantity(owner: Component, name: str, declared: f.Field, expr: Expr) -> Qua
     shape = declared.shape(owner) if callable(declared.shape) else declared.shape
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit
     units = _units(expr.unit if unit is None else unit, expr)
-    return Quantity(join(owner._path, name), ca.vec(ca.densify(expr.sx)), expr.shape if shape is None else shape, units)
+    return Quantity(join(owner._path, name), vec(ca.densify(expr.sx)), expr.shape if shape is None else shape, units)
 
 
 def _units(unit: Any, expr: Expr) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from acausal.language.expression import Expr
 from acausal.language.functions import PENDING, Pending
 from acausal.language.refusals import shown
 from acausal.locks import alone
+from acausal.symbols import stacked
 
 
 @alone
@@ -112,7 +113,7 @@ def _number(sx: ca.SX, built: Instantiation, name: str) -> float:
     if sx.numel() != 1 or any(s.element_hash() not in inputs for s in ca.symvar(sx)):
         what = "time" if sx.numel() == 1 else f"an array of shape {sx.shape}"
         raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_MEND.format(name)}")
-    function = ca.Function("own", [ca.vertcat(ca.SX(0, 1), *known.symbols)], [ca.densify(sx)])
+    function = ca.Function("own", [stacked(known.symbols)], [ca.densify(sx)])
     return float(Call(function)(np.array(known.values))[0][0])
 
 

@@ -19,6 +19,7 @@ from acausal.language.validity import Expectation, Separation
 from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.problem import Point, Problem
+from acausal.symbols import stacked
 
 VALIDITY = POLICY.validity
 
@@ -35,7 +36,7 @@ class Watch:
 def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
     """Make the function of expressions in symbols of the model, one row of the result for each point."""
     r = compiled.reduced
-    column = r.running.resolve(ca.vertcat(ca.SX(0, 1), *entries))
+    column = r.running.resolve(stacked(entries))
     arguments = [r.x, r.z, r.p, time.sx, r.constants]
     try:
         function = ca.Function("watch", arguments, [ca.densify(column)])

@@ -15,7 +15,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.words import equation_text
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked
 
 NEWTON = POLICY.newton
 
@@ -102,7 +102,7 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     pairs = [(v, d) for v, d in enumerate(plan.system.derivative) if d >= 0 and v not in apart]
     pairs += [(q.coordinate, q.rate) for q in plan.constrained.projections]
     names = [f"der({r.names[v]})" for v, _ in pairs] + [f"der({r.names[v]})" for v in r.flat.unknowns.declared]
-    column = ca.vertcat(ca.SX(0, 1), *[elements[d] for _, d in pairs], *r.flat.unknowns.declared.values())
+    column = stacked([*[elements[d] for _, d in pairs], *r.flat.unknowns.declared.values()])
     column = ca.densify(r.resolve(column))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z))
     call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))
