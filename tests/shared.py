@@ -11,6 +11,22 @@ import pytest
 
 import acausal as ac
 
+# Columns and stop time of each scene, as the contract has them.
+CONTRACT: dict[str, tuple[tuple[str, ...], float]] = {
+    "free-vibration": (("tip_deflection",), 1.0),
+    "pendulum": (("swing_angle", "tip_deflection", "tip_x", "tip_y", "mid_deflection"), 1.0),
+    "spin-up": (("angle", "tip_deflection", "tip_extension"), 20.0),
+    "slider-crank": (("crank_angle", "slider_position", "rod_tip_deflection", "rod_mid_deflection"), 1.6),
+    "simple-pendulum": (("x", "y"), 10.0),
+    "n-four-bar": (("b0_x", "b0_y"), 10.0),
+    "squeezer": (("beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"), 0.03),
+    "bricard": (("x", "y", "z"), 10.0),
+    "governor": (("s", "rod_angle", "shaft_angle"), 10.0),
+    "car-axis": (("xl", "yl", "xr", "yr"), 3.0),
+    "four-bar": (("j1_phi", "j1_w"), 5.0),
+    "four-bar-spatial": (("j1_phi", "j1_w"), 5.0),
+}
+
 
 @cache
 def compiled(make: Callable[..., Any], **values: Any) -> ac.CompiledModel:

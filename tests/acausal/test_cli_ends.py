@@ -290,7 +290,7 @@ def test_what_was_computed_is_written(start, tmp_path, number, status, word, met
     end = clock.monotonic() + 60
     while not (tmp_path / "started").exists() and clock.monotonic() < end:
         clock.sleep(0.1)
-    clock.sleep(4)
+    clock.sleep(2)
     process.send_signal(number)
     _, errors = process.communicate(timeout=30)
     assert process.returncode == status
@@ -322,7 +322,7 @@ def test_workers_do_not_outlive_a_study(start, number):
     while len(workers := children(process.pid)) < 3 and clock.monotonic() < end:  # two and the tracker of resources
         clock.sleep(0.2)
     assert len(workers) >= 3
-    clock.sleep(3)
+    clock.sleep(1.5)
     process.send_signal(number)
     process.communicate(timeout=30)
     assert process.returncode == (143 if number == signal.SIGTERM else -number)

@@ -7,35 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from acausal.cli import app
-
-OUTPUTS = {
-    "spin-up": ["angle", "tip_deflection", "tip_extension"],
-    "simple-pendulum": ["x", "y"],
-    "pendulum": ["swing_angle", "tip_deflection", "tip_x", "tip_y", "mid_deflection"],
-    "free-vibration": ["tip_deflection"],
-    "slider-crank": ["crank_angle", "slider_position", "rod_tip_deflection", "rod_mid_deflection"],
-    "n-four-bar": ["b0_x", "b0_y"],
-    "squeezer": ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"],
-    "bricard": ["x", "y", "z"],
-    "governor": ["s", "rod_angle", "shaft_angle"],
-    "car-axis": ["xl", "yl", "xr", "yr"],
-    "four-bar": ["j1_phi", "j1_w"],
-    "four-bar-spatial": ["j1_phi", "j1_w"],
-}
-STOP_TIMES = {
-    "spin-up": 20,
-    "simple-pendulum": 10,
-    "pendulum": 1,
-    "free-vibration": 1,
-    "slider-crank": 1.6,
-    "n-four-bar": 10,
-    "squeezer": 0.03,
-    "bricard": 10,
-    "governor": 10,
-    "car-axis": 3,
-    "four-bar": 5,
-    "four-bar-spatial": 5,
-}
+from tests.shared import CONTRACT
 
 
 def run(*arguments):
@@ -46,20 +18,20 @@ def test_list_has_a_line_for_each_scene():
     done = run("list")
     assert done.exit_code == 0
     named = {line.split()[0]: line.split(maxsplit=1)[1] for line in done.stdout.splitlines()}
-    assert set(OUTPUTS) <= set(named)
+    assert set(CONTRACT) <= set(named)
     assert all(named.values())
 
 
-@pytest.mark.parametrize("scene", OUTPUTS)
+@pytest.mark.parametrize("scene", CONTRACT)
 def test_columns_and_rows(scene, tmp_path):
     path = tmp_path / "a.csv"
     short = ("--tolerance", 1e-4, "--stop-time", 0.02) if scene in ("pendulum", "free-vibration") else ()
     done = run("simulate", scene, "--csv", path, "--intervals", 20, "--quiet", *short)
     assert (done.exit_code, done.output) == (0, "")
     table = pd.read_csv(path)
-    assert list(table) == ["time", *OUTPUTS[scene]]
+    assert list(table) == ["time", *CONTRACT[scene][0]]
     assert len(table) == 21
-    assert table["time"].iloc[-1] == (0.02 if short else STOP_TIMES[scene])
+    assert table["time"].iloc[-1] == (0.02 if short else CONTRACT[scene][1])
     assert not table.isna().any(axis=None)
 
 

@@ -92,10 +92,10 @@ class Loop:
             e = T[:3, :3] @ np.asarray(joint.axis)
             o = T[:3, :3] @ np.asarray(joint.point) + T[:3, 3]
             w = Jw @ v
-            linear, turn = (e, np.zeros(3)) if joint.slides else (-np.cross(e, o), e)
+            linear, turn = (e, np.zeros(3)) if joint.slides else (-cross(e, o), e)
             # The screw is fixed to the body before: its rate is the Lie bracket of that body's twist with it.
-            z = z + np.cross(w, turn) * v[k]
-            a0 = a0 + (np.cross(w, linear) + np.cross(Jv0 @ v, turn)) * v[k]
+            z = z + cross(w, turn) * v[k]
+            a0 = a0 + (cross(w, linear) + cross(Jv0 @ v, turn)) * v[k]
             Jv0, Jw = Jv0.copy(), Jw.copy()
             Jv0[:, k], Jw[:, k] = linear, turn
             T = T @ exponential(joint, q[k])
@@ -103,7 +103,7 @@ class Loop:
             Jv = Jv0 - skew(c) @ Jw
             w, v_c = Jw @ v, Jv @ v
             # Of the material point at c: spatial acceleration, carried over to c, and w x v.
-            found.append(Motion(T, c, Jv, Jw, a0 + np.cross(z, c) + np.cross(w, v_c), z))
+            found.append(Motion(T, c, Jv, Jw, a0 + cross(z, c) + cross(w, v_c), z))
         return found
 
     def dynamics(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
@@ -116,7 +116,7 @@ class Loop:
             I = np.zeros((3, 3)) if body.inertia is None else R @ body.inertia @ R.T
             M += body.mass * motion.Jv.T @ motion.Jv + motion.Jw.T @ I @ motion.Jw
             f -= body.mass * motion.Jv.T @ (motion.a - np.asarray(self.gravity))
-            f -= motion.Jw.T @ (I @ motion.z + np.cross(w, I @ w))
+            f -= motion.Jw.T @ (I @ motion.z + cross(w, I @ w))
         return M, f, np.vstack([ground.Jv, ground.Jw]), np.concatenate([ground.a, ground.z])
 
     def acceleration(self, q: Array, v: Array) -> Array:
@@ -156,6 +156,11 @@ class Loop:
     def gap(self, state: Array) -> float:
         """Largest entry of the closed chain's pose less the identity."""
         return float(abs(self.motions(state[: self.size], state[self.size :])[-1].T - np.eye(4)).max())
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Vector product; numpy's, which takes arrays of any shape, is most of the time of a derivative."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
 def skew(c: Array) -> Array:
