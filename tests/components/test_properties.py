@@ -57,6 +57,7 @@ from tests.components.scenes.shafts import (
     OnShaftTorque,
     Shaft,
 )
+from tests.shared import compiled
 
 SCENES: dict[str, type[Scene]] = {
     "World": Plain,
@@ -138,7 +139,7 @@ def run(model: type[Scene], moved: bool = False, turned: bool = False) -> Motion
     key = (model, moved, turned)
     if key not in _cache:
         result = ac.simulate(
-            model(moved=moved, turned=turned), stop_time=0.5, tolerance=1e-9, intervals=10, energy=True
+            compiled(model, moved=moved, turned=turned), stop_time=0.5, tolerance=1e-9, intervals=10, energy=True
         )
         T, T_tip = result["place.frame_b.R.T"][0], result["tip.frame_a.R.T"]
         position = (result["tip.r_0"] - result["place.frame_b.r_0"]) @ T.T
@@ -174,19 +175,14 @@ def test_no_component_is_forgotten():
 
 
 @every(SCENES)
-def test_scene_holds_the_component(name):
-    tree = ac.compile(SCENES[name]()).tree
+def test_scene_holds_the_component_and_compiles_without_surplus(name):
+    model = compiled(SCENES[name], moved=False, turned=False)
     part = {"World": "world", "Body": "tip"}.get(name, "it")
-    assert type(getattr(tree, part)) is EXPORTED[name]
-
-
-@every(SCENES)
-def test_compiles_without_surplus(name):
-    compiled = ac.compile(SCENES[name]())
-    report = compiled.report
+    assert type(getattr(model.tree, part)) is EXPORTED[name]
+    report = model.report
     assert report["redundant_constraints"] == []
     assert report["redundant"] == 0
-    assert len(compiled.states) + len(compiled.algebraic) == report["equations_reduced"]
+    assert len(model.states) + len(model.algebraic) == report["equations_reduced"]
 
 
 @every(SCENES)
