@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from itertools import combinations, product
 from typing import Any
@@ -34,15 +34,16 @@ def compiled(make: Callable[..., Any], **values: Any) -> ac.CompiledModel:
     return ac.compile(make(**values))
 
 
-def pairwise(*choices: list | tuple) -> list:
+def pairwise(*choices: Iterable) -> list:
     """All combinations; those beyond a few in which every pair of choices occurs are marked slow."""
-    every = list(product(*(range(len(values)) for values in choices)))
+    values = [list(choice) for choice in choices]
+    every = list(product(*(range(len(v)) for v in values)))
     pairs = {one: set(combinations(enumerate(one), 2)) for one in every}
     left, few = set().union(*pairs.values()), []
     while left:
         few.append(max(every, key=lambda one: len(pairs[one] & left)))
         left -= pairs[few[-1]]
     return [
-        pytest.param(*(v[k] for v, k in zip(choices, one, strict=True)), marks=() if one in few else pytest.mark.slow)
+        pytest.param(*(v[k] for v, k in zip(values, one, strict=True)), marks=() if one in few else pytest.mark.slow)
         for one in every
     ]

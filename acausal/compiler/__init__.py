@@ -1,6 +1,6 @@
 """Code generation: CasADi functions of a reduced model."""
 
-from acausal.compiler.compile import compile
+from acausal.compiler.compile import compile, ready
 from acausal.compiler.compiled_model import CompiledModel
 
-__all__ = ["CompiledModel", "compile"]
+__all__ = ["CompiledModel", "compile", "ready"]

@@ -6,6 +6,8 @@ import time as clock
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.parameters import Settable
@@ -74,3 +76,13 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     compiled.guards.check()
     lap("generate")
     return compiled
+
+
+def ready(
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None = None
+) -> tuple[CompiledModel, np.ndarray]:
+    """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
+    if isinstance(model, CompiledModel):
+        return model, model.parameter_values(parameters)
+    compiled = compile(model, parameters)
+    return compiled, compiled.parameter_values(None)

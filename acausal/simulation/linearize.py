@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile
+from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.language import fields as f
@@ -96,11 +96,7 @@ def linearize(
     -------
     Linearization
     """
-    if isinstance(model, CompiledModel):
-        compiled, p = model, model.parameter_values(parameters)
-    else:
-        compiled = compile(model, parameters)
-        p = compiled.parameter_values(None)
+    compiled, p = ready(model, parameters)
     how = settled(model, parameters, {"initial": initial})["initial"]
     problem = Problem(compiled, p)
     at = start(problem, time, time, how).point

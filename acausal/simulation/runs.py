@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile
+from acausal.compiler import CompiledModel, ready
 from acausal.errors import DeclarationError, SimulationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.tree import join, walk
@@ -60,7 +60,7 @@ class Runs:
                 f"accuracy chooses `{path}`, which is fixed in a compiled model. Give the model itself, "
                 f'simulate(model, accuracy=...), or compile with parameters={{"{_beam(path)}.adaptive": False}}.'
             )
-        self.compiled: dict[int, CompiledModel] = {}
+        self.compiled: dict[int, tuple[CompiledModel, np.ndarray]] = {}
         self.results: dict[Numerics, Result | SimulationError] = {}
         self.done: list[dict[str, Any]] = []
 
@@ -84,17 +84,14 @@ class Runs:
     def seconds(self) -> dict[str, float]:
         """Return seconds of compiling and solving, all runs together."""
         return {
-            "compile_seconds": sum(sum(c.seconds.values()) for c in self.compiled.values()),
+            "compile_seconds": sum(sum(c.seconds.values()) for c, _ in self.compiled.values()),
             "solve_seconds": sum(run["solve_seconds"] for run in self.done),
         }
 
     def _compile(self, number: int) -> tuple[CompiledModel, np.ndarray]:
-        if isinstance(self.model, CompiledModel):
-            self.compiled[number] = self.model
-            return self.model, self.model.parameter_values(self.parameters)
         if number not in self.compiled:
-            self.compiled[number] = compile(self.model, {**self.parameters, **self.sizes(number)})
-        return self.compiled[number], self.compiled[number].parameter_values(None)
+            self.compiled[number] = ready(self.model, {**self.parameters, **self.sizes(number)})
+        return self.compiled[number]
 
     def _note(self, numerics: Numerics, result: Any, text: str) -> None:
         stats = result.stats

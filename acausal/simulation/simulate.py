@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile
+from acausal.compiler import CompiledModel, ready
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -132,10 +132,7 @@ def _simulate(
 ) -> Result:
     if accuracy is not None:
         return reach(accuracy, Runs(model, parameters, task))
-    if isinstance(model, CompiledModel):
-        return run(model, model.parameter_values(parameters), task)
-    compiled = compile(model, parameters)
-    return run(compiled, compiled.parameter_values(None), task)
+    return run(*ready(model, parameters), task)
 
 
 def _warn(result: object) -> None:

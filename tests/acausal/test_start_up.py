@@ -13,7 +13,6 @@ NOWHERE = {"distributed", "pytest", "sympy"}
 @pytest.mark.parametrize(
     ("code", "unused"),
     [
-        ("import acausal", NOWHERE | TABLES | SCIPY | {"networkx", "typer"}),
         ("import acausal, components, models", NOWHERE | TABLES | SCIPY | {"networkx", "typer"}),
         ("run('list')", NOWHERE | TABLES | SCIPY | {"networkx"}),
         ("run('check', 'spin-up')", NOWHERE | TABLES | {"scipy.interpolate", "scipy.optimize"}),

@@ -183,7 +183,9 @@ class Swing(Model):
 
 
 @pytest.mark.parametrize("reference", ["tangent", "pinned"])
-@pytest.mark.parametrize("shape", [{"elements": 3}, {"volumes": 2, "elements_per_volume": 2}])
+@pytest.mark.parametrize(
+    "shape", [{"elements": 3}, pytest.param({"volumes": 2, "elements_per_volume": 2}, marks=pytest.mark.slow)]
+)
 def test_internal_forces_balance_while_moving(reference, shape):
     """At the ends they are the forces of the frames; between, momentum changes by them and by gravity."""
     kind = {k: v for k, v in shape.items() if k != "volumes"} | {"reference": reference, "torsional_inertia": 1e-3}

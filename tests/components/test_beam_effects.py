@@ -64,7 +64,7 @@ def test_power_balance(axial, geometric_stiffness, rotary_inertia, reference):
     balanced(axial, reference, geometric_stiffness=geometric_stiffness, rotary_inertia=rotary_inertia, elements=2)
 
 
-@pytest.mark.parametrize("axial", ["dynamic", "quasi_static", "none"])
+@pytest.mark.parametrize("axial", [pytest.param("dynamic", marks=pytest.mark.slow), "quasi_static", "none"])
 def test_power_balance_of_volumes(axial):
     balanced(axial, "tangent", geometric_stiffness=True, rotary_inertia=True, volumes=2)
 
@@ -104,7 +104,7 @@ def lifting(result: ac.Result, volumes: int, reference: str) -> np.ndarray:
     return energy
 
 
-@pytest.mark.parametrize("geometric_stiffness", [False, True])
+@pytest.mark.parametrize("geometric_stiffness", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_quasi_static_stretch_moves_nothing_else(geometric_stiffness):
     kind = {"elements": 2, "geometric_stiffness": geometric_stiffness}
     stretched, rigid = driven(axial="quasi_static", **kind), driven(axial="none", **kind)
@@ -117,7 +117,7 @@ def test_quasi_static_stretch_moves_nothing_else(geometric_stiffness):
     assert np.abs(lengths).max() > 5e-4
 
 
-@pytest.mark.parametrize("geometric_stiffness", [False, True])
+@pytest.mark.parametrize("geometric_stiffness", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_stretch_with_its_vibrations_tends_to_none(geometric_stiffness):
     """With ten times the stiffness along, J kept, the tip is ten times as near to that of a beam that does not stretch."""
     kind, distances = {"elements": 2, "geometric_stiffness": geometric_stiffness, "beta": 1e-3}, []

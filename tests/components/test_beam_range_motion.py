@@ -142,6 +142,7 @@ def test_slider_crank():
     check(texts, np.abs(linear["rod_tip_deflection"] - right).max() / np.abs(right).max(), "rod_bar")
 
 
+@pytest.mark.slow
 def test_fine_volumes_that_turn_are_quiet():
     assert spin_up(4, volumes=5)[0]  # errs by 2.5 %
     assert not spin_up(4, volumes=20)[0]  # 0.16 %
@@ -169,7 +170,7 @@ class Coupler(Model):
         yield chain(self.world, self.guide, self.slider)
 
 
-@pytest.mark.parametrize(("speed", "warns"), [(1, False), (20, True), (30, True)])
+@pytest.mark.parametrize(("speed", "warns"), [pytest.param(1, False, marks=pytest.mark.slow), (20, True), (30, True)])
 def test_coupler(speed, warns):
     options = {"stop_time": 12 / speed, "tolerance": 1e-5, "parameters": {"speed": speed}}
     texts, linear = doubts(compiled(Coupler), **options)

@@ -84,7 +84,7 @@ def turning(n: tuple, speeds: tuple[float, ...], **kind: Any) -> np.ndarray:
     return np.array(found) / [rotating_beam.frequencies(s, n == Z, 3) for s in speeds] - 1
 
 
-@pytest.mark.parametrize("n", [Z, Y])
+@pytest.mark.parametrize("n", [Z, pytest.param(Y, marks=pytest.mark.slow)])
 def test_frequencies_of_a_turning_beam(n):
     speeds = (1.0, 3.0, 6.0, 10.0)
     coarse, fine = turning(n, speeds, elements=4), turning(n, speeds, elements=8)

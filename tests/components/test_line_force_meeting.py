@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 import acausal as ac
 from acausal import Model, SimulationError, chain, connect, fixed, quantity, reinit, structural, when
 from components import Body, Damper, Fixed, LineForce, Prismatic, Spring, SpringDamperParallel, World
+from tests.shared import pairwise
 
 METHODS, TOLERANCES = ("idas", "rosenbrock"), (1e-3, 1e-6, 1e-8)
 
@@ -91,10 +92,7 @@ def flying(force, **values):
     return ac.compile(Flying(force=force(), **values))
 
 
-@pytest.mark.parametrize("name", FALLING)
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("tolerance", TOLERANCES)
-@pytest.mark.parametrize("intervals", [1, 50])
+@pytest.mark.parametrize(("intervals", "tolerance", "method", "name"), pairwise([1, 50], TOLERANCES, METHODS, FALLING))
 def test_a_mass_that_falls_onto_the_other_end(name, method, tolerance, intervals):
     model, rate = falling(name), FALLING[name][1]
     with pytest.raises(SimulationError, match=r"line \(\w+\), .*its ends meet") as caught:
@@ -108,9 +106,7 @@ def test_a_mass_that_falls_onto_the_other_end(name, method, tolerance, intervals
     assert np.all(kept["rail.s"] > 0)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("tolerance", TOLERANCES)
-@pytest.mark.parametrize("force", [FALLING["spring"][0], Pull])
+@pytest.mark.parametrize(("force", "tolerance", "method"), pairwise([FALLING["spring"][0], Pull], TOLERANCES, METHODS))
 def test_a_free_body_that_flies_through_the_anchor(method, tolerance, force):
     with pytest.raises(SimulationError, match=r"line .*its ends meet"):
         ac.simulate(flying(force), stop_time=1, method=method, tolerance=tolerance)

@@ -60,7 +60,7 @@ def swing(times: np.ndarray, angle: float, rate: float, gravity: float = 9.81) -
     return solve_ivp(derivative, (0, times[-1]), [angle, rate], "DOP853", times, rtol=1e-12, atol=1e-13).y[0]
 
 
-@pytest.mark.parametrize("angle", [0.0, pytest.param(np.pi, marks=FLAT)])
+@pytest.mark.parametrize("angle", [0.0, pytest.param(np.pi, marks=[FLAT, pytest.mark.slow])])
 @pytest.mark.parametrize("rate", [2.0, -1.0, 8.0])
 @pytest.mark.parametrize("gravity", [0.0, 9.81])
 def test_parallelogram_from_its_flat_position(angle, rate, gravity):

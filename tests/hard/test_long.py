@@ -54,7 +54,12 @@ STUCK = pytest.mark.xfail(
 
 @pytest.mark.parametrize(
     ("N", "stop", "tolerance"),
-    [(1, 10.0, 1e-6), (1, 10.0, 1e-8), (2, 100.0, 1e-8), pytest.param(1, 10.0, 1e-10, marks=STUCK)],
+    [
+        (1, 10.0, 1e-6),
+        (1, 10.0, 1e-8),
+        pytest.param(2, 100.0, 1e-8, marks=pytest.mark.slow),
+        pytest.param(1, 10.0, 1e-10, marks=[STUCK, pytest.mark.slow]),
+    ],
 )
 def test_n_four_bar_through_its_flat_position(N, stop, tolerance):
     """It turns over, at 8 rad/s through flat twice a turn, and slowly, at 1 rad/s, over the top."""
@@ -157,6 +162,7 @@ def test_10000_turns(principal):
     spun(principal, (0.1, 0.2, 2 * np.pi), 10_000, 1e-9)
 
 
+@pytest.mark.slow
 def test_bricard_for_100_s():
     """10 swings: one freedom and no loss, so that it comes back to its start at rest again and again."""
     result = ac.simulate(Bricard(), stop_time=100.0, tolerance=1e-8, intervals=2000)

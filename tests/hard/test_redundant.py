@@ -90,7 +90,9 @@ class Inclined(Model):
         yield chain(self.j1.support, self.damper, self.j1.axis)
 
 
-@pytest.mark.parametrize("constraints", ["auto", "states", "projection"])
+@pytest.mark.parametrize(
+    "constraints", ["auto", *(pytest.param(way, marks=pytest.mark.slow) for way in ("states", "projection"))]
+)
 def test_planar_loop_in_an_inclined_plane(constraints):
     """Three constraints are redundant up to rounding only."""
     result = ac.simulate(Inclined(), stop_time=5.0, tolerance=1e-8, intervals=50, constraints=constraints)

@@ -72,6 +72,7 @@ class Beads(Model):
             before = bar.frame_b
 
 
+@pytest.mark.slow
 def test_light_bead_inside_a_heavy_pendulum():
     """The tension moves a bead of 1e-9 kg at 1e5 rad/s; the heavy one swings on 2 m, as closed forms say.
 

@@ -12,7 +12,7 @@ from acausal.language.functions import feedback, initial, time
 from models import SCENES
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
 from tests.components.test_properties import SCENES as WITH_COMPONENT
-from tests.shared import compiled
+from tests.shared import compiled, pairwise
 
 SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank": 0.75, "bricard": 2.0}
 # Where one method alone takes minutes to follow vibrations, or does not get past a flat position.
@@ -43,9 +43,7 @@ def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames")
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-8])
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize(("name", "tolerance", "method"), pairwise(MODELS, [1e-3, 1e-5, 1e-8], ["idas", "rosenbrock"]))
 def test_every_equation_holds_at_every_output(name, tolerance, method):
     cls, stop = MODELS[name]
     model = compiled(cls)

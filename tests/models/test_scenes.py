@@ -23,7 +23,9 @@ ROOT = Path(models.__file__).parents[1]
 SPIN_UP = {"stop_time": 20.0, "tolerance": 1e-8}
 
 
-@pytest.mark.parametrize(("volumes", "lowest"), [(5, -0.54748), (20, -0.53502), (40, -0.53448)])
+@pytest.mark.parametrize(
+    ("volumes", "lowest"), [(5, -0.54748), (20, -0.53502), pytest.param(40, -0.53448, marks=pytest.mark.slow)]
+)
 def test_spin_up(volumes, lowest):
     result = ac.simulate(SpinUp(volumes=volumes), **SPIN_UP)
     assert result["tip_deflection"].min() == pytest.approx(lowest, abs=3e-4)

@@ -23,7 +23,15 @@ def run(stop_time: float = 1.6, tolerance: float = 1e-6, intervals: int = 400, *
     )
 
 
-@pytest.mark.parametrize("settings", [{}, {"crank": "rigid"}, {"rod": "rigid"}, {"rod_volumes": 4}])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        pytest.param({"crank": "rigid"}, marks=pytest.mark.slow),
+        {"rod": "rigid"},
+        pytest.param({"rod_volumes": 4}, marks=pytest.mark.slow),
+    ],
+)
 def test_energy_up_to_the_break_is_stored(settings: dict[str, Any]) -> None:
     stats = run(0.7, intervals=175, **settings).stats
     assert abs(stats["energy_method"]) < 1e-5 * stats["energy_supplied"]
@@ -48,6 +56,7 @@ def test_defaults_against_the_time_converged_equations_by_hand() -> None:
     assert np.abs(result["rod_mid_deflection"] - exact[3]).max() < 1e-2 * BEND
 
 
+@pytest.mark.slow
 def test_elastic_and_rigid_crank_nearly_coincide() -> None:
     elastic, rigid = run(), run(crank="rigid")
     assert np.abs(elastic["slider_position"] - rigid["slider_position"]).max() < 5e-3 * RANGE

@@ -35,7 +35,7 @@ def loaded(live):
     return pickle.loads(pickle.dumps(live))
 
 
-@pytest.mark.parametrize("model", [Plant(n=3), FourBar(), SpinUp()])
+@pytest.mark.parametrize("model", [Plant(n=3), FourBar(), pytest.param(SpinUp(), marks=pytest.mark.slow)])
 def test_every_quantity_by_its_name(model):
     live = ac.simulate(model, stop_time=0.2, intervals=7, tolerance=1e-4)
     loaded = pickle.loads(pickle.dumps(live))

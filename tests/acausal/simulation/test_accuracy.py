@@ -144,6 +144,7 @@ def test_estimates_are_true_where_vibrations_are_followed():
 ADAPTIVE = {"beam.adaptive": True}
 
 
+@pytest.mark.slow
 def test_elements_of_a_cantilever():
     """Compared with 40 elements, which have the tip of the continuous beam to 1e-4 of its range."""
     exact = released(np.linspace(0, 1, 401), 40)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Any
 
 import casadi as ca
@@ -100,6 +101,7 @@ def scene(name: str, units: tuple[float, ...]) -> Any:
     return {"slider-crank": Crank, "car-axis": Axis}.get(name, SCENES[name])()
 
 
+@cache
 def run(name: str, units: tuple[float, ...], part: float = 1.0) -> tuple[dict[str, int], dict[str, np.ndarray]]:
     """Counts of a run, and its outputs in SI."""
     with measured_in(units):
@@ -111,25 +113,22 @@ def run(name: str, units: tuple[float, ...], part: float = 1.0) -> tuple[dict[st
     )
 
 
-def agree(name: str, others: list[tuple[float, ...]]) -> None:
+UNITS = [tuple(factor if k == place else 1.0 for k in range(3)) for place in range(3) for factor in (MUCH, 1 / MUCH)]
+# Each scene with one of them, and with the others in the slow tests.
+CASES = [
+    pytest.param(name, units, marks=() if k % len(UNITS) == place else pytest.mark.slow)
+    for k, name in enumerate(SCENES)
+    for place, units in enumerate(UNITS)
+]
+
+
+@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
+@pytest.mark.parametrize(("name", "units"), CASES)
+def test_units_change_neither_counts_nor_results(name, units):
     """Runs take as many steps, to 2 %, and lead to the same, but for what 1000 times the tolerance may make of rounding."""
     part = 0.05 if name == "free-vibration" else 1.0
     counts, outputs = run(name, (1.0, 1.0, 1.0), part)
-    for units in others:
-        found, values = run(name, units, part)
-        assert found == pytest.approx(counts, rel=0.02, abs=2), units
-        for output, expected in outputs.items():
-            assert np.max(np.abs(values[output] - expected)) <= 1e-3 * np.max(np.abs(expected)), (units, output)
-
-
-@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
-@pytest.mark.parametrize("name", SCENES)
-def test_units_change_neither_counts_nor_results(name):
-    agree(name, [(MUCH, 1.0, 1.0), (1.0, 1 / MUCH, 1.0), (1.0, 1.0, 1 / MUCH)])
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
-@pytest.mark.parametrize("name", SCENES)
-def test_nor_do_the_other_way(name):
-    agree(name, [(1 / MUCH, 1.0, 1.0), (1.0, MUCH, 1.0), (1.0, 1.0, MUCH)])
+    found, values = run(name, units, part)
+    assert found == pytest.approx(counts, rel=0.02, abs=2)
+    for output, expected in outputs.items():
+        assert np.max(np.abs(values[output] - expected)) <= 1e-3 * np.max(np.abs(expected)), output

@@ -74,7 +74,7 @@ def assert_same(found, expected):
 
 
 @pytest.mark.parametrize("threads", [2, 4])
-@pytest.mark.parametrize("round_", range(10))
+@pytest.mark.parametrize("round_", range(3))
 def test_shared_models(jobs, threads, round_):
     work, expected = jobs
     order = np.random.default_rng(round_).permutation(len(work))

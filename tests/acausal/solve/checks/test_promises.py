@@ -14,6 +14,7 @@ import acausal as ac
 from acausal import Model, Scalar, chain, connect, der, fixed, piecewise, sin, sqrt, structural, time, variable
 from components import Body, LineForce, Prismatic, World
 from models import SpinUp
+from tests.shared import pairwise
 
 Law = Callable[[Any], Any]
 
@@ -61,9 +62,7 @@ def warned(model: Any, **values: Any) -> list[str]:
     return [str(w.message) for w in caught]
 
 
-@pytest.mark.parametrize("name", BROKEN)
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [1, 7, 1000])
+@pytest.mark.parametrize(("intervals", "method", "name"), pairwise([1, 7, 1000], ["idas", "rosenbrock"], BROKEN))
 def test_a_jump_is_told_once_with_place_and_mend(name, method, intervals):
     law, at, jump = BROKEN[name]
     (text,) = warned(Driven(law=law), stop_time=3, method=method, intervals=intervals)

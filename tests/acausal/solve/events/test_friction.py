@@ -66,7 +66,10 @@ def by_hand(static: float, sliding: float, stop: float) -> tuple[list[float], fl
     return times, phi
 
 
-@pytest.mark.parametrize(("static", "sliding"), [(2.0, 1.0), (2.9, 2.0), (2.5, 2.5)])
+@pytest.mark.parametrize(
+    ("static", "sliding"),
+    [(2.0, 1.0), *(pytest.param(*pair, marks=pytest.mark.slow) for pair in ((2.9, 2.0), (2.5, 2.5)))],
+)
 def test_stick_and_slip(static, sliding):
     parameters = {"brake.tau_static": static, "brake.tau_sliding": sliding}
     result = ac.simulate(Block(), stop_time=8.0, tolerance=1e-9, parameters=parameters, energy=True)

@@ -16,7 +16,7 @@ from acausal.solve.integrate.ladder import Kind, Refusal
 from components import rotational
 from models import SCENES, FourBarSpatial, NFourBar, SpinUp
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
-from tests.shared import compiled
+from tests.shared import compiled, pairwise
 
 TOLERANCES = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10]
 
@@ -65,12 +65,11 @@ def test_evaluations_are_counted_and_only_what_is_read_is_solved():
 @pytest.mark.parametrize("scene", ["four-bar-spatial", "slider-crank", "squeezer"])
 def test_forces_of_a_loop_are_solved_for_once(scene, tolerance):
     """Positions and speeds are settled first, by a step or a few; accelerations and forces are linear then."""
-    compiled = ac.compile(SCENES[scene]())
-    stop = SCENES[scene].stop_time / 10
-    result = ac.simulate(compiled, stop_time=stop, tolerance=tolerance, intervals=50)
+    model, stop = compiled(SCENES[scene]), SCENES[scene].stop_time / 10
+    result = ac.simulate(model, stop_time=stop, tolerance=tolerance, intervals=50)
     before = result.stats["consistent_evaluations"]
     _ = [result[name] for name in result.outputs]
-    passes = compiled.passes(*compiled.dependence.needed(range(compiled.nz)))
+    passes = model.passes(tuple(range(model.nz)))
     assert [step.linear for step in passes] == [False, True]
     assert result.stats["consistent_evaluations"] - before <= 4.5 * len(result.time)
 
@@ -95,9 +94,9 @@ def collision(tolerance: float = 1e-12) -> np.ndarray:
     return solve_ivp(law, (0, 2), start, "DOP853", rtol=tolerance, atol=tolerance, max_step=1e-3).y[2:4, -1]
 
 
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [400, 20, 7])
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize(
+    ("tolerance", "intervals", "method"), pairwise([1e-4, 1e-6, 1e-8, 1e-10], [400, 20, 7], ["idas", "rosenbrock"])
+)
 def test_no_contact_is_missed(tolerance, intervals, method):
     result = ac.simulate(
         compiled(Two), stop_time=2.0, tolerance=tolerance, intervals=intervals, method=method, energy=True
@@ -141,9 +140,9 @@ def test_end_of_a_contact_much_shorter_than_an_interval(stop, intervals, method,
     assert result["v"][-1] == pytest.approx(2, rel=100 * tolerance)
 
 
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [400, 20])
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-10])
+@pytest.mark.parametrize(
+    ("tolerance", "intervals", "method"), pairwise([1e-4, 1e-6, 1e-10], [400, 20], ["idas", "rosenbrock"])
+)
 def test_rope_is_found_taut_when_it_is(tolerance, intervals, method):
     result = ac.simulate(compiled(Tether), stop_time=1.2, tolerance=tolerance, intervals=intervals, method=method)
     taut = np.sqrt(2 * np.sqrt(1 - 0.3**2) / 9.80665)
@@ -152,9 +151,9 @@ def test_rope_is_found_taut_when_it_is(tolerance, intervals, method):
     np.testing.assert_allclose(result.stats["event_times"][2], 0.96525086, atol=max(1e-6, 1e2 * tolerance))
 
 
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-10])
-@pytest.mark.parametrize("intervals", [2000, 500, 100])
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+@pytest.mark.parametrize(
+    ("method", "intervals", "tolerance"), pairwise(["idas", "rosenbrock"], [2000, 500, 100], [1e-6, 1e-10])
+)
 def test_friction_sticks_at_rest_only(intervals, tolerance, method):
     result = ac.simulate(compiled(Axis), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method)
     stuck = np.abs(result["friction.mode"]) < 0.5
@@ -226,11 +225,13 @@ def test_conditions_faster_than_they_are_looked_at_are_told(intervals):
         ac.simulate(compiled(Pulses), stop_time=1.0, intervals=intervals, method="idas")
 
 
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [1, 4, 5, 400])
-@pytest.mark.parametrize(("rate", "least"), [(100.0, 0.5), (51.0, 0.99), (32 * np.pi, 0.9999)])
-def test_no_turn_of_a_guard_is_missed(rate, least, intervals, method):
+@pytest.mark.parametrize(
+    ("turn", "intervals", "method"),
+    pairwise([(100.0, 0.5), (51.0, 0.99), (32 * np.pi, 0.9999)], [1, 4, 5, 400], ["idas", "rosenbrock"]),
+)
+def test_no_turn_of_a_guard_is_missed(turn, intervals, method):
     """Also where it turns by whole or half turns from one look to the next."""
+    rate, least = turn
     changes = {"rate": rate, "least": least}
     result = ac.simulate(compiled(Pulses), stop_time=1.0, intervals=intervals, method=method, parameters=changes)
     assert result["n"][-1] == 1 + (rate - np.arcsin(least)) // (2 * np.pi)

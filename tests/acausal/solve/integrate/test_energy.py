@@ -11,12 +11,13 @@ from acausal import Model, chain, connect, cos, fixed, quantity, sin, time
 from components import rotational
 from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
-from tests.shared import compiled
+from tests.shared import compiled, pairwise
 
 
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [400, 10, 3])
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize(
+    ("tolerance", "intervals", "method"),
+    pairwise([1e-3, 1e-4, 1e-6, 1e-8, 1e-10], [400, 10, 3], ["idas", "rosenbrock"]),
+)
 def test_work_of_winding_a_spring(tolerance, intervals, method):
     stats = ac.simulate(
         compiled(Wound), stop_time=1.0, tolerance=tolerance, intervals=intervals, method=method, energy=True
@@ -25,9 +26,9 @@ def test_work_of_winding_a_spring(tolerance, intervals, method):
     assert abs(stats["energy_method"]) < 1e-9
 
 
-@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
-@pytest.mark.parametrize("intervals", [400, 10])
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize(
+    ("tolerance", "intervals", "method"), pairwise([1e-3, 1e-4, 1e-6, 1e-8, 1e-10], [400, 10], ["idas", "rosenbrock"])
+)
 def test_work_of_a_crank_at_constant_speed(tolerance, intervals, method):
     """The crank turns by 3.9 rad: the spring's energy there and at the start is in closed form."""
     stats = ac.simulate(
@@ -144,7 +145,13 @@ def along(result: ac.Result, name: str) -> np.ndarray:
 
 @pytest.mark.filterwarnings("ignore:.*linear frames")
 @pytest.mark.parametrize("tolerance", [pytest.param(1e-4, marks=pytest.mark.slow), 1e-6])
-@pytest.mark.parametrize("name", ["spin-up", "squeezer", "four-bar", "governor", "car-axis", "four-bar-spatial"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("spin-up", "governor", "car-axis"),
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("squeezer", "four-bar", "four-bar-spatial")),
+    ],
+)
 def test_works_are_the_integrals_of_the_powers(name, tolerance):
     """Many outputs show the powers of the same motion, which few outputs must integrate as well."""
     cls = SCENES[name]

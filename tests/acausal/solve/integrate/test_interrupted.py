@@ -49,7 +49,7 @@ class Switched(Fast):
         yield self.s == piecewise((1.0, self.a > self.late), 2.0)
 
 
-def interrupted(cls, after=2.0, values=None, **options):
+def interrupted(cls, after=0.7, values=None, **options):
     compiled = ac.compile(cls(x=fixed(1.0), v=fixed(0.0)), values)
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
     ac.simulate(compiled, stop_time=1e-4, intervals=2, **options)

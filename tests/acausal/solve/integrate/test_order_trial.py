@@ -66,10 +66,10 @@ def test_the_reason_is_told():
     stats = ac.simulate(compiled(Modes), stop_time=40.0, tolerance=1e-8, method="idas").stats
     assert stats["max_order"] == 5
     assert "90 1/s" in stats["order_reason"]
-    assert "by trial" in stats["order_reason"]
+    assert "a trial took" in stats["order_reason"]
     stats = ac.simulate(compiled(SpinUp), stop_time=2.0).stats
     assert stats["max_order"] == 2
-    assert "by trial" not in stats["order_reason"]
+    assert "trial" not in stats["order_reason"]
 
 
 def test_watched_conditions_change_nothing():
@@ -90,6 +90,6 @@ def test_free_vibration(tolerance, best):
 def test_works_go_on_through_trials():
     options = {"stop_time": 0.2, "tolerance": 1e-6, "intervals": 100, "energy": True}
     found, given = (ac.simulate(compiled(FreeVibration), max_order=order, **options).stats for order in (None, 5))
-    assert "by trial" in found["order_reason"]
+    assert "a trial took" in found["order_reason"]
     for name in ("energy_supplied", "energy_stored_change", "energy_dissipated"):
         assert found[name] == pytest.approx(given[name], abs=1e-5), name

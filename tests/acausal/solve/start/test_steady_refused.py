@@ -84,7 +84,7 @@ class Held(Double):
     hinge = Revolute(phi=fixed(0.3))
 
 
-@pytest.mark.parametrize("model", [Held, FourBar, Squeezer])
+@pytest.mark.parametrize("model", [Held, FourBar, pytest.param(Squeezer, marks=pytest.mark.slow)])
 def test_fixed_values_that_do_not_rest_are_named(model: type[Model]) -> None:
     with pytest.raises(ac.InitializationError, match=r"(?s)can rest, but not.*phi = .*off by"):
         started(model())

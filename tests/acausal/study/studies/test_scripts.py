@@ -68,7 +68,13 @@ def run(tmp_path, text, name="script.py", *, elsewhere=False):
     )
 
 
-@pytest.mark.parametrize("text", SCRIPTS.values(), ids=list(SCRIPTS))
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(text, id=name, marks=() if "its own" in name else pytest.mark.slow)
+        for name, text in SCRIPTS.items()
+    ],
+)
 def test_scripts(tmp_path, text):
     done = run(tmp_path, text)
     assert done.returncode == 0, done.stderr
@@ -81,6 +87,7 @@ def test_a_script_in_another_folder(tmp_path):
     assert done.stdout.split() == ["once", "2"], done.stderr
 
 
+@pytest.mark.slow
 def test_dask_workers_do_not_run_the_script_again(tmp_path):
     pytest.importorskip("distributed")
     text = SCRIPTS["its own, without a guard"].replace("workers=1", "workers=1, executor='local'")
