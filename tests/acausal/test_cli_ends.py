@@ -281,9 +281,14 @@ needs_signals = pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 
 @needs_signals
 @pytest.mark.parametrize(
-    ("number", "status", "word"), [(signal.SIGTERM, 143, "terminated"), (signal.SIGINT, 130, "interrupted")]
+    ("number", "status", "word", "method"),
+    [
+        (signal.SIGTERM, 143, "terminated", "auto"),
+        (signal.SIGINT, 130, "interrupted", "idas"),
+        pytest.param(signal.SIGTERM, 143, "terminated", "idas", marks=pytest.mark.slow),
+        pytest.param(signal.SIGINT, 130, "interrupted", "auto", marks=pytest.mark.slow),
+    ],
 )
-@pytest.mark.parametrize("method", ["auto", "idas"])
 def test_what_was_computed_is_written(start, tmp_path, number, status, word, method):
     arguments = ("--stop-time", 100, "--intervals", 200_000, "--csv", "a.csv", "--json", "a.json", "--method", method)
     process = start("simulate", "ends.py:Fast", *arguments, "--quiet")

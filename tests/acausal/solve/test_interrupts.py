@@ -14,7 +14,7 @@ from acausal.solve import run as module
 SOLVER = Path(module.__file__).parent
 FILES = ("events/course.py", "integrate/attempt.py", "integrate/interrupted.py", "integrate/trace.py")
 WHERE = {str(SOLVER / name) for name in FILES}
-PLACES = 40
+PLACES = 25
 
 
 class Bounces(ac.Model):

@@ -42,7 +42,7 @@ def work(stats: ac.Statistics) -> int:
     return stats["residual_evaluations"]
 
 
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=pytest.mark.slow)])
 def test_modes_are_followed_by_the_better_order(tolerance):
     model, options = compiled(Modes), {"stop_time": 40.0, "tolerance": tolerance, "method": "idas", "intervals": 800}
     results = {order: ac.simulate(model, max_order=order, **options) for order in (None, 2, 5)}
