@@ -7,6 +7,7 @@ import inspect
 import os
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from tests.shared import CONTRACT
 
 ROOT = Path(models.__file__).parents[1]
 SPIN_UP = {"stop_time": 20.0, "tolerance": 1e-8}
+QUICK = ("simple-pendulum", "four-bar", "governor", "spin-up")
 
 
 @pytest.mark.parametrize(
@@ -231,6 +233,28 @@ def test_changed_parameters_are_those_of_a_fresh_compile(model, changes: dict[st
         if np.abs(changed[name] - before[name]).max() > 1e-3 * np.abs(before[name]).max()
     ]
     assert moved
+
+
+@pytest.mark.filterwarnings("ignore::acausal.AcausalWarning")
+@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in SCENES])
+def test_a_run_depends_on_no_run_before(name):
+    """Other parameters, tolerances, methods and a linearisation leave nothing behind in a compiled model."""
+    cls, random = SCENES[name], np.random.default_rng(1)
+    stop = cls.stop_time * (0.05 if name == "free-vibration" else 0.2)
+    fresh, used = (ac.compile(cls()) for _ in range(2))
+    values = dict(zip(used.reduced.flat.parameters.names, used.parameter_values(None), strict=True))
+    for method, tolerance in (("auto", 1e-4), ("idas", 1e-7), ("rosenbrock", 1e-4)):
+        changed = str(random.choice(list(values)))
+        with suppress(ac.AcausalError):  # where it cannot start or go on with that value
+            ac.simulate(
+                used, stop_time=stop, method=method, tolerance=tolerance, parameters={changed: 1.07 * values[changed]}
+            )
+    ac.linearize(used)
+    one, other = (ac.simulate(model, stop_time=stop, intervals=40, energy=True) for model in (fresh, used))
+    for output in one.outputs:
+        np.testing.assert_array_equal(one[output], other[output])
+    for count in ("steps", "residual_evaluations", "energy_supplied", "energy_dissipated"):
+        assert one.stats[count] == other.stats[count]
 
 
 def test_results_are_read_by_path_attribute_and_expression():
