@@ -1,0 +1,67 @@
+"""Functions called in place, at many times, and once for each model."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from acausal.compiler.call import Call
+from acausal.compiler.once import once
+from acausal.compiler.rowwise import AT_ONCE, Rowwise
+
+X = ca.SX.sym("x", 2)
+
+
+def test_outputs_are_overwritten_and_cleared():
+    call = Call(ca.Function("f", [X], [2 * X, ca.sum1(X)]))
+    first = call(np.array([1.0, 2.0]))
+    np.testing.assert_array_equal(first[0], [2, 4])
+    call(np.array([3.0, 5.0]))
+    np.testing.assert_array_equal(first[0], [6, 10])
+    np.testing.assert_array_equal(first[1], [8])
+    call.clear()
+    assert all(np.isnan(output).all() for output in call.outputs)
+
+
+def test_a_failure_leaves_what_was_not_reached_undefined():
+    solve = ca.rootfinder("solve", "newton", {"x": X[0], "p": X[1], "g": X[0] ** 2 + X[1]}, {"max_iter": 5})
+    call = Call(solve)
+    call.inputs[0][:], call.inputs[1][:] = 1.0, 2.0
+    call.clear()
+    done, _ = call.attempt()
+    assert not done
+    call.inputs[1][:] = -4.0
+    call.inputs[0][:] = 2.1
+    assert call.attempt()[0]
+    np.testing.assert_allclose(call.outputs[0], 2.0)
+
+
+@pytest.mark.parametrize("n", [1, 2, AT_ONCE, AT_ONCE + 1, 3 * AT_ONCE - 1])
+@pytest.mark.parametrize("shared", [True, False])
+def test_rows_are_those_of_single_calls(n, shared):
+    arguments = [ca.SX.sym(name, size) for name, size in (("x", 2), ("z", 3), ("p", 1), ("t", 1), ("c", 2))]
+    x, z, p, t, c = arguments
+    function = ca.Function("f", arguments, [ca.vertcat(x * p + t, z * c[0], c[1])])
+    rng = np.random.default_rng(n)
+    xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
+    cs, p0 = rng.random(2) if shared else rng.random((n, 2)), rng.random(1)
+    found = Rowwise(function)(xs, zs, p0, ts, cs)
+    own = np.broadcast_to(cs, (n, 2))
+    expected = [np.array(function(xs[k], zs[k], p0, ts[k], own[k])).ravel() for k in range(n)]
+    np.testing.assert_array_equal(found, expected)
+
+
+def test_once_for_each_model_and_argument():
+    counted = []
+
+    @once
+    def twice(model, number):
+        counted.append((model.name, number))
+        return 2 * number
+
+    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    assert [twice(a, 1), twice(a, 1), twice(a, 2), twice(b, 1)] == [2, 2, 4, 2]
+    assert counted == [("a", 1), ("a", 2), ("b", 1)]
