@@ -145,13 +145,17 @@ class Guards:
 
     @cached_property
     def continuous(self) -> Call:
-        """Function of x, z, parameters, time, constants and new constants: what is differentiated, and so must not jump.
+        """Function of x, z, parameters, time, constants, new constants, nominal changes and a time: what must not jump.
 
-        All unknowns are those before the instant; the switches of the entries themselves take the new values.
+        That is what is differentiated. All unknowns are those before the instant; the switches of the entries themselves
+        take the new values. The second result is how much the nominal changes, and that time, change each entry.
         """
-        new = ca.SX.sym("new", self.reduced.constants.numel())
-        entries = ca.substitute([e for e, _ in self._entries], [self.reduced.constants], [new])
-        return Call(ca.Function("continuous", [*self.arguments, new], [self._resolve(entries)]))
+        r = self.reduced
+        new, unknowns = ca.SX.sym("new", r.constants.numel()), ca.vertcat(r.x, r.z)
+        nominal, span = ca.SX.sym("nominal", unknowns.numel()), ca.SX.sym("span")
+        entries = self._resolve(ca.substitute([e for e, _ in self._entries], [r.constants], [new]))
+        size = ca.fabs(ca.jacobian(entries, unknowns)) @ nominal + ca.fabs(ca.jacobian(entries, time.sx)) * span
+        return Call(ca.Function("continuous", [*self.arguments, new, nominal, span], [entries, ca.densify(size)]))
 
     @property
     def differentiated(self) -> list[Origin]:

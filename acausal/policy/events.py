@@ -13,7 +13,8 @@ class Instants:
     rounds: int = 20
     # Of the run: what changes sign within that time does so now.
     short: float = 1e-8
-    # Of the size: a smaller jump is the error with which an event is located.
+    # Of the values, and of what nominal values and the length of the run change in them: a smaller jump is the error with
+    # which an event is located.
     jump: float = 1e-5
     # Of the size in a run: an excess that changes less does not move.
     moves: float = 1e-3

@@ -115,11 +115,13 @@ class Instants:
         if not self.guards.differentiated:
             return
         here = at.x, at.z, self.problem.p, at.time, at.constants.vector
-        both = at.constants.vector, constants.vector
-        before, after = (self.guards.continuous(*here, new)[0].copy() for new in both)
-        jumps = np.nan_to_num(np.abs(after - before))
-        worst = int(np.argmax(jumps))
-        if jumps[worst] > INSTANTS.jump:
+        both = [at.constants.vector, constants.vector]
+        found = [np.array(self.guards.continuous(*here, new, self.nominal, self.span)) for new in both]
+        (before, size), (after, size_after) = np.nan_to_num(found, posinf=1e300, neginf=-1e300)
+        jumps = np.abs(after - before)
+        excess = jumps - INSTANTS.jump * (np.abs(before) + np.abs(after) + size + size_after)
+        worst = int(np.argmax(excess))
+        if excess[worst] > 0:
             raise Failure(
                 at.time,
                 f"what is differentiated at {self.guards.differentiated[worst]} jumps by {jumps[worst]:.4g}; a jump has no "

@@ -56,6 +56,13 @@ def test_angle_that_bends():
     np.testing.assert_allclose(result["wheel.w"], 2 * np.maximum(result.time - 1, 0), atol=1e-9)
 
 
+@pytest.mark.parametrize("size", [1e-9, 1e-3, 1e6])
+def test_jumps_count_over_the_size_of_the_motion(size):
+    assert f"jumps by {size:.4g}" in refused(Driven(drive=Position(phi_ref=piecewise((0, time < 1), size))), 1)
+    result = ac.simulate(Driven(drive=Position(phi_ref=size * BEND)), stop_time=2.0)
+    np.testing.assert_allclose(result["wheel.w"], 2 * size * np.maximum(result.time - 1, 0), atol=1e-9 * size)
+
+
 def test_speed_that_jumps_and_speed_with_a_kink():
     wheel = Inertia(J=1.0, phi=fixed(0))
     refused(Driven(drive=Speed(w_ref=STEP), wheel=wheel), 1)
