@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterable
 from functools import cache
 from itertools import combinations, product
@@ -47,3 +48,8 @@ def pairwise(*choices: Iterable) -> list:
         pytest.param(*(v[k] for v, k in zip(values, one, strict=True)), marks=() if one in few else pytest.mark.slow)
         for one in every
     ]
+
+
+def heed_interrupts() -> None:
+    """What is started in the background ignores interrupts, and so does what that starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -42,7 +41,7 @@ class Local:
     jacobian: scipy.sparse.csc_matrix
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class CompiledModel:
     """A model that can be initialised, integrated and linearised; made by `compile`.
 
@@ -227,13 +226,11 @@ class CompiledModel:
         chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
         key = (plugin, grid, chosen, energy, moves)
         if key not in self.integrators:
-            started = clock.perf_counter()
             dae = self._dae(energy, moves)
             if plugin != "idas":
                 dae = in_sizes(dae, self.nominal[self.nx :])
             function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)
-            self.seconds["integrators"] = self.seconds.get("integrators", 0.0) + clock.perf_counter() - started
         return self.integrators[key]
 
     @cached_property

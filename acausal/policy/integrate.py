@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Order:
     """Order limit of the multistep method."""
 
-    # Oscillations that much faster than the motion are not resolved by its steps: spin-up at 1e-6 with order 5 took 394,523
+    # Oscillations so many times faster than the motion are not resolved by its steps: spin-up at 1e-6 with order 5 took 394,523
     # steps, a rigid pendulum over 100 s at 1e-10 with order 2 took 500,760.
     fast: float = 30.0
     # States up to which all eigenvalues are computed; with constraints, iterations would find those of the projection.

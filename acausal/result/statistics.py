@@ -20,7 +20,7 @@ class Statistics(Mapping[str, Any]):
     steps, factorisations, residual_evaluations, calls, choices : int
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
-        Seconds; the last are those inside the integrators.
+        Seconds; the first are those of the model and of the integrators that the run made, the last those inside them.
     method, method_steps, max_order, order_reason, tolerance, fastest_rate, constraints
         What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
         the start in 1/s, and how loops stayed closed.

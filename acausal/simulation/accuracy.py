@@ -178,7 +178,7 @@ class Search:
             return replace(numerics, number=2 * numerics.number)
         self.history.append(found.tolerance)
         if len(self.history) > 2 and self.history[-1] > ACCURACY.stuck * self.history[-3]:
-            raise self._refusal("smaller tolerances change the result without an end")
+            raise self._refusal("smaller tolerances keep changing the result")
         missing = np.log10(min(found.tolerance, 1e3) / self.accuracy)
         return self._tighter(numerics, max(1, int(missing)))
 

@@ -22,7 +22,7 @@ def pace(times: np.ndarray, rate: np.ndarray) -> np.ndarray:
 
 
 def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
-    """Divide each interval into so many parts that no motion comes round from one look to the next all the time.
+    """Divide each interval into uneven parts, so that no periodic motion stays in step with the samples.
 
     Parameters
     ----------
@@ -37,3 +37,8 @@ def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
     times = np.concatenate([grid[:1], (grid[:-1, None] + inside).ravel()])
     times[::parts] = grid
     return times
+
+
+def spread(n: int, most: int) -> np.ndarray:
+    """Return the places of at most so many of n rows, evenly spread, the first and the last among them."""
+    return np.unique(np.linspace(0, n - 1, min(n, most)).astype(int))

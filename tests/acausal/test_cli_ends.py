@@ -16,6 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from acausal.cli import app
+from tests.shared import heed_interrupts
 
 ROOT = Path(__file__).parents[2]
 MODELS = '''"""Models of a user."""
@@ -250,11 +251,6 @@ def test_values_that_are_numbers(run):
     done = run("simulate", "ends.py:Base", "--json", "-")
     assert json.loads(done.stdout)["not_finite"] == {}
     assert "Warning" not in done.stderr
-
-
-def heed_interrupts():
-    """What is started in the background ignores interrupts, and so does what that starts."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @pytest.fixture

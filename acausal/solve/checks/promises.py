@@ -19,6 +19,7 @@ from acausal.solve.checks.validity import Watch, watch
 from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
+from acausal.solve.looks import spread
 from acausal.symbols import scalars
 
 PROMISES = POLICY.promises
@@ -89,11 +90,7 @@ def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
     if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.t) < 2:
         return []
     look = _Look(integrator, run)
-    rows = np.unique(
-        np.linspace(
-            0, len(run.t) - 1, min(len(run.t), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
-        ).astype(int)
-    )
+    rows = spread(len(run.t), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
     values, first, found = look.rows(rows), 0, dict[str, str]()
     for promise in look.seen.stated:
         n = promise.step.numel()

@@ -18,6 +18,7 @@ from acausal.language.functions import initial, time
 from acausal.language.validity import Expectation, Separation
 from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
+from acausal.solve.looks import spread
 from acausal.solve.problem import Point, Problem
 from acausal.symbols import stacked
 
@@ -92,9 +93,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
     seen = _expectations(compiled)
     if not seen.stated:
         return []
-    rows = np.unique(
-        np.linspace(0, len(run.t) - 1, min(len(run.t), VALIDITY.dear if seen.wanted else VALIDITY.rows)).astype(int)
-    )
+    rows = spread(len(run.t), VALIDITY.dear if seen.wanted else VALIDITY.rows)
     x, z, t, constants = run.x[rows], run.z[rows], run.t[rows], run.constants[rows]
     values = np.abs(seen.function(x, z, run.solver.p, t, constants))
     if seen.wanted:

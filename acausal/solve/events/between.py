@@ -26,7 +26,7 @@ class Between:
     times, x, z : arrays, shapes (n,), (n, nx), (n, nz)
         Times in s, states and consistent algebraic unknowns.
     defect : array, shape (n,)
-        How much the states would be off at the end if their rates were off all the way as they are there, in parts of
+        How much the states would be off at the end if their rates were off all the way as they are there, as a fraction of
         what the tolerance allows (defect control, Enright 1989).
     """
 

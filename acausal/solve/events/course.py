@@ -205,7 +205,7 @@ class Run:
         return stretch.end(at)
 
     def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
-        """Keep what was before the event, let it happen, and continue from it."""
+        """Keep what was before the event, apply it, and continue from it."""
         after = crossing.after
         out = after.value <= 0
         width = self.instants.width(at)
@@ -269,7 +269,7 @@ class Run:
 
     def _text(self, time: float, guards: list[int], what: str) -> str:
         return (
-            f"at t = {time:.6g} s the events do not come to an end; these conditions {what}:\n"
+            f"at t = {time:.6g} s events repeat without end; these conditions {what}:\n"
             f"{places_text(self.integrator.compiled, guards)}\n"
             "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "

@@ -17,7 +17,7 @@ INSTANTS = POLICY.instants
 
 
 class Cycling(Exception):
-    """The conditions of the guards `names` do not settle."""
+    """The conditions of `guards` do not settle."""
 
     def __init__(self, guards: list[int]) -> None:
         super().__init__()

@@ -90,7 +90,7 @@ class Stride:
         return True
 
     def begin(self, since: float | None = None) -> None:
-        """Begin with one interval, after an event that came so many seconds after the point before."""
+        """Begin with one interval, after an event that came `since` seconds after the point before."""
         self.block = 1
         if since is not None and self.density > LOOKS.densest:
             # Where there are many looks to an interval, there are many events: look no further than a few.

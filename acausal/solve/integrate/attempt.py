@@ -17,6 +17,7 @@ from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import Setup, rounding, set_up
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Stretch, Trace
+from acausal.solve.looks import spread
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.loop_states import choose_projection, worn
 
@@ -77,7 +78,7 @@ class Integrator:
         if not self.loops or constants.moves:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
-        some = np.unique(np.linspace(0, len(times) - 1, min(len(times), looks)).astype(int))
+        some = spread(len(times), looks)
         return bool(np.any(worn(self.problem, x[some], times[some], constants) < POLICY.loops.worn))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
@@ -106,7 +107,9 @@ class Integrator:
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
         setup = set_up(self.problem, self.settings, way, at, times, self.rounding(at))
+        started = clock.perf_counter()
         call = c.integrator(setup.plugin, grid, setup.options, works, way.moves)
+        self.trace.building += clock.perf_counter() - started
         x_size, z_size = setup.sizes
         given = {"x0": at.x / x_size, "z0": at.z / z_size}
         vector, own = at.constants.vector, x_size if setup.plugin != "idas" else []

@@ -12,6 +12,7 @@ import numpy as np
 from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.looks import spread
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.newton import algebraic, terms
 
@@ -113,7 +114,7 @@ class Consistent:
         key = tuple(unknowns)
         if key not in self._natural or len(t) > CONSISTENT.many:
             size = np.zeros(c.nz)
-            for k in np.unique(np.linspace(0, len(t) - 1, CONSISTENT.looks).astype(int)):
+            for k in spread(len(t), CONSISTENT.looks):
                 J = abs(c.at(x[k], z[k], self.p, float(t[k]), constants[k], 0.0).jacobian[c.nx + equations])
                 entries = J[:, c.nx + unknowns].tocoo()
                 terms = (J @ np.abs(np.concatenate([x[k], z[k]])))[entries.row]

@@ -17,7 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.looks import GOLDEN
+from acausal.solve.looks import GOLDEN, spread
 from acausal.solve.problem import Point
 from acausal.solve.start.newton import algebraic
 
@@ -142,7 +142,7 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
 def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
     """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
     x, z, t, constants = rows
-    some = np.unique(np.linspace(0, len(t) - 1, ENERGY.looks).astype(int))
+    some = spread(len(t), ENERGY.looks)
     return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))
 
 

@@ -90,9 +90,7 @@ class Failure(Exception):
     @classmethod
     def of(cls, refusal: Refusal) -> Failure:
         """Return the failure that a refusal is, if nothing else helps."""
-        return cls(
-            refusal.time, refusal.reason or "it found no step short enough, or needs more steps than it is allowed"
-        )
+        return cls(refusal.time, refusal.reason or "the integrator reported no reason")
 
 
 def accepted(found: Found | Refusal) -> Found:
@@ -130,7 +128,7 @@ class Rescues:
     projects : bool
         Whether the projection may move where the chosen states become unsuitable.
     loops : bool
-        Whether there are constraints; then whatever goes wrong but too many steps may be the states' fault.
+        Whether there are constraints; then any refusal except too many steps may be due to the chosen states.
     damps : bool
         Whether vibrations that the outputs cannot show may be damped.
     tolerance : float

@@ -87,7 +87,7 @@ def settle(run: Integrator, at: Point, times: np.ndarray) -> tuple[Point, np.nda
 def choose(run: Integrator, at: Point, times: np.ndarray) -> Stretch | None:
     """Integrate a short way with both order limits, and take the one with fewer evaluations of the equations from here on.
 
-    The highest order must win by far: a limit of 2 damps what it does not follow, and what is dear at first is cheap then.
+    The highest order must win by far: a limit of 2 damps what it does not follow, and what is costly at first becomes cheap.
 
     Returns
     -------

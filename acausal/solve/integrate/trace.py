@@ -32,6 +32,7 @@ class Trace:
     calls: int = 0
     choices: int = 0
     seconds: float = 0.0
+    building: float = 0.0
     before: np.ndarray = field(default_factory=lambda: np.zeros(2))
     methods: dict[str, int] = field(default_factory=dict)
     loosened: list[float] = field(default_factory=list)
@@ -40,7 +41,7 @@ class Trace:
 
     def emptied(self) -> Trace:
         """Return a trace without rows in which the counts continue."""
-        names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds")
+        names = ("steps", "factorisations", "residual_evaluations", "calls", "choices", "seconds", "building")
         return Trace(**{name: getattr(self, name) for name in names}, methods=dict(self.methods))
 
     def rows(self, first: Point) -> Rows:

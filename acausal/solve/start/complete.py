@@ -142,8 +142,8 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     nominal = problem.nominal
     if not np.any(np.abs(x[rates]) > LOOPS.rest * nominal[rates]):
         raise InitializationError(
-            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops go on. "
-            "Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
+            f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops "
+            "continue. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
     later = LOOPS.away / float(np.max(np.abs(x[rates]) / nominal[coordinates]))
     moved = x.copy()

@@ -87,7 +87,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         try:
             at = _solve(problem, system, at)
         except InitializationError:
-            # Where only forces of a singular position lack a value, the closed loops alone determine how to leave it.
+            # Where only forces of a singular position lack a value, the closed loops alone determine how to leave that position.
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
     # The conditions of the initial system no longer hold; the states stay, the rest follows.

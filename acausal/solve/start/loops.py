@@ -154,7 +154,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
         lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
     if lines and np.max(gap) > LOOPS.closed:
         raise InitializationError(
-            f"these loops cannot close at t = {at.time:g} s, whatever their joints do:\n"
+            f"these loops cannot close at t = {at.time:g} s, for any position of their joints:\n"
             + "\n".join(lines)
             + "\nCheck lengths, free one of the fixed start values (guess(...) instead of fixed(...)), or give better "
             "guesses of the joints' positions."

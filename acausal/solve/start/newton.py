@@ -118,7 +118,7 @@ def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> 
 
 
 def reach(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
-    """Return the change that unknowns as large as they are, and nominal ones, make in each row."""
+    """Return the change in each row by unknowns of their present and nominal sizes together."""
     return abs(J) @ (np.abs(y) + nominal)
 
 

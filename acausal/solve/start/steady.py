@@ -1,4 +1,4 @@
-"""Equilibrium: states at which all rates vanish, on the constraints, near the guesses, stable if there is such a one.
+"""Equilibrium: states at which all rates vanish, on the constraints, near the guesses, stable if one exists.
 
 Newton steps of least norm lead to the nearest equilibrium, which may be an unstable one. The motion itself, with steps
 of the implicit Euler method that grow, loses energy on the way and ends in a stable one (pseudo-transient continuation,

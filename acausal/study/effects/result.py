@@ -83,7 +83,7 @@ class Effects:
         return {path: value for path, value in self.choices[name].items() if not same(value, standing[path])}
 
     def table(self) -> str:
-        """Return everything as text for people, at most 120 columns wide."""
+        """Return everything as text for a terminal, at most 120 columns wide."""
         labelled = self._labelled()
         shown = changes(labelled, self.outputs).text(narrow=True)
         if max(map(len, shown.splitlines())) > WIDTH:
@@ -205,7 +205,7 @@ class Effects:
             yield f"For {' or '.join(names)} alone: {words}."
         if not self.refused and not standing.error and standing.change() > self.accuracy:
             yield (
-                f"The scene as it stands is not among them: it is {number(standing.change())} from the fullest "
+                f"The scene as it stands does not reach it: it is {number(standing.change())} from the fullest "
                 f"({standing.worst})."
             )
         for name, error in self.floor.largest.items():

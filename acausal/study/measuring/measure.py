@@ -50,14 +50,12 @@ def measure(job: Job) -> Measurement:
 
 
 def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
-    built = compiled.seconds.pop("integrators", 0.0)
     result, took = _run(job, compiled, show)
     stats, seconds = result.stats, [took]
     while sum(seconds) < (
         POLICY.study.enough if len(seconds) < job.repeats else POLICY.study.little * (job.repeats > 1)
     ):
         seconds.append(_run(job, compiled, show)[1])
-    compiled.seconds["integrators"] = compiled.seconds.get("integrators", 0.0) + built
     found = Measurement(
         job.case,
         compile_seconds=stats.compile_seconds,

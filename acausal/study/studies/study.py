@@ -180,7 +180,7 @@ def study(
     initial : str, optional
         As of `simulate`.
     repeats : int
-        Runs of a case whose median counts; what takes seconds is not repeated.
+        Runs of a case whose median counts; runs of several seconds are not repeated.
     limit : float
         Seconds after which a case is stopped.
     workers : int, optional

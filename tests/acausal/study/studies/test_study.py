@@ -15,6 +15,7 @@ from acausal.errors import DeclarationError
 from acausal.study import cluster, processes
 from tests.acausal.study import decay
 from tests.acausal.study.decay import Decay, study
+from tests.shared import heed_interrupts
 
 ROOT = Path(__file__).parents[4]
 
@@ -143,7 +144,7 @@ def long_study(tmp_path):
 @pytest.mark.slow
 def test_an_interrupted_study_goes_on(tmp_path):
     command, journal = long_study(tmp_path), tmp_path / "a.csv.journal"
-    run = subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True)
+    run = subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts)
     while not (journal.exists() and len(journal.read_text().splitlines()) > 3):
         assert run.poll() is None
         time.sleep(0.005)
