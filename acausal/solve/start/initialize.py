@@ -225,10 +225,10 @@ def _rows(problem: Problem, at: Point) -> list[list[int]]:
     A condition on a velocity then determines a velocity, although it also holds the orientation.
     """
     J: Any = problem.local(at, 1.0).jacobian.tocoo()
-    rows: list[list[int]] = [[] for _ in range(J.shape[0])]
-    for k in np.argsort(-np.abs(np.nan_to_num(J.data)) * problem.nominal[J.col], kind="stable"):
-        rows[J.row[k]].append(int(J.col[k]))
-    return rows
+    row, column = J.row, J.col
+    order = np.lexsort((-np.abs(np.nan_to_num(J.data)) * problem.nominal[column], row))
+    ends = np.searchsorted(row[order], np.arange(1, J.shape[0]))
+    return [part.tolist() for part in np.split(column[order], ends)]
 
 
 def _direct(problem: Problem, used: list[int], rows: list[list[int]]) -> dict[int, int]:
