@@ -46,7 +46,8 @@ class Linearization:
     def eigenvalues(self) -> np.ndarray:
         """Eigenvalues of A in 1/s, by size, then by imaginary part."""
         values = np.asarray(np.linalg.eigvals(self.A), dtype=complex)
-        return values[np.lexsort((np.imag(values), np.round(np.abs(values), 9)))]
+        size = np.abs(values) / (np.max(np.abs(values), initial=0.0) or 1.0)
+        return values[np.lexsort((np.imag(values), np.round(size, 9)))]
 
     @property
     def _oscillations(self) -> np.ndarray:

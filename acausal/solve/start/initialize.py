@@ -228,7 +228,7 @@ def _rows(problem: Problem, at: Point) -> list[list[int]]:
     row, column = J.row, J.col
     order = np.lexsort((-np.abs(np.nan_to_num(J.data)) * problem.nominal[column], row))
     ends = np.searchsorted(row[order], np.arange(1, J.shape[0]))
-    return [part.tolist() for part in np.split(column[order], ends)]
+    return [part.tolist() for part in np.split(column[order], ends)][: J.shape[0]]
 
 
 def _direct(problem: Problem, used: list[int], rows: list[list[int]]) -> dict[int, int]:

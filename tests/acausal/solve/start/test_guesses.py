@@ -157,3 +157,17 @@ def test_which_guess_is_kept_depends_on_no_start_before() -> None:
     second = ac.simulate(model, stop_time=0.1, initial="guesses", parameters={"a": 1e-3, "b": 1.0})
     assert second["x"][0] == 3.0
     assert second["y"][0] == pytest.approx(0.997)
+
+
+class Nothing(Model):
+    """No unknown is left."""
+
+    y: Scalar = variable("known", start=1.0)
+
+    def equations(self):
+        yield self.y == 2.0
+
+
+@pytest.mark.parametrize("initial", ["fixed", "guesses", "steady"])
+def test_a_model_without_unknowns_starts(initial: str) -> None:
+    assert ac.simulate(Nothing(), stop_time=1.0, initial=initial, intervals=2)["y"] == pytest.approx([2.0] * 3)
