@@ -1,6 +1,7 @@
 """Every threshold of the numerical work in one record, each with the theory, test or scene that fixed it.
 
-All are relative: to a tolerance, to the nominal value of an unknown, to the length of the run, or they are counts.
+All are relative: to a tolerance, to the nominal value of an unknown, to the length of the run, or they are counts; those of
+studies that limit how long something is repeated are seconds.
 """
 
 from __future__ import annotations

@@ -62,6 +62,8 @@ class Looks:
     # nothing turns back.
     densest: int = 32
     steps_a_row: int = 4
+    # How many times as many, where there were too few.
+    denser: int = 4
     # The same in all intervals, that there may be at least: few are checked as often as many.
     rows: int = 12_800
     # Difference of output intervals, over them, that is rounding.
@@ -79,6 +81,14 @@ class Locate:
     trial_steps: int = 20_000
     # A condition may change within an interval that it could cross so much faster than it moves at the ends.
     reach: float = 3.0
+    # A condition has changed where it is beyond 0 by that part of what the tolerance lets it be off.
+    level: float = 0.01
+    # Errors of the least value of a cubic, over their estimate.
+    error: float = 3.0
+    # Halvings of an interval beyond which there is no solution: 2^-40 of it.
+    halvings: int = 40
+    # Of an output interval: an event that near is on the output.
+    snap: float = 0.01
     # Times at which a stretch is checked between its rows.
     looks: int = 4000
     # Of the run: no two times of a stretch are nearer.

@@ -21,7 +21,13 @@ class Newton:
     terms: float = 1e3
     # Residual, over the change that the sizes of its unknowns make in it: ten times `converged`.
     consistent: float = 1e-7
-    # Shortest step of the homotopy (Allgower & Georg 1990) before the path counts as ended.
+    # What the residual norm may keep beside its natural decrease: rounding of scaled steps.
+    floor: float = 1e-14
+    # Steps of the homotopy (Allgower & Georg 1990) over its path: the first, by how much they grow and shrink, and the
+    # shortest before the path counts as ended.
+    first: float = 0.1
+    growth: float = 1.5
+    shrinkage: float = 3.0
     shortest: float = 1e-4
 
 
@@ -42,6 +48,8 @@ class Ranks:
     motion: float = 1e-2
     shake: float = 1e-3
     away: float = 0.1
+    # Random motions in which a rank is computed again: one that stays low in three is low.
+    motions: int = 3
     # How well the loops must close after such a motion: its effect on ranks is that of `closed` over `motion`.
     moved: float = 1e-10
     # Singular values that a step of least norm takes as 0, and those that polishing does: beside a singular position.
@@ -49,6 +57,10 @@ class Ranks:
     polish: float = 1e-7
     # A constraint that cannot be dropped counts as that much longer than others.
     kept: float = 1e3
+    # So do, where states are chosen, those that no constraint holds, coordinates before their rates, and guessed states.
+    unheld: float = 100.0
+    coordinate: float = 10.0
+    guessed: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -62,8 +74,10 @@ class Loops:
     # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
     # needs a large one.
     attempts: tuple[float, ...] = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
-    # Evaluations of a try.
+    # Evaluations of a try, relative changes at which it ends, and steps of least norm that polish it.
     evaluations: int = 200
+    ends: float = 1e-15
+    polishing: int = 5
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05

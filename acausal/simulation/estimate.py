@@ -80,7 +80,7 @@ def estimate(run: Result, finer: Result, tenths: float, doubled: Result | None, 
         order = ESTIMATE.order
         if halved is not None:
             before = (table(halved)[1] - table(finer)[1]) / unit
-            order = float(np.log2(max(_size(before), 1e-300) / max(_size(step), 1e-300)))
+            order = float(np.log2(max(_size(before), np.finfo(float).tiny) / max(_size(step), np.finfo(float).tiny)))
         by_elements = step / (1 - 2.0 ** -np.clip(order, 1.0, ESTIMATE.highest))
     found = np.max(np.abs(by_tolerance + by_elements), axis=0)
     found = np.where(np.isfinite(found), found, np.inf)

@@ -126,11 +126,20 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     rates = eigenvalues_of(problem, at)
     max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
     fastest = float(np.max(np.abs(rates), initial=0.0))
-    fixed = (task.tolerance, max_order, task.energy, task.progress, task.constraints, task.method, fastest)
-    is_open = task.max_order is None and max_order < POLICY.order.highest
-    nominal, counts = problem.nominal, Trace()
+    settings = Settings(
+        nominal=problem.nominal,
+        tolerance=task.tolerance,
+        max_order=max_order,
+        energy=task.energy,
+        progress=task.progress,
+        constraints=task.constraints,
+        method=task.method,
+        fastest=fastest,
+        order_is_open=task.max_order is None and max_order < POLICY.order.highest,
+    )
+    counts = Trace()
     for _ in range(POLICY.sizes.passes):
-        integrator = Integrator(problem, Settings(nominal, *fixed, is_open), (task.start_time, task.stop_time), counts)
+        integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
         done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), reason, None)
         try:
             done.course.go(at)
@@ -138,10 +147,10 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
             return replace(done, failure=interrupt)
         except (Failure, Chattering) as failure:
             done = replace(done, failure=failure)
-        fitting = smaller_sizes(problem, integrator.trace.rows(at).x, nominal, task.tolerance, span)
+        fitting = smaller_sizes(problem, integrator.trace.rows(at).x, settings.nominal, task.tolerance, span)
         if fitting is None:
             break
-        nominal, counts = fitting, integrator.trace
+        settings, counts = replace(settings, nominal=fitting), integrator.trace
     return done
 
 

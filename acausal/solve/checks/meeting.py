@@ -32,7 +32,7 @@ class Meeting:
 
 
 @dataclass(frozen=True)
-class _Rows:
+class _Pair:
     """Rows of a run; and of one pair of points in them, the offset, its length, rate and effect."""
 
     times: np.ndarray
@@ -58,13 +58,13 @@ class _Search:
         self.looks, self.near = 0, 0.0
         self.shortest = MEETING.shortest * max(abs(t) for t in integrator.span)
 
-    def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: np.ndarray) -> _Rows:
+    def rows(self, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: np.ndarray) -> _Pair:
         """Evaluate the pair in rows of a run."""
         values = self.watch.function(x, z, self.integrator.problem.p, t, constants)[:, self.columns]
         offset = values[:, 2:]
-        return _Rows(t, x, z, constants, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
+        return _Pair(t, x, z, constants, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
 
-    def run(self, rows: _Rows, everywhere: bool) -> Iterator[tuple[float, float]]:
+    def run(self, rows: _Pair, everywhere: bool) -> Iterator[tuple[float, float]]:
         """Yield times of meetings in the rows of the run and effects there, in order."""
         for k in range(len(rows.times) - 1) if everywhere else rows.suspects():
             found = list(self._between(rows, k))
@@ -77,11 +77,11 @@ class _Search:
             for time, effect in found if not touched else []:
                 yield min(time, float(rows.times[k + 1])), effect
 
-    def _meetings(self, rows: _Rows) -> Iterator[tuple[float, float]]:
+    def _meetings(self, rows: _Pair) -> Iterator[tuple[float, float]]:
         for k in rows.suspects():
             yield from self._between(rows, k)
 
-    def _between(self, rows: _Rows, k: int) -> Iterator[tuple[float, float]]:
+    def _between(self, rows: _Pair, k: int) -> Iterator[tuple[float, float]]:
         """Meetings between two rows."""
         short = rows.times[k + 1] - rows.times[k] <= self.shortest
         if short or rows.distance[k] + rows.distance[k + 1] <= self.near:
@@ -91,7 +91,7 @@ class _Search:
         elif self.looks < MEETING.looks and (inner := self._inside(rows, k, 1.0)):
             yield from self._meetings(inner)
 
-    def _inside(self, rows: _Rows, k: int, length: float) -> _Rows | None:
+    def _inside(self, rows: _Pair, k: int, length: float) -> _Pair | None:
         """Rows from a row on, `length` times the interval after it; None where they cannot be reached."""
         self.looks += 1
         run, x, z = self.integrator, rows.x[k], rows.z[k]

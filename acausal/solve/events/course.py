@@ -179,7 +179,7 @@ class Run:
         run = self.integrator
         if self.stride.shorten(grid):
             return at
-        for k in range(40):
+        for k in range(POLICY.locate.halvings):
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
@@ -210,8 +210,8 @@ class Run:
         out = after.value <= 0
         width = self.instants.width(at)
         self.weak = self.weak + 1 if np.all(crossing.peak[out] <= width[out]) else 0
-        delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), 1e-300), initial=np.inf)
-        snap = min(float(delay), self.instants.span / (100 * (len(self.times) - 1)))
+        delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), np.finfo(float).tiny), initial=np.inf)
+        snap = min(float(delay), POLICY.locate.snap * self.instants.span / (len(self.times) - 1))
         times = np.array([*self.times, *self.breaks])
         near = times[np.argmin(np.abs(times - after.time))]
         on_output = abs(near - after.time) <= snap

@@ -95,7 +95,7 @@ class Locator:
             np.array([r.rate for r in samples]),
         )
         width = self.instants.width(at)
-        level = levels(sides, width / 100)
+        level = levels(sides, LOCATE.level * width)
         out = np.any(sides.value[1:] < level[1:], axis=1)
         end = int(np.argmax(out)) if out.any() else len(out)
         least, error = dips(sides)
@@ -105,7 +105,9 @@ class Locator:
         near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= LOCATE.reach * travel
         round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
         turning = _near(samples[: end + 1], level[: end + 1])
-        doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < 3 * error))), axis=1)[: end + 1]
+        doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < LOCATE.error * error))), axis=1)[
+            : end + 1
+        ]
         doubtful[end:] = False
         if not content and depth == 0 and (round_about.any() or len(turning) > most):
             raise TooCoarse
@@ -123,7 +125,7 @@ class Locator:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
         if end == len(out):
             return None
-        return self._narrow(at, samples[end], samples[end + 1], width / 100, peak[end])
+        return self._narrow(at, samples[end], samples[end + 1], LOCATE.level * width, peak[end])
 
     def sample(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""

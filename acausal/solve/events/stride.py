@@ -62,7 +62,7 @@ class Stride:
         if stretch.steps <= LOOKS.steps_a_row * (len(stretch.times) + 3):
             return True
         if self.density < self.densest:
-            needed = max(4 * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
+            needed = max(LOOKS.denser * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
             self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
         elif len(grid) > 2:
             self.block = max(1, (len(grid) - 1) // LOOKS.fine)
@@ -74,7 +74,7 @@ class Stride:
         """Check more often from now on; False if the limit is reached."""
         if self.density >= self.densest:
             return False
-        self.density = min(self.densest, 4 * self.density)
+        self.density = min(self.densest, LOOKS.denser * self.density)
         return True
 
     def lengthen(self) -> None:
@@ -86,7 +86,7 @@ class Stride:
         """Take fewer intervals next; False if there is only one."""
         if len(grid) <= 2:
             return False
-        self.block = max(1, (len(grid) - 1) // 8)
+        self.block = max(1, (len(grid) - 1) // LOOKS.fine)
         return True
 
     def begin(self, since: float | None = None) -> None:

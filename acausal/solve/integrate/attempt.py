@@ -105,7 +105,7 @@ class Integrator:
             parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span = times[-1] - times[0]
-        grid = tuple(np.round((times[1:] - times[0]) / span, 12).tolist())
+        grid = tuple(np.round((times[1:] - times[0]) / span, POLICY.calls.digits).tolist())
         setup = set_up(self.problem, self.settings, way, at, times, self.rounding(at))
         started = clock.perf_counter()
         call = c.integrator(setup.plugin, grid, setup.options, works, way.moves)
@@ -154,7 +154,7 @@ class Integrator:
         """Keep the rows that an interrupted call had written, unless it was a trial on the way."""
         begin, end = self.span
         last = self.trace.last().times if self.trace.pieces else begin
-        here = np.isclose(at.time, last, rtol=1e-9, atol=1e-9 * (end - begin))
+        here = np.isclose(at.time, last, rtol=POLICY.calls.here, atol=POLICY.calls.here * (end - begin))
         found = self._reached(call, setup, at, times, parts) if here else None
         if found and (not self.settings.energy or call.function.nnz_out("qf")):
             self.trace.add(found)

@@ -23,7 +23,7 @@ from acausal.solve.start.newton import algebraic
 
 ENERGY = POLICY.energy
 
-Rows = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def powers(
@@ -62,7 +62,7 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def refined(
-    compiled: CompiledModel, solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float, smooth: bool
+    compiled: CompiledModel, solver: Consistent, rows: Points, given: np.ndarray, tolerance: float, smooth: bool
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row, and whether it is known to the tolerance.
 
@@ -107,7 +107,9 @@ def refined(
     return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)]), True
 
 
-def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.ndarray, bool]:
+def between_rows(
+    compiled: CompiledModel, solver: Consistent, rows: Points, tolerance: float
+) -> tuple[np.ndarray, bool]:
     """Work up to each row from more and more points between them, on cubics through the states, until it settles.
 
     Parameters
@@ -139,14 +141,14 @@ def between_rows(compiled: CompiledModel, solver: Consistent, rows: Rows, tolera
     return np.nan_to_num(found), False
 
 
-def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Rows) -> float:
+def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Points) -> float:
     """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
     x, z, t, constants = rows
     some = spread(len(t), ENERGY.looks)
     return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))
 
 
-def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _inside(rows: Points, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """States, algebraic unknowns nearly right, and times since the first row; s counts rows."""
     x, z, t, _ = rows
     k = np.minimum(s.astype(int), len(t) - 2)
@@ -162,7 +164,7 @@ def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, n
 def _seen(
     compiled: CompiledModel,
     solver: Consistent,
-    rows: Rows,
+    rows: Points,
     times: np.ndarray,
     power: np.ndarray,
     rates: np.ndarray | None = None,

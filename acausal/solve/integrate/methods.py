@@ -88,7 +88,7 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
         "calc_ic": steepest > 1 and not (way.gentle or way.careful),
     }
     if (way.gentle or way.careful) and steepest > 1:
-        options["step0"] = 10.0 ** -np.ceil(np.log10(10 * steepest))
+        options["step0"] = 10.0 ** -np.ceil(np.log10(steepest / CALLS.gentle))
     return Setup("idas", options, (np.ones(c.nx), 1.0))
 
 
@@ -124,5 +124,5 @@ def rounding(problem: Problem, at: Point) -> np.ndarray:
     except np.linalg.LinAlgError:
         reach = np.zeros(problem.nz)
     nominal = problem.nominal[nx:]
-    floor = nominal * 10.0 ** np.ceil(np.log10(np.maximum(CALLS.rounding * reach / nominal, 1e-300)))
+    floor = nominal * 10.0 ** np.ceil(np.log10(np.maximum(CALLS.rounding * reach / nominal, np.finfo(float).tiny)))
     return np.concatenate([np.zeros(nx), np.where(np.isfinite(floor), floor, 0.0)])

@@ -56,8 +56,8 @@ class Trace:
 
     def until(self, time: float) -> Trace:
         """Return the rows before a time, with the same counts."""
-        cut = [Rows(*(column[: np.searchsorted(piece.times, time)] for column in piece)) for piece in self.pieces]
-        return replace(self, pieces=[piece for piece in cut if len(piece.times)])
+        kept = [Rows(*(column[: np.searchsorted(piece.times, time)] for column in piece)) for piece in self.pieces]
+        return replace(self, pieces=[piece for piece in kept if len(piece.times)])
 
     def count(self, stats: dict, plugin: str) -> int:
         """Add the counts of a call, and return its steps."""

@@ -128,7 +128,7 @@ def _left(compiled: CompiledModel, rows: np.ndarray, independent: int, free: np.
     told, plan = compiled.reduced.flat.unknowns.guessed, compiled.reduced.plan
     of = {q.state: q.coordinate for q in plan.constrained.projections}
     guessed = [bool(told[of.get(v, v)]) if of.get(v, v) < len(told) else False for v in plan.states]
-    weight = np.where(np.array(guessed)[free], 10.0, 1.0)
+    weight = np.where(np.array(guessed)[free], POLICY.ranks.guessed, 1.0)
     order = pivots(null * weight)[: len(null)]
     return sorted(int(free[k]) for k in order)
 

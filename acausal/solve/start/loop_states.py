@@ -95,7 +95,7 @@ def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarra
         block = D[active][:, columns]
         order = pivots(block)[: len(active)]
         size = np.abs(block[:, order])
-        pairs = scipy.optimize.linear_sum_assignment(-np.log(np.maximum(size, 1e-300)))
+        pairs = scipy.optimize.linear_sum_assignment(-np.log(np.maximum(size, np.finfo(float).tiny)))
         for r, k in zip(*pairs, strict=True):
             selection[active[r], columns[order[k]]] = 1.0
     return selection

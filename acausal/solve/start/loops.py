@@ -97,8 +97,8 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tu
         start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
-        options: Any = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "x_scale": scale, "max_nfev": LOOPS.evaluations}
-        options["jac"] = lambda u: evaluate(u)[1]
+        options: Any = dict.fromkeys(("xtol", "ftol", "gtol"), LOOPS.ends)
+        options |= {"x_scale": scale, "max_nfev": LOOPS.evaluations, "jac": lambda u: evaluate(u)[1]}
         u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
@@ -119,7 +119,7 @@ def tighten(problem: Problem, at: Point) -> Point:
 
 def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Gauss-Newton steps of least norm down to rounding."""
-    for _ in range(5):
+    for _ in range(LOOPS.polishing):
         value, J = evaluate(u)
         step = scale * np.linalg.lstsq(J * scale, -value, rcond=POLICY.ranks.polish)[0]
         if not np.max(np.abs(evaluate(u + step)[0])) < np.max(np.abs(value), initial=0.0):

@@ -41,14 +41,14 @@ class InitialSystem:
 def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
     """Follow F(y) = (1 - s) F(y_0) from s = 0 to 1 (Newton homotopy, Allgower & Georg 1990); None if it leads nowhere."""
     first = problem.values(at, 1.0)[system.rows + problem.nx].copy()
-    s, step = 0.0, 0.1
+    s, step = 0.0, NEWTON.first
     while s < 1:
         target = min(1.0, s + step)
         try:
             at = newton(problem, system, at, 1.0, (1 - target) * first)
-            s, step = target, 1.5 * step
+            s, step = target, NEWTON.growth * step
         except InitializationError:
-            step /= 3
+            step /= NEWTON.shrinkage
             if step < NEWTON.shortest:
                 return None
     return at
@@ -84,7 +84,9 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
             value = residual(tried)
             if np.all(np.isfinite(value)):
                 simplified = solve(value)
-                if np.linalg.norm(simplified / scale) <= (1 - damping / 4) * np.linalg.norm(step / scale) + 1e-14:
+                # The restricted monotonicity test (Deuflhard 2004, section 3.3).
+                least = (1 - damping / 4) * np.linalg.norm(step / scale) + NEWTON.floor
+                if np.linalg.norm(simplified / scale) <= least:
                     break
             damping /= 2
             if damping < NEWTON.damping:

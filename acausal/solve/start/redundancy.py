@@ -39,7 +39,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         return Redundancy()
     free = np.linalg.norm(here, axis=0) > 0
     best, singular = here, False
-    for seed in range(3):
+    for seed in range(RANKS.motions):
         moved = _moved(problem, at, here, free, seed)
         there = jacobian(moved) if moved is not None else here
         if rank(there, RANKS.nearly) > rank(best, RANKS.nearly):

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from acausal.policy import POLICY
 from acausal.solve.problem import Point, Problem
 from acausal.solve.start.rank import null_space, pivots
 
@@ -27,8 +28,8 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
-    weight = np.where(np.any(J != 0, axis=0), 1.0, 100.0)
-    weight[[k for k in rate_of if weight[k] == 1.0]] = 10.0
+    weight = np.where(np.any(J != 0, axis=0), 1.0, POLICY.ranks.unheld)
+    weight[[k for k in rate_of if weight[k] == 1.0]] = POLICY.ranks.coordinate
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
     paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
