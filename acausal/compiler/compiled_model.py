@@ -216,18 +216,18 @@ class CompiledModel:
         return Guards(self.reduced, self.start.function)
 
     def integrator(
-        self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool
+        self, plugin: str, grid: tuple[float, ...], options: Mapping[str, Any], energy: bool, moves: bool, sized: bool
     ) -> Call:
         """Return the integrator for a relative grid and options, built once.
 
-        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the constants are its parameters; if it is
-        not IDAS, so are the sizes of the states.
+        Time is scaled, t = t0 + s T: t0, T, what follows from parameters alone, and the constants are its parameters; if it
+        sees states over their sizes, so are these.
         """
         chosen = tuple(sorted((k, v if not isinstance(v, list) else tuple(v)) for k, v in options.items()))
-        key = (plugin, grid, chosen, energy, moves)
+        key = (plugin, grid, chosen, energy, moves, sized)
         if key not in self.integrators:
             dae = self._dae(energy, moves)
-            if plugin != "idas":
+            if sized:
                 dae = in_sizes(dae, self.nominal[self.nx :])
             function = ca.integrator("simulate", plugin, dae, 0.0, list(grid), dict(options))
             self.integrators[key] = Call(function)

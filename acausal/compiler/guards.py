@@ -205,11 +205,11 @@ class Guards:
     def along(
         self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return watched excesses and their time derivatives, a row for each time."""
+        """Return watched excesses and their time derivatives, a row for each time, which has constants of its own."""
         n = len(t)
         if n not in self._maps:
             self._maps[n] = Call(self._rates.map(n))
-        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, np.tile(constants, n))
+        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, constants.ravel())
         return value.reshape(n, -1).copy(), np.nan_to_num(rate.reshape(n, -1), posinf=0.0, neginf=0.0)
 
     @cached_property

@@ -35,11 +35,10 @@ class Rowwise:
             Parameters.
         t : array, shape (n,)
             Times in s.
-        constants : array, shape (m,) or (n, m)
-            Constants of the segment, or of that of each time.
+        constants : array, shape (n, m)
+            Constants of the segment of each time.
         """
         n = len(t)
-        constants = np.broadcast_to(constants, (n, constants.shape[-1]))
         size = AT_ONCE if n > 1 else 1
         if size not in self._calls:
             self._calls[size] = Call(self.function.map(size))

@@ -7,7 +7,7 @@ The larger of the two errors decides what to refine.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
 from acausal.simulation.runs import Numerics, Runs
+from acausal.solve.integrate.methods import METHODS, chosen
 
 ACCURACY = POLICY.accuracy
 
@@ -122,14 +123,14 @@ class Search:
         The multistep method then takes about a step for each radian of the fastest vibration, whatever the tolerance.
         """
         task, coarse = self.runs.task, self.runs(numerics)
-        if isinstance(coarse, SimulationError) or task.max_order or task.method == "rosenbrock":
+        if isinstance(coarse, SimulationError) or task.max_order or not _follows(chosen(task.method)[:1]):
             return numerics
-        follows = coarse.stats.max_order == 5 and "rosenbrock" not in coarse.stats.method_steps
+        follows = coarse.stats.max_order == POLICY.order.highest and _follows(coarse.stats.method_steps)
         turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
         if follows or ACCURACY.growth * _work(coarse) < ACCURACY.anew * turns:
             return numerics
         self.history.clear()
-        return replace(numerics, tolerance=self.first, method="idas", max_order=5)
+        return replace(numerics, tolerance=self.first, method=chosen("resolve")[0], max_order=POLICY.order.highest)
 
     def _state(self, numerics: Numerics) -> State | None:
         """Run and estimate; None where a run fails."""
@@ -230,7 +231,12 @@ def _what(path: str) -> str:
 
 def _work(run: Result) -> int:
     """Return the steps, those of the one-step method counted several times."""
-    return sum(n * (ACCURACY.one_step if name == "rosenbrock" else 1) for name, n in run.stats.method_steps.items())
+    return sum(n * (1 if METHODS[name].multistep else ACCURACY.one_step) for name, n in run.stats.method_steps.items())
+
+
+def _follows(methods: Iterable[str]) -> bool:
+    """Whether every vibration is followed by all of some methods."""
+    return all(METHODS[name].multistep for name in methods)
 
 
 def _tenth(tolerance: float, k: int) -> float:

@@ -15,10 +15,11 @@ from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.runs import Runs
 from acausal.simulation.settings import settled
+from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
-METHODS = ("auto", "idas", "rosenbrock", "resolve")
+CHOICES = ("auto", *METHODS, "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
 TOLERANCE = 1e-6
 
@@ -116,7 +117,7 @@ def simulate(
     how["tolerance"] = TOLERANCE if how["tolerance"] is None else how["tolerance"]
     task = Task(start_time=start_time, energy=energy, progress=progress, **how)
     _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
-    _choose("method", task.method, METHODS)
+    _choose("method", task.method, CHOICES)
     _choose("constraints", task.constraints, CONSTRAINTS)
     try:
         result = _simulate(model, parameters, task, accuracy)

@@ -1,41 +1,17 @@
-"""What every stage of a run works on: a model with its parameters, and points."""
+"""What every stage of a run works on: a model with its parameters."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.compiled_model import Local
-from acausal.compiler.constants import Constants
+from acausal.compiler.rowwise import Rowwise
 from acausal.policy import POLICY
-
-
-@dataclass(frozen=True, eq=False)
-class Point:
-    """Where a run is: time in s, states, algebraic unknowns, constants, and which watched conditions hold."""
-
-    time: float
-    x: np.ndarray
-    z: np.ndarray
-    constants: Constants
-    truth: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=bool))
-
-    @property
-    def y(self) -> np.ndarray:
-        """States and algebraic unknowns."""
-        return np.concatenate([self.x, self.z])
-
-    def differs(self, other: Point) -> bool:
-        """Whether states, constants or what holds differ."""
-        mine, others = ((at.x, at.constants.vector, at.truth) for at in (self, other))
-        return any((one != another).any() for one, another in zip(mine, others, strict=True))
-
-    def with_y(self, y: np.ndarray) -> Point:
-        """Return the point with other states and algebraic unknowns."""
-        return replace(self, x=y[: len(self.x)], z=y[len(self.x) :])
+from acausal.solve.points import Point, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +106,19 @@ class Problem:
         z[self.compiled.constraints.multipliers] = 0.0
         return replace(at, z=z)
 
-    def watched(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
-        """Return the watched excesses and their time derivatives, one row of each."""
-        vector = at.constants.vector
-        return self.compiled.guards.along(at.x[None], at.z[None], self.p, np.array([at.time]), vector)
+    def watched(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
+        """Return the watched excesses and their time derivatives, one row for each time."""
+        return self.compiled.guards.along(rows.x, rows.z, self.p, rows.times, rows.constants)
+
+    def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
+        """Return the values of a function, one row for each time."""
+        return function(rows.x, rows.z, self.p, rows.times, rows.constants)
+
+    def stored(self, at: Point) -> float:
+        """Return the stored energy in J."""
+        return float(self.compiled.stored(at.x, at.z, self.p, at.time, at.constants.vector)[0][0])
+
+    def point(self, rows: Rows, k: int) -> Point:
+        """Return a row as a point."""
+        constants = self.compiled.layout.constants(rows.constants[k])
+        return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)

@@ -21,11 +21,13 @@ from acausal.solve.events.course import Chattering, Run
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.methods import chosen
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
 from acausal.solve.start.redundancy import is_singular
 from acausal.solve.start.start import go_on, start
@@ -72,7 +74,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     seconds = clock.perf_counter() - started - done.integrator.trace.building
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
-        done.integrator.trace = done.integrator.trace.until(met.time)
+        done.integrator.trace.cut(met.time)
     result = _result(done, plan, replace(_counted(done, plan), solve_seconds=seconds), task.energy)
     if met:
         raise SimulationError(met.text, result)
@@ -133,7 +135,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
         energy=task.energy,
         progress=task.progress,
         constraints=task.constraints,
-        method=task.method,
+        methods=chosen(task.method),
         fastest=fastest,
         order_is_open=task.max_order is None and max_order < POLICY.order.highest,
     )
@@ -210,17 +212,17 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
 def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result:
     run = done.integrator
     compiled, times = run.compiled, plan.times
-    t, x, z, works, constants = run.trace.rows(done.first)
-    rows = np.searchsorted(t, times[times <= t[-1]])
-    evaluate = Evaluator(compiled, t[rows], x[rows], z[rows], constants[rows], run.consistent)
-    found = doubts(compiled, evaluate) + broken_promises(run, evaluate)
+    rows = run.trace.rows(done.first)
+    output = rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
+    evaluate = Evaluator(output, run.consistent)
+    found = doubts(evaluate) + broken_promises(run, evaluate)
     stats = replace(stats, doubts=[*found, *_loosened(run)])
     if energy:
         if run.trace.rough:
             caution(ROUGH)
-        stored = Evaluator(compiled, t[[0, -1]], x[[0, -1]], z[[0, -1]], constants[[0, -1]], run.consistent)
+        stored = Evaluator(rows[[0, -1]], run.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
-        supplied, dissipated = works[-1].tolist()
+        supplied, dissipated = run.trace.energy.tolist()
         stats = replace(
             stats,
             energy_supplied=supplied,
@@ -228,7 +230,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
             energy_dissipated=dissipated,
             energy_method=supplied - change - dissipated,
         )
-    return Result(t[rows], evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
+    return Result(output.times, evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
 
 
 def _loosened(run: Integrator) -> list[str]:
@@ -248,8 +250,7 @@ def _failure_text(done: _Done, failure: Failure) -> str:
     compiled = problem.compiled
     lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
     if trace.pieces:
-        last = trace.last()
-        at = Point(float(last.times), last.x, last.z, compiled.layout.constants(last.constants))
+        at = problem.point(trace.pieces[-1].rows, -1)
         rates = problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx]
         fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
         names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)

@@ -20,6 +20,7 @@ from acausal.solve.events.between import between
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
+from acausal.solve.points import Rows
 from acausal.symbols import scalars
 
 PROMISES = POLICY.promises
@@ -45,22 +46,15 @@ class _Look:
 
     def rows(self, rows: np.ndarray) -> np.ndarray:
         """Values at output points."""
-        run = self.run
-        return self._values(run.x[rows], run.z[rows], run.t[rows], run.constants[rows])
+        return self._values(self.run.rows[rows])
 
     def inside(self, row: int, times: np.ndarray) -> np.ndarray:
         """Values at times between an output point and the next."""
-        run, pair = self.run, slice(row, row + 2)
-        vector = run.constants[row]
-        constants = self.integrator.compiled.layout.constants(vector)
-        found = between(self.integrator, constants, run.t[pair], run.x[pair], run.z[pair], times)
-        return self._values(found.x, found.z, times, vector)
+        return self._values(between(self.integrator, self.run.rows[row : row + 2], times).rows)
 
-    def _values(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
+    def _values(self, rows: Rows) -> np.ndarray:
         solver = self.run.solver
-        z = solver(x, z, t, constants, self.seen.wanted)
-        solver.unsolved.clear()
-        return self.seen.function(x, z, solver.p, t, constants)
+        return solver.problem.each(self.seen.function, solver(rows, self.seen.wanted)[0])
 
 
 @once
@@ -87,10 +81,10 @@ def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
     run : Evaluator
         Output points of the run.
     """
-    if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.t) < 2:
+    if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.rows) < 2:
         return []
     look = _Look(integrator, run)
-    rows = spread(len(run.t), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
+    rows = spread(len(run.rows), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
     values, first, found = look.rows(rows), 0, dict[str, str]()
     for promise in look.seen.stated:
         n = promise.step.numel()
@@ -134,7 +128,7 @@ def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed:
             _Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values[:, columns], strict=True)
         ]
 
-    a, b = points(look.run.t[row : row + 2], look.rows(np.array([row, row + 1])))
+    a, b = points(look.run.rows.times[row : row + 2], look.rows(np.array([row, row + 1])))
     for k in range(PROMISES.closer):
         if min(_step(a, b), _jump(a, b)) <= allowed:
             return b.time, 0.0, k > 0

@@ -19,7 +19,8 @@ from acausal.language.validity import Expectation, Separation
 from acausal.policy import POLICY
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 from acausal.symbols import stacked
 
 VALIDITY = POLICY.validity
@@ -76,26 +77,24 @@ def check_start(problem: Problem, at: Point) -> None:
     """Raise InitializationError if variables break a requirement at the start."""
     found = _at_start(problem.compiled)
     if found.stated:
-        row = found.function(at.x[None], at.z[None], problem.p, np.array([at.time]), at.constants.vector)[0]
+        row = problem.each(found.function, Rows.of(at))[0]
         refuse(found.stated, row, InitializationError)
 
 
-def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
+def doubts(run: Evaluator) -> list[str]:
     """Say what components neglected although it was not small; at most VALIDITY.rows of the points are checked.
 
     Parameters
     ----------
-    compiled : CompiledModel
-        The model.
     run : Evaluator
-        Its output points.
+        Output points of a run.
     """
-    seen = _expectations(compiled)
+    problem = run.solver.problem
+    seen = _expectations(problem.compiled)
     if not seen.stated:
         return []
-    rows = spread(len(run.t), VALIDITY.dear if seen.wanted else VALIDITY.rows)
-    x, z, t, constants = run.x[rows], run.z[rows], run.t[rows], run.constants[rows]
-    values = np.abs(seen.function(x, z, run.solver.p, t, constants))
+    rows = run.rows[spread(len(run.rows), VALIDITY.dear if seen.wanted else VALIDITY.rows)]
+    values = np.abs(problem.each(seen.function, rows))
     if seen.wanted:
         # The integrator's own values show at once where nothing is near its limit.
         most = np.max(np.nan_to_num(values), axis=0)
@@ -104,9 +103,7 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
             for (s, _), part, whole in zip(seen.stated, most[::2], most[1::2], strict=True)
         ):
             return []
-        z = run.solver(x, z, t, constants, seen.wanted)
-        run.solver.unsolved.clear()
-        values = np.abs(seen.function(x, z, run.solver.p, t, constants))
+        values = np.abs(problem.each(seen.function, run.solver(rows, seen.wanted)[0]))
     found = []
     for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)
@@ -115,5 +112,5 @@ def doubts(compiled: CompiledModel, run: Evaluator) -> list[str]:
         if np.max(part) > expectation.share * so_far[-1]:
             most = float(np.max(part)) / so_far[-1] if so_far[-1] > 0 else 1.0
             worst = f"up to {100 * most:.2g} %" if most < 1 else "as much as all"
-            found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {t[over][0]:.4g} s on)")
+            found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {rows.times[over][0]:.4g} s on)")
     return found

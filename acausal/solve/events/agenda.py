@@ -10,7 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.guards import Guards
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
-from acausal.solve.problem import Point
+from acausal.solve.points import Point
 
 
 class Agenda:

@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.energy import between_rows
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 
 BETWEEN = POLICY.between
 
@@ -23,68 +22,52 @@ class Between:
 
     Attributes
     ----------
-    times, x, z : arrays, shapes (n,), (n, nx), (n, nz)
-        Times in s, states and consistent algebraic unknowns.
+    rows : Rows
+        n points with consistent algebraic unknowns.
     defect : array, shape (n,)
         How much the states would be off at the end if their rates were off all the way as they are there, as a fraction of
         what the tolerance allows (defect control, Enright 1989).
     """
 
-    times: np.ndarray
-    x: np.ndarray
-    z: np.ndarray
+    rows: Rows
     defect: np.ndarray
 
 
-def between(
-    run: Integrator,
-    constants: Constants,
-    ends: np.ndarray,
-    x: np.ndarray,
-    z: np.ndarray,
-    times: np.ndarray,
-) -> Between:
+def between(run: Integrator, ends: Rows, times: np.ndarray) -> Between:
     """Interpolate.
 
     Parameters
     ----------
     run : Integrator
         With model, parameters and tolerance.
-    constants : Constants
-        Those of the segment.
-    ends, x, z : arrays, shapes (2,), (2, nx), (2, nz)
-        The two points, with algebraic unknowns nearly right.
+    ends : Rows
+        The two points, with algebraic unknowns nearly right; the constants are those of the first.
     times : array, shape (n,)
         Times between them.
     """
-    c, h, vector = run.compiled, ends[1] - ends[0], constants.vector
-    s = ((times - ends[0]) / h)[:, None]
-    z = run.consistent(x, z, ends, vector)
-    rates = run.consistent.rates(x, z, ends, vector)
-    found, slope = cubic(s, h, x, rates)
-    nearly = z[0] + s * (z[1] - z[0])
-    inside = run.consistent(found, nearly, times, vector)
-    true = run.consistent.rates(found, inside, times, vector)
-    weights = run.tolerance * (np.abs(found) + run.settings.nominal[: c.nx])
-    defect = np.max(np.abs(slope - true) * h / weights, axis=1, initial=0.0)
-    if run.consistent.unsolved:
-        run.consistent.unsolved.clear()
-        defect[:] = np.inf
-    return Between(times, found, inside, np.nan_to_num(defect, nan=np.inf))
+    h = ends.times[1] - ends.times[0]
+    s = ((times - ends.times[0]) / h)[:, None]
+    constants = ends.constants[0]
+    ends, lost = run.consistent(Rows.within(ends.times, ends.x, ends.z, constants))
+    x, slope = cubic(s, h, ends.x, run.consistent.rates(ends))
+    nearly = ends.z[0] + s * (ends.z[1] - ends.z[0])
+    found, failed = run.consistent(Rows.within(times, x, nearly, constants))
+    weights = run.tolerance * (np.abs(x) + run.settings.nominal[: run.compiled.nx])
+    defect = np.max(np.abs(slope - run.consistent.rates(found)) * h / weights, axis=1, initial=0.0)
+    return Between(found, np.full(len(times), np.inf) if lost or failed else np.nan_to_num(defect, nan=np.inf))
 
 
-def work_between(run: Integrator, constants: Constants, ends: np.ndarray, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Integrals of the supplied and of the dissipated power in J from one point to another; arguments as of `between`."""
-    c, vector = run.compiled, constants.vector
-    if not run.settings.energy or c.powers.is_zero() or ends[1] <= ends[0]:
+def work_between(run: Integrator, at: Point, end: Point) -> np.ndarray:
+    """Integrals of the supplied and of the dissipated power in J from one point of a segment to another."""
+    if not run.settings.energy or run.compiled.powers.is_zero() or end.time <= at.time:
         return np.zeros(2)
-    looks = np.linspace(ends[0], ends[1], BETWEEN.looks + 2)[1:-1]
-    if np.all(between(run, constants, ends, x, z, looks).defect <= BETWEEN.faithful):
-        found, known = between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)
+    ends = Rows.of(at, end)
+    looks = np.linspace(at.time, end.time, BETWEEN.looks + 2)[1:-1]
+    if np.all(between(run, ends, looks).defect <= BETWEEN.faithful):
+        found, known = between_rows(run.consistent, ends, run.tolerance)
         if known:
             return found[-1]
-    at = Point(float(ends[0]), x[0], z[0], constants)
-    stretch = run.attempt(at, ends, replace(run.way, max_steps=BETWEEN.most_steps, careful=True))
+    stretch = run.attempt(at, ends.times, replace(run.way, max_steps=BETWEEN.most_steps, careful=True))
     if isinstance(stretch, Stretch):
         return stretch.energy[-1]
-    return between_rows(c, run.consistent, (x, z, ends, vector), run.tolerance)[0][-1]
+    return between_rows(run.consistent, ends, run.tolerance)[0][-1]

@@ -22,7 +22,7 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, nex
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 from acausal.solve.start.start import places_text
 
 INSTANTS = POLICY.instants
@@ -132,10 +132,9 @@ class Run:
     def _advance(self, at: Point, end: float) -> Point:
         """Integrate one stretch and go to its end, or to the first event in it."""
         grid = self.stride.grid(at.time, end)
-        way = replace(
-            self.integrator.way, max_steps=max(POLICY.rescue.fewest_long, POLICY.rescue.long // (len(grid) - 1))
-        )
-        stretch = self.integrator.attempt(at, self.stride.looks(grid), way)
+        run = self.integrator
+        way = replace(run.way, max_steps=run.settings.patience(run.way, grid))
+        stretch = run.attempt(at, self.stride.looks(grid), way)
         if isinstance(stretch, Refusal):
             return self._otherwise(at, grid, stretch)
         if not self.stride.is_enough(stretch, grid):
@@ -218,12 +217,11 @@ class Run:
         label = float(near) if on_output and near > at.time else after.time
         n = int(np.searchsorted(stretch.times, min(label, after.time)))
         if n:
-            self.integrator.trace.add(stretch.rows(0, n))
+            self.integrator.trace.add(stretch.part(0, n))
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
-        last = (stretch.times[n - 1], stretch.x[n - 1], stretch.z[n - 1]) if n else (at.time, at.x, at.z)
-        time, x, z = (np.array(pair) for pair in zip(last, (after.time, after.x, after.z), strict=True))
-        gained = work_between(self.integrator, after.constants, time, x, z)
-        reached = replace(at, time=max(label, after.time), x=after.x, z=after.z, constants=after.constants)
+        last = stretch.part(0, n).end(at) if n else at
+        gained = work_between(self.integrator, replace(last, constants=stretch.constants), after.at)
+        reached = replace(after.at, time=max(label, after.time))
         new = self._jump(reached, label, gained, crossed=out)
         if on_output and near == at.time:
             self.integrator.trace.put(-2, new)
@@ -241,8 +239,8 @@ class Run:
         new, stored, changed = self._settled(at, **causes)
         if changed:
             self.events.append(at.time)
-        energy = (gained + stored)[None]
-        self.integrator.trace.add(Stretch(np.array([label]), new.x[None], new.z[None], energy, new.constants, 0))
+        rows = Rows.of(replace(new, time=label))
+        self.integrator.trace.add(Stretch(rows, (gained + stored)[None], new.constants, 0))
         return new
 
     def _settled(self, at: Point, **causes: Any) -> tuple[Point, np.ndarray, bool]:
@@ -254,12 +252,9 @@ class Run:
         except InitializationError as error:
             raise Failure(at.time, f"the equations have no solution after an event: {error}") from None
         stored = self.integrator.settings.energy and changed
-        change = self._stored(new) - self._stored(at) if stored else 0.0
+        energy = self.integrator.problem.stored
+        change = energy(new) - energy(at) if stored else 0.0
         return new, np.array([max(change, 0.0), max(-change, 0.0)]), changed
-
-    def _stored(self, at: Point) -> float:
-        problem = self.integrator.problem
-        return float(problem.compiled.stored(at.x, at.z, problem.p, at.time, at.constants.vector)[0][0])
 
     def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
         crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span

@@ -9,7 +9,8 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Failure
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import algebraic
 
@@ -51,7 +52,7 @@ class Instants:
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""
-        value, rate = self.problem.watched(at)
+        value, rate = self.problem.watched(Rows.of(at))
         return value[0], rate[0]
 
     def holds(self, at: Point, crossed: np.ndarray) -> np.ndarray:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root
@@ -15,7 +14,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import pace
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
@@ -23,14 +22,16 @@ LOOKS = POLICY.looks
 
 @dataclass(frozen=True)
 class Sample:
-    """Values at a time; `value` and `rate` are positive if unchanged."""
+    """Watched conditions at a point: excesses and their rates, positive if unchanged."""
 
-    time: float
-    x: np.ndarray
-    z: np.ndarray
+    at: Point
     value: np.ndarray
     rate: np.ndarray
-    constants: Constants
+
+    @property
+    def time(self) -> float:
+        """Time in s."""
+        return self.at.time
 
 
 @dataclass(frozen=True)
@@ -82,13 +83,7 @@ class Locator:
         Failure
             If the motion cannot be followed up to the change.
         """
-        samples = self._samples(
-            at,
-            np.concatenate([[at.time], stretch.times]),
-            np.vstack([at.x[None], stretch.x]),
-            np.vstack([at.z[None], stretch.z]),
-            stretch.constants,
-        )
+        samples = self._samples(replace(at, constants=stretch.constants), stretch.since(at))
         sides = Sides(
             np.array([r.time for r in samples]),
             np.array([r.value for r in samples]),
@@ -120,7 +115,7 @@ class Locator:
             suspects = suspects[:0]
         peak = np.maximum.accumulate(sides.value, axis=0)
         for k in suspects if depth < LOCATE.depth else []:
-            inner = self._inside(at, samples[k], samples[k + 1], depth)
+            inner = self._inside(samples[k], samples[k + 1], depth)
             if inner:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
         if end == len(out):
@@ -129,19 +124,18 @@ class Locator:
 
     def sample(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""
-        return self._samples(at, np.array([here.time]), here.x[None], here.z[None], here.constants)[0]
+        return self._samples(replace(here, truth=at.truth), Rows.of(here))[0]
 
-    def _samples(self, at: Point, t: np.ndarray, x: np.ndarray, z: np.ndarray, constants: Constants) -> list[Sample]:
-        """Rows whose algebraic unknowns are consistent as far as the watched conditions need them."""
-        run, guards = self.run, self.instants.guards
-        z = run.consistent(x, z, t, constants.vector, guards.needs)
-        run.consistent.unsolved.clear()
-        value, rate = guards.along(x, z, run.problem.p, t, constants.vector)
+    def _samples(self, at: Point, rows: Rows) -> list[Sample]:
+        """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
+        problem = self.run.problem
+        rows, _ = self.run.consistent(rows, self.instants.guards.needs)
+        value, rate = problem.watched(rows)
         side = np.where(at.truth, -1.0, 1.0)
-        return [
-            Sample(time, a, b, g, d, constants)
-            for time, a, b, g, d in zip(t.tolist(), x, z, value * side, rate * side, strict=True)
-        ]
+        points = (
+            replace(at, time=time, x=x, z=z) for time, x, z in zip(rows.times.tolist(), rows.x, rows.z, strict=True)
+        )
+        return [Sample(here, g, d) for here, g, d in zip(points, value * side, rate * side, strict=True)]
 
     def _seen_between(
         self, at: Point, samples: list[Sample], level: np.ndarray, turning: list[int], end: int
@@ -155,7 +149,7 @@ class Locator:
             if found[k] or b.time - a.time <= LOOKS.fine * self.shortest:
                 continue
             looks += LOOKS.fine
-            inner = self._interpolated(at, a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
+            inner = self._interpolated(a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
             if inner is None or looks > LOCATE.looks or any(np.any(r.value < least) for r in inner):
                 found[k] = True
                 continue
@@ -163,19 +157,17 @@ class Locator:
             todo += [(k, parts[i], parts[i + 1], least) for i in _near(parts, np.tile(least, (len(parts), 1)))]
         return found
 
-    def _interpolated(self, at: Point, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
+    def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
         """Rows between two others; None where the cubic does not follow the motion."""
-        ends = np.array([a.time, b.time])
-        found = between(self.run, a.constants, ends, np.array([a.x, b.x]), np.array([a.z, b.z]), times)
+        found = between(self.run, Rows.of(a.at, b.at), times)
         if np.any(found.defect > POLICY.between.faithful):
             return None
-        return self._samples(at, found.times, found.x, found.z, a.constants)
+        return self._samples(a.at, found.rows)
 
-    def _inside(self, at: Point, a: Sample, b: Sample, depth: int) -> Crossing | None:
+    def _inside(self, a: Sample, b: Sample, depth: int) -> Crossing | None:
         """Look closer between two samples."""
         times = np.linspace(a.time, b.time, LOOKS.fine + 1)
-        begin = Point(a.time, a.x, a.z, at.constants, at.truth)
-        return self.first(begin, accepted(self.run.trial(begin, times, LOCATE.trial_steps)), depth + 1)
+        return self.first(a.at, accepted(self.run.trial(a.at, times, LOCATE.trial_steps)), depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no sample is near.
@@ -216,7 +208,7 @@ class Locator:
         due = (b.value <= 0) & (a.value <= self.instants.width(at))
         if not due.any():
             raise Failure.of(refusal)
-        return replace(a, time=wall, value=np.where(due, np.minimum(a.value, 0.0), a.value))
+        return replace(a, at=replace(a.at, time=wall), value=np.where(due, np.minimum(a.value, 0.0), a.value))
 
     def _predicted(self, a: Sample, b: Sample, level: np.ndarray) -> float:
         out = np.flatnonzero(b.value < level)
@@ -227,10 +219,10 @@ class Locator:
 
     def _between(self, at: Point, a: Sample, b: Sample, time: float) -> Sample | Refusal:
         """The sample at a time between two others: on their cubic if it follows the motion, else integrated."""
-        found = self._interpolated(at, a, b, np.array([time]))
+        found = self._interpolated(a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self.run.trial(Point(a.time, a.x, a.z, at.constants), np.array([a.time, time]), LOCATE.trial_steps)
+        stretch = self.run.trial(a.at, np.array([a.time, time]), LOCATE.trial_steps)
         return stretch if isinstance(stretch, Refusal) else self.sample(at, stretch.end(at))
 
 

@@ -14,11 +14,12 @@ from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import everywhere, refined
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
-from acausal.solve.integrate.methods import Setup, rounding, set_up
+from acausal.solve.integrate.methods import METHODS, Setup, rounding
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Stretch, Trace
 from acausal.solve.looks import spread
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import choose_projection, worn
 
 
@@ -44,6 +45,12 @@ class Integrator:
         self.consistent = Consistent(problem)
         self.way = settings.way
         self._floor: np.ndarray | None = None
+
+    def aside(self) -> Integrator:
+        """Return an integrator that goes on in the same way, and counts for itself."""
+        other = Integrator(self.problem, self.settings, self.span, Trace())
+        other.way = self.way
+        return other
 
     @property
     def tolerance(self) -> float:
@@ -73,13 +80,13 @@ class Integrator:
         self.trace.choices += 1
         return replace(at, constants=choose_projection(self.problem, at, moves=moves))
 
-    def _is_worn(self, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
+    def _is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
         if not self.loops or constants.moves:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
-        some = spread(len(times), looks)
-        return bool(np.any(worn(self.problem, x[some], times[some], constants) < POLICY.loops.worn))
+        some = rows[spread(len(rows), looks)]
+        return bool(np.any(worn(self.problem, some, constants) < POLICY.loops.worn))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
         """Integrate in the current way, carefully where that fails; without works."""
@@ -106,18 +113,11 @@ class Integrator:
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         span = times[-1] - times[0]
         grid = tuple(np.round((times[1:] - times[0]) / span, POLICY.calls.digits).tolist())
-        setup = set_up(self.problem, self.settings, way, at, times, self.rounding(at))
+        setup = METHODS[way.method].set_up(self.problem, self.settings, way, at, times, self.rounding(at))
         started = clock.perf_counter()
-        call = c.integrator(setup.plugin, grid, setup.options, works, way.moves)
+        call = c.integrator(setup.plugin, grid, setup.options, works, way.moves, setup.sizes is not None)
         self.trace.building += clock.perf_counter() - started
-        x_size, z_size = setup.sizes
-        given = {"x0": at.x / x_size, "z0": at.z / z_size}
-        vector, own = at.constants.vector, x_size if setup.plugin != "idas" else []
-        given["p"] = np.concatenate([[times[0], span], self.hoisted, vector, own])
-        for k, name in enumerate(call.function.name_in()):
-            if name in given:
-                call.inputs[k][:] = given[name]
-        call.clear()
+        setup.give(call, at, np.concatenate([[times[0], span], self.hoisted, at.constants.vector]))
         try:
             found = self._outcome(call, setup, way, at, times)
         except KeyboardInterrupt:
@@ -131,29 +131,30 @@ class Integrator:
 
     def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
         """Evaluate a call; return its rows, unless it failed or left the solution."""
-        c, trace, n = self.compiled, self.trace, len(times) - 1
+        c, trace, n, method = self.compiled, self.trace, len(times) - 1, METHODS[way.method]
         started = clock.perf_counter()
         done, said = call.attempt()
         trace.seconds += clock.perf_counter() - started
-        steps = trace.count(call.stats, setup.plugin)
+        steps = trace.count(way.method, *method.counted(call.stats))
         if not done:
             return read(said, times[0], times[-1])
         states, algebraics, energy = setup.rows(call)
-        if self._is_worn(times[1:], states, at.constants):
+        rows = Rows.within(times[1:], states, algebraics, at.constants.vector)
+        if self._is_worn(rows, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
-        few = POLICY.energy.resolved if setup.plugin == "idas" and way.order <= 2 else 1
+        few = POLICY.energy.resolved if method.multistep and way.order <= 2 else 1
         if energy is not None and not c.powers.is_zero() and steps < n * few:
-            rows = np.vstack([at.x, states]), np.vstack([at.z, algebraics]), times, at.constants.vector
             given = np.vstack([np.zeros((1, 2)), energy])
-            work, known = refined(c, self.consistent, rows, given, way.tolerance, steps < n)
+            whole = Rows.joined([Rows.of(at), rows])
+            work, known = refined(self.consistent, whole, given, way.tolerance, steps < n)
             energy, trace.rough = work[1:], trace.rough or not known
         energy = np.zeros((n, 2)) if energy is None else energy
-        return Stretch(times[1:], states, algebraics, energy, at.constants, steps)
+        return Stretch(rows, energy, at.constants, steps)
 
     def _keep_reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> None:
         """Keep the rows that an interrupted call had written, unless it was a trial on the way."""
         begin, end = self.span
-        last = self.trace.last().times if self.trace.pieces else begin
+        last = self.trace.pieces[-1].rows.times[-1] if self.trace.pieces else begin
         here = np.isclose(at.time, last, rtol=POLICY.calls.here, atol=POLICY.calls.here * (end - begin))
         found = self._reached(call, setup, at, times, parts) if here else None
         if found and (not self.settings.energy or call.function.nnz_out("qf")):
@@ -162,22 +163,21 @@ class Integrator:
     def _reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> Stretch | None:
         """Return the rows that a call had written before it ended, if they can be used."""
         found = reached(self.consistent, call, setup, at, times)
-        if found is None or self._is_worn(found.times, found.x, at.constants) or len(found.times) < parts:
+        if found is None or self._is_worn(found.rows, at.constants) or len(found.rows) < parts:
             return None
         return found.every(parts)
 
     def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
         """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""
-        last, vector = slice(-1, None), stretch.constants.vector
-        z = self.consistent(stretch.x[last], stretch.z[last], stretch.times[last], vector)
-        lost, self.consistent.unsolved = self.consistent.unsolved, []
-        end = Point(float(stretch.times[-1]), stretch.x[-1], z[-1], stretch.constants)
+        given = stretch.rows[-1:]
+        last, lost = self.consistent(given)
+        end = self.problem.point(last, 0)
         q = self.problem.projected(end).x
         if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time, Kind.APART.value)
-        if lost and not self.consistent.holds(end.x, end.z, lost[0], vector, tolerance):
+        if lost and not self.consistent.holds(given, 0, tolerance):
             return Refusal(Kind.UNSOLVABLE, end.time, f"{Kind.UNSOLVABLE.value} there")
-        return replace(stretch, z=np.vstack([stretch.z[:-1], z]))
+        return replace(stretch, rows=Rows.joined([stretch.rows[:-1], last]))
 
     def report(self, time: float) -> None:
         """Report the progress."""

@@ -13,7 +13,8 @@ from acausal.compiler.passes import Pass
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.looks import spread
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Rows
+from acausal.solve.problem import Problem
 from acausal.solve.start.newton import algebraic, terms
 
 CONSISTENT = POLICY.consistent
@@ -31,136 +32,101 @@ class Consistent:
     ----------
     evaluations : int
         Evaluations of the equations, or of a part of them, so far; one for each time.
-    unsolved : list of float
-        Times at which no solution was found; what was given stays there.
     """
 
     def __init__(self, problem: Problem) -> None:
-        self.problem, self.compiled, self.p = problem, problem.compiled, problem.p
+        self.problem, self.compiled = problem, problem.compiled
         self.evaluations = 0
-        self.unsolved: list[float] = []
         self._natural: dict[tuple[int, ...], np.ndarray] = {}
 
-    def __call__(
-        self,
-        x: np.ndarray,
-        z: np.ndarray,
-        t: np.ndarray,
-        constants: np.ndarray,
-        wanted: Iterable[int] | None = None,
-    ) -> np.ndarray:
-        """Return algebraic unknowns for which their equations hold.
+    def __call__(self, rows: Rows, wanted: Iterable[int] | None = None) -> tuple[Rows, list[float]]:
+        """Return rows whose algebraic unknowns satisfy their equations, and times at which no such are found.
+
+        What was given stays where none are found.
 
         Parameters
         ----------
-        x, z : arrays, shapes (n, nx), (n, nz)
+        rows : Rows
             States, and algebraic unknowns nearly right.
-        t : array, shape (n,)
-            Times in s.
-        constants : array, shape (m,) or (n, m)
-            Constants of the segment, or of that of each time.
         wanted : iterable of int, optional
             Unknowns that must be right, with all that they need; all if not given.
         """
         c = self.compiled
         unknowns, equations = c.dependence.needed(range(c.nz) if wanted is None else wanted)
-        if not unknowns.size or not len(t):
-            return z
-        constants = np.broadcast_to(constants, (len(t), constants.shape[-1]))
-        first, z = z, z.copy()
-        size = self._sizes(x, z, t, constants, unknowns, equations)
+        if not unknowns.size or not len(rows):
+            return rows, []
+        found = rows.with_z(rows.z.copy())
+        size = self._sizes(rows, unknowns, equations)
         doubtful: set[int] = set()
         for step in c.passes(tuple(unknowns.tolist())):
-            doubtful |= self._settle(step, size[step.unknowns], x, z, t, constants)
-        for row in sorted(doubtful):
-            if not self.holds(
-                x[row], z[row], float(t[row]), constants[row], POLICY.newton.terms * np.finfo(float).eps, equations
-            ):
-                self._alone(row, x, z, first, t, constants)
-        return z
+            doubtful |= self._settle(step, size[step.unknowns], found)
+        rounding = POLICY.newton.terms * np.finfo(float).eps
+        wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, equations)]
+        return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
 
-    def rates(self, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
+    def rates(self, rows: Rows) -> np.ndarray:
         """Return the derivatives of the states, shape (n, nx)."""
-        self.evaluations += len(t)
-        return self.compiled.rates(x, z, self.p, t, constants)
+        self.evaluations += len(rows)
+        return self.problem.each(self.compiled.rates, rows)
 
-    def holds(
-        self,
-        x: np.ndarray,
-        z: np.ndarray,
-        t: float,
-        constants: np.ndarray,
-        tolerance: float,
-        equations: np.ndarray | None = None,
-    ) -> bool:
-        """Whether algebraic equations, all if not given, hold at one time, relative to the sizes of their terms."""
-        c = self.compiled
-        local = c.at(x, z, self.p, t, constants, 0.0)
-        rows = c.nx + (np.arange(c.nz) if equations is None else equations)
-        sizes = terms(local.jacobian[rows, : c.nx + c.nz], np.concatenate([x, z]), c.nominal)
-        return bool(np.all(np.abs(local.value[rows]) <= tolerance * sizes))
+    def holds(self, rows: Rows, k: int, tolerance: float, equations: np.ndarray | None = None) -> bool:
+        """Whether algebraic equations, all if not given, hold in a row, relative to the sizes of their terms."""
+        c, at = self.compiled, self.problem.point(rows, k)
+        local = self.problem.local(at)
+        own = c.nx + (np.arange(c.nz) if equations is None else equations)
+        sizes = terms(local.jacobian[own, : c.nx + c.nz], at.y, c.nominal)
+        return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
 
-    def _sizes(
-        self,
-        x: np.ndarray,
-        z: np.ndarray,
-        t: np.ndarray,
-        constants: np.ndarray,
-        unknowns: np.ndarray,
-        equations: np.ndarray,
-    ) -> np.ndarray:
+    def _sizes(self, rows: Rows, unknowns: np.ndarray, equations: np.ndarray) -> np.ndarray:
         """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
         c = self.compiled
         key = tuple(unknowns)
-        if key not in self._natural or len(t) > CONSISTENT.many:
+        if key not in self._natural or len(rows) > CONSISTENT.many:
             size = np.zeros(c.nz)
-            for k in spread(len(t), CONSISTENT.looks):
-                J = abs(c.at(x[k], z[k], self.p, float(t[k]), constants[k], 0.0).jacobian[c.nx + equations])
+            for k in spread(len(rows), CONSISTENT.looks):
+                at = self.problem.point(rows, k)
+                J = abs(self.problem.local(at).jacobian[c.nx + equations])
                 entries = J[:, c.nx + unknowns].tocoo()
-                terms = (J @ np.abs(np.concatenate([x[k], z[k]])))[entries.row]
+                terms = (J @ np.abs(at.y))[entries.row]
                 here = np.full(len(unknowns), np.inf)
                 with np.errstate(divide="ignore", invalid="ignore"):
                     np.fmin.at(here, entries.col, terms / entries.data)
                 size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
             self._natural[key] = size
-        size = np.maximum(self._natural[key], np.max(np.abs(z), axis=0))
+        size = np.maximum(self._natural[key], np.max(np.abs(rows.z), axis=0))
         nominal = c.nominal[c.nx :]
         return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
-    def _settle(
-        self, step: Pass, size: np.ndarray, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray
-    ) -> set[int]:
+    def _settle(self, step: Pass, size: np.ndarray, rows: Rows) -> set[int]:
         """Repeat a pass in place until nothing changes; return the rows where it did not get there."""
         enough = CONSISTENT.once if step.linear else CONSISTENT.settled
-        rows, before, doubtful = np.arange(len(t)), np.full(len(t), np.inf), set()
-        while rows.size:
-            found = self._newton(step, x[rows], z[rows], t[rows], constants[rows])
-            change = np.max(np.abs(found - z[np.ix_(rows, step.unknowns)]) / size, axis=1)
-            nearer = change < before[rows]
-            doubtful |= set(rows[~nearer].tolist())
-            rows, found, change = rows[nearer], found[nearer], change[nearer]
-            z[np.ix_(rows, step.unknowns)] = found
-            before[rows] = change
-            rows = rows[change > enough]
+        some, before, doubtful = np.arange(len(rows)), np.full(len(rows), np.inf), set()
+        while some.size:
+            found = self._newton(step, rows[some])
+            change = np.max(np.abs(found - rows.z[np.ix_(some, step.unknowns)]) / size, axis=1)
+            nearer = change < before[some]
+            doubtful |= set(some[~nearer].tolist())
+            some, found, change = some[nearer], found[nearer], change[nearer]
+            rows.z[np.ix_(some, step.unknowns)] = found
+            before[some] = change
+            some = some[change > enough]
         return doubtful
 
-    def _newton(self, step: Pass, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
-        """One Newton step at every time; nan where the equations are singular."""
-        self.evaluations += len(t)
-        found = step.function(x, z, self.p, t, constants)
+    def _newton(self, step: Pass, rows: Rows) -> np.ndarray:
+        """One Newton step in every row; nan where the equations are singular."""
+        self.evaluations += len(rows)
+        found = self.problem.each(step.function, rows)
         bad = np.flatnonzero(~np.all(np.isfinite(found), axis=1))
-        for k in bad if len(t) > 1 else ():
+        for k in bad.tolist() if len(rows) > 1 else ():
             # A singular one leaves nothing for the others of its call.
-            found[k] = self._newton(step, x[[k]], z[[k]], t[[k]], constants[[k]])[0]
+            found[k] = self._newton(step, rows[[k]])[0]
         return found
 
-    def _alone(
-        self, row: int, x: np.ndarray, z: np.ndarray, first: np.ndarray, t: np.ndarray, constants: np.ndarray
-    ) -> None:
-        """Solve at one time by the damped iteration, from what was given."""
-        given = Point(float(t[row]), x[row], first[row], self.compiled.layout.constants(constants[row]))
+    def _alone(self, given: Rows, k: int, found: Rows) -> bool:
+        """Solve one row in place by the damped iteration, from what was given; False if that does not converge."""
         try:
-            z[row] = algebraic(self.problem, given).z
+            found.z[k] = algebraic(self.problem, self.problem.point(given, k)).z
         except InitializationError:
-            z[row] = first[row]
-            self.unsolved.append(float(t[row]))
+            found.z[k] = given.z[k]
+            return False
+        return True

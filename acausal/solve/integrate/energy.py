@@ -12,40 +12,29 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from acausal.compiler import CompiledModel
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import GOLDEN, spread
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import algebraic
 
 ENERGY = POLICY.energy
 
-Points = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
-
-def powers(
-    compiled: CompiledModel, solver: Consistent, x: np.ndarray, z: np.ndarray, t: np.ndarray, constants: np.ndarray
-) -> np.ndarray:
+def powers(solver: Consistent, rows: Rows) -> np.ndarray:
     """Supplied and dissipated power in W at n times, shape (n, 2).
 
     Parameters
     ----------
-    compiled : CompiledModel
-        The model.
     solver : Consistent
-        Solves for what the powers need of z.
-    x, z, t : arrays, shapes (n, nx), (n, nz), (n,)
-        States, algebraic unknowns nearly right, and times in s.
-    constants : array
-        Constants of the segment.
+        Solves for the algebraic unknowns that the powers need.
+    rows : Rows
+        States, and algebraic unknowns nearly right.
     """
-    wanted = compiled.dependence.inside(compiled.powers)
-    z = solver(x, z, t, constants, wanted)
-    solver.unsolved.clear()
-    return compiled.power(x, z, solver.p, t, constants)
+    compiled = solver.compiled
+    return solver.problem.each(compiled.power, solver(rows, compiled.dependence.inside(compiled.powers))[0])
 
 
 def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -62,7 +51,7 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def refined(
-    compiled: CompiledModel, solver: Consistent, rows: Points, given: np.ndarray, tolerance: float, smooth: bool
+    solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float, smooth: bool
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row, and whether it is known to the tolerance.
 
@@ -70,10 +59,10 @@ def refined(
 
     Parameters
     ----------
-    compiled, solver
+    solver : Consistent
         As of `powers`.
-    rows : tuple of arrays
-        x, z, t, constants of n rows, as of `powers`.
+    rows : Rows
+        n rows of one segment, as of `powers`.
     given : array, shape (n, 2)
         What the integrator found, in J.
     tolerance : float
@@ -81,12 +70,12 @@ def refined(
     smooth : bool
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
-    x, z, t, constants = rows
-    count, last = min(ENERGY.fewest, len(t) - 1), len(t) - 1
-    least = tolerance * _exchanged(compiled, solver, rows) / len(t)
+    t, last = rows.times, len(rows) - 1
+    count = min(ENERGY.fewest, last)
+    least = tolerance * _exchanged(solver, rows) / len(t)
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
-        power = powers(compiled, solver, x[some], z[some], t[some], constants)
+        power = powers(solver, rows[some])
         if not np.all(np.isfinite(power)):
             return given, False
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
@@ -99,34 +88,31 @@ def refined(
         count = min(2 * count, last)
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
-    if smooth and not (settled and _seen(compiled, solver, rows, t[some] - t[0], power)):
-        closer, known = between_rows(compiled, solver, rows, tolerance)
+    if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power)):
+        closer, known = between_rows(solver, rows, tolerance)
         if known or not np.all(agree):
             return given[0] + closer, known
     steps = np.where(np.repeat(agree, np.diff(some), axis=0), np.diff(given, axis=0), np.diff(fine, axis=0))
     return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)]), True
 
 
-def between_rows(
-    compiled: CompiledModel, solver: Consistent, rows: Points, tolerance: float
-) -> tuple[np.ndarray, bool]:
+def between_rows(solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.ndarray, bool]:
     """Work up to each row from more and more points between them, on cubics through the states, until it settles.
 
     Parameters
     ----------
-    compiled, solver, rows, tolerance
+    solver, rows, tolerance
         As of `refined`.
     """
-    x, z, t, constants = rows
-    z = solver(x, z, t, constants)
-    rows, n, agreed = (x, z, t, constants), len(t) - 1, 0
-    rates = solver.rates(x, z, t, constants)
+    rows, _ = solver(rows)
+    t, n, agreed = rows.times, len(rows) - 1, 0
+    rates = solver.rates(rows)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
-    exchanged = _exchanged(compiled, solver, rows)
+    exchanged = _exchanged(solver, rows)
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
     while n * parts <= ENERGY.most:
-        xs, zs, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
-        power = powers(compiled, solver, xs, zs, t[0] + since, constants)
+        inside, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
+        power = powers(solver, inside)
         if not np.all(np.isfinite(power)):
             break
         before, found = found, work(since, power, t - t[0])
@@ -135,53 +121,43 @@ def between_rows(
         # Between its steps an integrator is not smooth: then more points do not change less.
         rough = np.all((change >= last / 4) & (change <= ENERGY.alike * scale))
         agreed = agreed + 1 if np.all(change / ENERGY.gain <= tolerance * scale) or rough else 0
-        if agreed == 2 and _seen(compiled, solver, rows, since, power, rates):
+        if agreed == 2 and _seen(solver, rows, since, power, rates):
             return found, True
         parts *= 2
     return np.nan_to_num(found), False
 
 
-def _exchanged(compiled: CompiledModel, solver: Consistent, rows: Points) -> float:
+def _exchanged(solver: Consistent, rows: Rows) -> float:
     """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
-    x, z, t, constants = rows
-    some = spread(len(t), ENERGY.looks)
-    return float(np.ptp([compiled.stored(x[k], z[k], solver.p, t[k], constants)[0][0] for k in some]))
+    problem = solver.problem
+    return float(np.ptp([problem.stored(problem.point(rows, k)) for k in spread(len(rows), ENERGY.looks)]))
 
 
-def _inside(rows: Points, rates: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """States, algebraic unknowns nearly right, and times since the first row; s counts rows."""
-    x, z, t, _ = rows
+def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
+    """Rows whose algebraic unknowns are nearly right, and their times since the first row; s counts rows."""
+    x, z, t = rows.x, rows.z, rows.times
     k = np.minimum(s.astype(int), len(t) - 2)
     u = (s - k)[:, None]
     h = (t[k + 1] - t[k])[:, None]
-    return (
-        cubic(u, h, (x[k], x[k + 1]), (rates[k], rates[k + 1]))[0],
-        z[k] + u * (z[k + 1] - z[k]),
-        t[k] - t[0] + (u * h)[:, 0],
-    )
+    found, _ = cubic(u, h, (x[k], x[k + 1]), (rates[k], rates[k + 1]))
+    since = t[k] - t[0] + (u * h)[:, 0]
+    return Rows(t[0] + since, found, z[k] + u * (z[k + 1] - z[k]), rows.constants[k]), since
 
 
 def _seen(
-    compiled: CompiledModel,
-    solver: Consistent,
-    rows: Points,
-    times: np.ndarray,
-    power: np.ndarray,
-    rates: np.ndarray | None = None,
+    solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, rates: np.ndarray | None = None
 ) -> bool:
     """Whether a spline of the power, over times since the first row, is right beside its nodes."""
-    x, z, t, constants = rows
-    s = (np.arange(1, ENERGY.probes + 1) * GOLDEN) % 1 * (len(t) - 1)
+    s = (np.arange(1, ENERGY.probes + 1) * GOLDEN) % 1 * (len(rows) - 1)
     if rates is None:
-        k = np.minimum(s.astype(int), len(t) - 2)
+        k = np.minimum(s.astype(int), len(rows) - 2)
         ends = np.unique([k, k + 1])
-        z = z.copy()
-        z[ends] = solver(x[ends], z[ends], t[ends], constants)
-        rates = np.zeros(x.shape)
-        rates[ends] = solver.rates(x[ends], z[ends], t[ends], constants)
-    probes = _inside((x, z, t, constants), rates, s)
-    true = powers(compiled, solver, probes[0], probes[1], t[0] + probes[2], constants)
-    missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(probes[2]) - true)
+        settled, _ = solver(rows[ends])
+        z, rates = rows.z.copy(), np.zeros(rows.x.shape)
+        z[ends], rates[ends] = settled.z, solver.rates(settled)
+        rows = rows.with_z(z)
+    probes, since = _inside(rows, rates, s)
+    missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(since) - powers(solver, probes))
     return bool(np.all(missed <= ENERGY.alike * np.max(np.abs(power), axis=0)))
 
 
@@ -208,7 +184,8 @@ def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: floa
     for time in times[1:]:
         at = algebraic(solver.problem, replace(at, time=float(time)))
         found.append(at.z)
-    n, z, energy = len(times) - 1, np.array(found), np.zeros((len(times) - 1, 2))
+    n = len(times) - 1
+    rows, energy = Rows.within(times, np.zeros((n + 1, 0)), np.array(found), constants.vector), np.zeros((n, 2))
     if tolerance is not None and not compiled.powers.is_zero():
-        energy = between_rows(compiled, solver, (np.zeros((n + 1, 0)), z, times, constants.vector), tolerance)[0][1:]
-    return Stretch(np.array(times[1:]), np.zeros((n, 0)), z[1:], energy, constants, 0)
+        energy = between_rows(solver, rows, tolerance)[0][1:]
+    return Stretch(rows[1:], energy, constants, 0)

@@ -10,7 +10,7 @@ from acausal.compiler.call import Call
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.methods import Setup
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 
 
 def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Stretch | None:
@@ -34,10 +34,11 @@ def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: 
     x, z, energy = setup.rows(call)
     energy = np.zeros((len(x), 2)) if energy is None else energy
     whole = np.isfinite(np.hstack([x, z, energy])).all(axis=1)
-    found = Stretch(times[1:], x, z, energy, at.constants, 0).rows(0, _leading(whole))
-    if not len(found.times):
+    found = Stretch(Rows.within(times[1:], x, z, at.constants.vector), energy, at.constants, 0)
+    found = found.part(0, _leading(whole))
+    if not len(found.rows):
         return None
-    return found.rows(0, _before_event(consistent, at, found))
+    return found.part(0, _before_event(consistent, at, found))
 
 
 def _leading(holds: Any) -> int:
@@ -49,11 +50,9 @@ def _before_event(consistent: Consistent, at: Point, found: Stretch) -> int:
     """Number of rows before a watched condition changes: beyond, the equations would be others."""
     guards = consistent.compiled.guards
     if not guards.watched:
-        return len(found.times)
-    x, z = np.vstack([at.x[None], found.x]), np.vstack([at.z[None], found.z])
-    t, vector = np.concatenate([[at.time], found.times]), at.constants.vector
-    z = consistent(x, z, t, vector, guards.needs)
-    signs = np.sign(guards.along(x, z, consistent.p, t, vector)[0])
+        return len(found.rows)
+    rows, _ = consistent(found.since(at), guards.needs)
+    signs = np.sign(consistent.problem.watched(rows)[0])
     # Right after an event a condition is at its threshold.
     first = np.where(signs[0] == 0, signs[1], signs[0])
     return _leading((signs[1:] == first).all(axis=1))

@@ -19,7 +19,7 @@ class Way:
     Attributes
     ----------
     method : str
-        "idas" or "rosenbrock".
+        Name in `METHODS`.
     moves : bool
         Whether the projection on the constraints moves along with them; the states are chosen once if not.
     tolerance : float
@@ -124,7 +124,8 @@ class Rescues:
     Attributes
     ----------
     methods : tuple of str
-        Methods that may be taken, the first one first.
+        Methods that may be taken, the first one first; each damps vibrations that the one before it follows, or solves
+        where that does not converge.
     projects : bool
         Whether the projection may move where the chosen states become unsuitable.
     loops : bool
@@ -145,13 +146,17 @@ class Rescues:
         """Whether another choice of states may help."""
         return self.loops and refusal.kind is not Kind.STEPS
 
+    def after(self, method: str) -> str:
+        """Return the next method; the last one stays."""
+        return self.methods[min(self.methods.index(method) + 1, len(self.methods) - 1)]
+
 
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     """Return the ways to try after a refused one, in this order; none if only shorter stretches are left.
 
-    A quick way gives place to the projection that moves where the chosen states became unfit, and to the one-step method,
-    which damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What
-    comes after a careful way is the other method, then longer steps.
+    A quick way gives place to the projection that moves where the chosen states became unfit, and to the next method, which
+    damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What comes
+    after a careful way are the other methods, then longer steps.
 
     Parameters
     ----------
@@ -171,6 +176,6 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
         )
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
-    if "rosenbrock" in rescues.methods and (stuck or (refusal.kind is Kind.STEPS and rescues.damps)):
-        changed = replace(changed, method="rosenbrock")
+    if stuck or (refusal.kind is Kind.STEPS and rescues.damps):
+        changed = replace(changed, method=rescues.after(way.method))
     return () if changed == way else (changed,)

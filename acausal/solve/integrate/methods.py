@@ -1,4 +1,4 @@
-"""The two ways of integration: the multistep method that follows everything, the one-step method that damps.
+"""Methods of integration: the multistep method that follows everything, the one-step method that damps.
 
 The one-step method (Rosenbrock, L-stable, order 5) sees rates only as far as they change coordinates: their size in the
 error test is that of the coordinate times the fastest eigenvalue. Vibrations too small to be seen in the coordinates are
@@ -7,6 +7,7 @@ then damped instead of followed.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,58 +18,72 @@ from acausal.compiler.dae import UNSEEN
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 
 CALLS = POLICY.calls
 
 
 @dataclass(frozen=True)
 class Setup:
-    """Integrator, its options, and the sizes of states and algebraic unknowns that it sees as 1."""
+    """Integrator of CasADi, its options, and the sizes of states and algebraic unknowns that it sees as 1, if it does."""
 
     plugin: str
     options: dict[str, Any]
-    sizes: tuple[np.ndarray, np.ndarray | float]
+    sizes: tuple[np.ndarray, np.ndarray] | None = None
+
+    def give(self, call: Call, at: Point, p: np.ndarray) -> None:
+        """Write where a call begins, and its parameters."""
+        x_size, z_size = self.sizes or (1.0, 1.0)
+        own = self.sizes[0] if self.sizes else []
+        given = {"x0": at.x / x_size, "z0": at.z / z_size, "p": np.concatenate([p, own])}
+        for k, name in enumerate(call.function.name_in()):
+            if name in given:
+                call.inputs[k][:] = given[name]
+        call.clear()
 
     def rows(self, call: Call) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
         """Return states, algebraic unknowns and integrals of power that a call has found; None where it has no such."""
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
-        n = call.function.size2_out("xf")
-        x, z = out["xf"].reshape(n, -1) * self.sizes[0], out["zf"].reshape(n, -1) * self.sizes[1]
+        n, (x_size, z_size) = call.function.size2_out("xf"), self.sizes or (1.0, 1.0)
+        x, z = out["xf"].reshape(n, -1) * x_size, out["zf"].reshape(n, -1) * z_size
         return x, z, out["qf"].reshape(n, 2).copy() if out["qf"].size else None
 
 
-def set_up(problem: Problem, settings: Settings, way: Way, at: Point, times: np.ndarray, floor: np.ndarray) -> Setup:
-    """Return integrator and options of a way.
+@dataclass(frozen=True)
+class Method:
+    """A method of integration.
 
-    Parameters
+    Attributes
     ----------
-    problem : Problem
-        The model.
-    settings : Settings
-        How the run is to be integrated.
-    way : Way
-        How this stretch of it is.
-    at : Point
-        Where it begins.
-    times : array
-        Start and output times in s.
-    floor : array
-        Errors that rounding causes, see `rounding`.
+    set_up : callable
+        Returns the `Setup` of a call, from the model, how the run and this call are to be integrated, where it begins, start
+        and output times in s, and the errors that rounding causes, see `rounding`.
+    counts : tuple of str
+        What it calls its steps, factorisations and evaluations of the equations.
+    multistep : bool
+        Whether its order has a limit. Such methods follow every vibration, steps of the others cost several times as much.
     """
-    if way.method == "rosenbrock":
-        return _one_step(problem, settings, way, times)
-    return _multistep(problem, settings, way, at, times[-1] - times[0], floor)
+
+    set_up: Callable[[Problem, Settings, Way, Point, np.ndarray, np.ndarray], Setup]
+    counts: tuple[str, str, str]
+    multistep: bool
+
+    def counted(self, stats: Mapping[str, Any]) -> tuple[int, ...]:
+        """Return steps, factorisations and evaluations of a call."""
+        return tuple(int(stats.get(name, 0)) for name in self.counts)
 
 
-def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: float, floor: np.ndarray) -> Setup:
+def _multistep(
+    problem: Problem, settings: Settings, way: Way, at: Point, times: np.ndarray, floor: np.ndarray
+) -> Setup:
     """IDAS: order limit, algebraic unknowns out of the error test, weights from nominal values.
 
     IDAS takes all first derivatives as 0 unless it computes them itself: the quick way lets it compute them, if any
     matter; the careful one starts with a step so short that they do not, and with the linear solver that does not rely on
     its pivots.
     """
-    c, tolerance, nominal = problem.compiled, way.tolerance, settings.nominal
+    c, tolerance, nominal, span = problem.compiled, way.tolerance, settings.nominal, times[-1] - times[0]
     rates = problem.values(at)[: c.nx]
     weights = tolerance * (np.abs(at.x) + nominal[: c.nx])
     steepest = float(np.max(np.abs(rates) * span / weights, initial=0.0))
@@ -89,10 +104,12 @@ def _multistep(problem: Problem, settings: Settings, way: Way, at: Point, span: 
     }
     if (way.gentle or way.careful) and steepest > 1:
         options["step0"] = 10.0 ** -np.ceil(np.log10(steepest / CALLS.gentle))
-    return Setup("idas", options, (np.ones(c.nx), 1.0))
+    return Setup("idas", options)
 
 
-def _one_step(problem: Problem, settings: Settings, way: Way, times: np.ndarray) -> Setup:
+def _one_step(
+    problem: Problem, settings: Settings, way: Way, _at: Point, times: np.ndarray, _floor: np.ndarray
+) -> Setup:
     """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
     tolerance, fastest = way.tolerance, settings.fastest
     size = settings.nominal[: problem.nx].copy()
@@ -109,6 +126,19 @@ def _one_step(problem: Problem, settings: Settings, way: Way, times: np.ndarray)
     if fastest > 0:
         options["step0"] = min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * (times[-1] - times[0]))))
     return Setup("rosenbrock", options, (size, UNSEEN * problem.nominal[problem.nx :]))
+
+
+# In the order in which they are taken: each leaves less to follow, or less to solve, than the one before it.
+METHODS = {
+    "idas": Method(_multistep, ("nsteps", "nlinsetups", "nfevals"), multistep=True),
+    "rosenbrock": Method(_one_step, ("n_steps", "n_jac", "n_rhs"), multistep=False),
+}
+
+
+def chosen(method: str) -> tuple[str, ...]:
+    """Return the methods that a run may take, the first one first, by the name that `simulate` was given."""
+    own = {"auto": tuple(METHODS), "resolve": tuple(name for name, m in METHODS.items() if m.multistep)}
+    return own.get(method, (method,))
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

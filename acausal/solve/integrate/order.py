@@ -13,7 +13,8 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.tangent import state_matrix, tangent
 
 ORDER = POLICY.order

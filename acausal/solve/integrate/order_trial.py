@@ -13,8 +13,9 @@ import numpy as np
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
+from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.problem import Point
+from acausal.solve.points import Point
 
 ORDER = POLICY.order
 
@@ -25,7 +26,7 @@ def is_open(run: Integrator, times: np.ndarray) -> bool:
     Vibrations that may be damped do not matter: where they need many steps, the one-step method takes over.
     """
     settings = run.settings
-    if not settings.order_is_open or run.way.method != "idas" or settings.may_ring(times):
+    if not settings.order_is_open or not METHODS[run.way.method].multistep or settings.may_ring(times):
         return False
     return _stable(run, times) < settings.patience(run.way, times)
 

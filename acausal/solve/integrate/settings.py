@@ -31,7 +31,9 @@ class Settings:
         Whether to integrate the powers as well.
     progress : callable, optional
         Told the part that is done, and the steps.
-    constraints, method : str
+    methods : tuple of str
+        Methods that may be taken, the first one first.
+    constraints : str
         As of `simulate`.
     fastest : float
         Size of the largest eigenvalue at the start in 1/s.
@@ -43,17 +45,11 @@ class Settings:
     tolerance: float
     max_order: int
     energy: bool
+    methods: tuple[str, ...]
     progress: Progress | None = None
     constraints: str = "auto"
-    method: str = "auto"
     fastest: float = 0.0
     order_is_open: bool = False
-
-    @property
-    def methods(self) -> tuple[str, ...]:
-        """Methods that may be taken, the first one first."""
-        known = {"auto": ("idas", "rosenbrock"), "rosenbrock": ("rosenbrock",)}
-        return known.get(self.method, ("idas",))
 
     @property
     def way(self) -> Way:
@@ -62,7 +58,7 @@ class Settings:
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
-        return self.method == "auto" and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
+        return len(self.methods) > 1 and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
 
     def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
         """What may be changed between tries of a stretch with these outputs."""
@@ -70,5 +66,5 @@ class Settings:
 
     def patience(self, way: Way, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""
-        n, rings = len(times) - 1, way.method == "idas" and self.may_ring(times)
+        n, rings = len(times) - 1, way.method != self.methods[-1] and self.may_ring(times)
         return max(RESCUE.fewest_short, RESCUE.short // n) if rings else max(RESCUE.fewest_long, RESCUE.long // n)

@@ -8,24 +8,21 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 
 
-class Rows(NamedTuple):
-    """Rows at times: states, algebraic unknowns, integrals of supplied and dissipated power, vectors of constants."""
+class Piece(NamedTuple):
+    """Rows, and integrals of the supplied and of the dissipated power up to each in J, shape (n, 2)."""
 
-    times: np.ndarray
-    x: np.ndarray
-    z: np.ndarray
+    rows: Rows
     energy: np.ndarray
-    constants: np.ndarray
 
 
 @dataclass
 class Trace:
     """What was integrated: rows in pieces, each added or exchanged whole, so that an interrupt never finds a part."""
 
-    pieces: list[Rows] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
     steps: int = 0
     factorisations: int = 0
     residual_evaluations: int = 0
@@ -46,80 +43,82 @@ class Trace:
 
     def rows(self, first: Point) -> Rows:
         """Return all rows, the point of the start before them."""
-        constants = first.constants.vector[None]
-        start = Rows(np.array([first.time]), first.x[None], first.z[None], np.zeros((1, 2)), constants)
-        return Rows(*(np.concatenate(columns) for columns in zip(start, *self.pieces, strict=True)))
+        return Rows.joined([Rows.of(first), *(piece.rows for piece in self.pieces)])
 
-    def last(self) -> Rows:
-        """Return the last row; there must be one."""
-        return Rows(*(column[-1] for column in self.pieces[-1]))
+    @property
+    def energy(self) -> np.ndarray:
+        """Integrals of the supplied and of the dissipated power up to the last row, in J."""
+        return self.pieces[-1].energy[-1] if self.pieces else self.before
 
-    def until(self, time: float) -> Trace:
-        """Return the rows before a time, with the same counts."""
-        kept = [Rows(*(column[: np.searchsorted(piece.times, time)] for column in piece)) for piece in self.pieces]
-        return replace(self, pieces=[piece for piece in kept if len(piece.times)])
+    def cut(self, time: float) -> None:
+        """Drop the rows from a time on."""
+        ends = [np.searchsorted(piece.rows.times, time) for piece in self.pieces]
+        self.pieces = [Piece(rows[:n], energy[:n]) for (rows, energy), n in zip(self.pieces, ends, strict=True) if n]
 
-    def count(self, stats: dict, plugin: str) -> int:
+    def count(self, method: str, steps: int, factorisations: int, evaluations: int) -> int:
         """Add the counts of a call, and return its steps."""
-        names = ("nsteps", "nlinsetups", "nfevals") if plugin == "idas" else ("n_steps", "n_jac", "n_rhs")
-        steps, factorisations, evaluations = (int(stats.get(name, 0)) for name in names)
         self.calls += 1
         self.steps += steps
         self.factorisations += factorisations
         self.residual_evaluations += evaluations
-        self.methods[plugin] = self.methods.get(plugin, 0) + steps
+        self.methods[method] = self.methods.get(method, 0) + steps
         return steps
 
     def add(self, stretch: Stretch) -> None:
         """Append rows; integrals of power continue from the last one."""
-        energy = stretch.energy + (self.last().energy if self.pieces else self.before)
-        vector = stretch.constants.vector
-        constants = np.broadcast_to(vector, (len(stretch.times), len(vector)))
-        self.pieces.append(Rows(stretch.times, stretch.x, stretch.z, energy, constants))
+        self.pieces.append(Piece(stretch.rows, stretch.energy + self.energy))
 
     def put(self, piece: int, at: Point) -> None:
-        """Put the values of a point into the last row of a piece, if there is one."""
-        self._replace(piece, x=at.x, z=at.z, constants=at.constants.vector)
+        """Put the values of a point into the last row of a piece, if there is one, which keeps its time."""
+        if len(self.pieces) >= -piece:
+            rows, energy = self.pieces[piece]
+            here = replace(Rows.of(at), times=rows.times[-1:])
+            self.pieces[piece] = Piece(Rows.joined([rows[:-1], here]), energy)
 
     def delay(self, time: float) -> None:
         """Let the last row be at another time, a rounding error away."""
-        self._replace(-1, times=np.array(time))
-
-    def _replace(self, piece: int, **values: np.ndarray) -> None:
-        if len(self.pieces) >= -piece:
-            rows = self.pieces[piece]
-            given = {name: np.concatenate([getattr(rows, name)[:-1], value[None]]) for name, value in values.items()}
-            self.pieces[piece] = rows._replace(**given)
+        if self.pieces:
+            rows, energy = self.pieces[-1]
+            self.pieces[-1] = Piece(replace(rows, times=np.append(rows.times[:-1], time)), energy)
 
     def spend(self, energy: np.ndarray) -> None:
         """Add supplied and dissipated energy to all that follows, and to the last row."""
         if self.pieces:
-            self._replace(-1, energy=self.last().energy + energy)
+            rows, before = self.pieces[-1]
+            self.pieces[-1] = Piece(rows, np.vstack([before[:-1], before[-1] + energy]))
         else:
             self.before = self.before + energy
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """Rows of one call: times, states, algebraic unknowns, integrals of power since its start; constants and steps."""
+    """Rows of one call; integrals of power since its start, shape (n, 2); constants and steps."""
 
-    times: np.ndarray
-    x: np.ndarray
-    z: np.ndarray
+    rows: Rows
     energy: np.ndarray
     constants: Constants
     steps: int
 
+    @property
+    def times(self) -> np.ndarray:
+        """Times of the rows in s."""
+        return self.rows.times
+
+    def since(self, at: Point) -> Rows:
+        """Return the rows, and the point at which the call began before them."""
+        return Rows.joined([Rows.of(at), self.rows])
+
     def end(self, at: Point) -> Point:
         """Return the last row as a point; `at` tells which conditions hold."""
-        return Point(float(self.times[-1]), self.x[-1], self.z[-1], self.constants, at.truth)
+        rows = self.rows
+        return Point(float(rows.times[-1]), rows.x[-1], rows.z[-1], self.constants, at.truth)
 
-    def rows(self, first: int, last: int) -> Stretch:
+    def part(self, first: int, last: int) -> Stretch:
         """Return some of the rows, as if the call had begun at its start nevertheless."""
-        part = slice(first, last)
-        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)
+        some = slice(first, last)
+        return replace(self, rows=self.rows[some], energy=self.energy[some])
 
     def every(self, parts: int) -> Stretch:
         """Return one row in so many, the last one of each."""
-        part = slice(parts - 1, None, parts)
-        return Stretch(self.times[part], self.x[part], self.z[part], self.energy[part], self.constants, self.steps)
+        some = slice(parts - 1, None, parts)
+        return replace(self, rows=self.rows[some], energy=self.energy[some])

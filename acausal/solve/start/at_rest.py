@@ -13,7 +13,8 @@ from acausal.compiler.call import Call
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.words import equation_text
 from acausal.symbols import scalars, stacked
 

@@ -9,7 +9,8 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.rank import factored, null_space, pivots, rank, row_space

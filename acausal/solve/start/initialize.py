@@ -14,7 +14,8 @@ from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.complete import closed_guess, rows_and_knowns
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach

@@ -10,7 +10,8 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
 from acausal.solve.start.rank import pivots, scaled
 from acausal.solve.start.tangent import state_matrix
@@ -122,21 +123,19 @@ def _transversality(J: np.ndarray, D: np.ndarray) -> np.ndarray:
     return np.linalg.svd(np.swapaxes(held_by, -1, -2) @ chosen, compute_uv=False)[..., -1]
 
 
-def worn(problem: Problem, x: np.ndarray, t: np.ndarray, constants: Constants) -> np.ndarray:
+def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     """How well the projection of a segment still suits each of n positions: 1 is best, 0 is singular.
 
     Parameters
     ----------
     problem : Problem
         The model.
-    x : array, shape (n, nx)
-        States.
-    t : array, shape (n,)
-        Times in s.
+    rows : Rows
+        Positions of the segment.
     constants : Constants
         Those of the segment.
     """
     c = problem.compiled.constraints
-    held, nominal = c.held(x, problem.p, t, constants.vector), problem.nominal[c.states]
+    held, nominal = c.held(rows.x, problem.p, rows.times, constants.vector), problem.nominal[c.states]
     D = _directions(problem.compiled, constants)[:, c.states]
     return _transversality(held[:, :, c.states] * nominal, D / nominal)

@@ -12,7 +12,8 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 
 LOOPS = POLICY.loops
 

@@ -9,7 +9,8 @@ import scipy
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text
 

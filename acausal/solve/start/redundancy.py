@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.loops import close
 from acausal.solve.start.rank import null_space, pivots, rank, scaled
 

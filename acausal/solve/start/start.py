@@ -10,7 +10,8 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
@@ -62,7 +63,7 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     guards: Any = problem.compiled.guards
     if not guards.watched:
         return np.zeros(0, dtype=bool)
-    value = problem.watched(at)[0][0]
+    value = problem.watched(Rows.of(at))[0][0]
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])

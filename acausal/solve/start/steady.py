@@ -13,7 +13,8 @@ import numpy as np
 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motion
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten

@@ -8,7 +8,8 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
-from acausal.solve.problem import Point, Problem
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.rank import null_space, pivots
 
 

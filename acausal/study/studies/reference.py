@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
 from acausal.policy import POLICY
+from acausal.simulation import METHODS
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
@@ -207,7 +208,7 @@ def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference
         name = "projection" if best.constraints == "states" else "states"
         other = measure([replace(best.case, constraints=name)])[0]
     else:
-        name = "idas" if best.method == "rosenbrock" else "rosenbrock"
+        name = next(name for name in reversed(METHODS) if name != best.method)
         other = measure([replace(best.case, method=name)])[0]
     if other.error:
         return replace(found, text=f"{found.text} (no check by {name}: {other.error})")

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.compiled_model import Local
-from acausal.solve.problem import Point
+from acausal.solve.points import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
 

@@ -11,7 +11,7 @@ from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import uneven
-from acausal.solve.problem import Point
+from acausal.solve.points import Point, Rows
 
 NOTHING = Layout(0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
 WIDTH = 1e-9
@@ -30,27 +30,27 @@ class Motion:
 
     def __init__(self, *functions) -> None:
         self.functions, self.trials, self.looks = functions, 0, 0
-        self.problem, self.compiled, self.tolerance = SimpleNamespace(p=None), SimpleNamespace(nx=1), 1e-8
+        self.problem, self.compiled, self.tolerance = SimpleNamespace(watched=self.watched), SimpleNamespace(nx=1), 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
-        self.consistent, self.unsolved = self, []
+        self.consistent = self
 
-    def __call__(self, x, z, t, modes, wanted=None):
-        return z
+    def __call__(self, rows, wanted=None):
+        return rows, []
 
-    def rates(self, x, z, t, modes):
-        return np.ones_like(x)
+    def rates(self, rows):
+        return np.ones_like(rows.x)
 
     def trial(self, at, times, steps):
         self.trials += 1
         return stretch(times[1:])
 
-    def along(self, x, z, p, t, modes):
+    def watched(self, rows):
         self.looks += 1
-        found = [f(x[:, 0]) for f in self.functions]
+        found = [f(rows.x[:, 0]) for f in self.functions]
         return tuple(np.column_stack(column) for column in zip(*found, strict=True))
 
     def locator(self) -> Locator:
-        guards = SimpleNamespace(needs=(), along=self.along)
+        guards = SimpleNamespace(needs=())
         width = np.full(len(self.functions), WIDTH)
         return Locator(self, SimpleNamespace(guards=guards, span=10.0, width=lambda at: width))  # type: ignore[arg-type]
 
@@ -58,7 +58,7 @@ class Motion:
 def stretch(times) -> Stretch:
     times = np.asarray(times, dtype=float)
     n = len(times)
-    return Stretch(times, times[:, None], np.zeros((n, 0)), np.zeros((n, 2)), NOTHING, n)
+    return Stretch(Rows.within(times, times[:, None], np.zeros((n, 0)), NOTHING.vector), np.zeros((n, 2)), NOTHING, n)
 
 
 def first(motion: Motion, times, truth=None, **how):

@@ -46,6 +46,16 @@ def test_where_nothing_follows_a_quick_way(way, kind, rescues):
     assert next_ways(way, Refusal(kind, 0.5), rescues) == ()
 
 
+def test_any_number_of_methods_follow_each_other():
+    three, way, taken = replace(FREE, methods=("a", "b", "c")), replace(QUICK, method="a"), []
+    while following := next_ways(way, Refusal(Kind.CORRECTOR, 0.5), three):
+        (way,) = following
+        taken.append(way.method)
+    assert taken == ["b", "c"]
+    found = next_ways(replace(way, careful=True), Refusal(Kind.OTHER, 0.5), three)
+    assert [way.method for way in found] == ["c", "b", "a"] * 3
+
+
 @pytest.mark.parametrize("kind", list(Kind))
 def test_quick_ways_come_to_an_end(kind):
     way, tries = QUICK, 0

@@ -10,6 +10,7 @@ import pytest
 
 import acausal as ac
 from acausal.solve.integrate.order import eigenvalues_of
+from acausal.solve.points import Rows
 from acausal.solve.start.loop_states import _select, _spared, _transversality, choose_projection, independent, worn
 from acausal.solve.start.loops import close, levels, tighten
 from acausal.solve.start.newton import algebraic
@@ -114,7 +115,11 @@ def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():
     constants = choose_projection(problem(), point(0.0, 1.0), spare=False)
     angle = np.array([np.pi / 2, 1.0, 0.3, 0.05, 0.0, -0.4])
     x = np.array([point(np.cos(a), np.sin(a)).x for a in angle])
-    np.testing.assert_allclose(worn(problem(), x, np.zeros(6), constants), np.abs(np.sin(angle)), atol=1e-15)
+    np.testing.assert_allclose(
+        worn(problem(), Rows.within(np.zeros(6), x, np.zeros((6, 0)), constants.vector), constants),
+        np.abs(np.sin(angle)),
+        atol=1e-15,
+    )
 
 
 @pytest.mark.parametrize("angle", [0.2, 1.0, 2.5])
