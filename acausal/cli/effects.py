@@ -10,6 +10,7 @@ from acausal.cli.app import app
 from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
 from acausal.cli.output import runs_bar, write_json
 from acausal.cli.scenes import find_scene, read_settings
+from acausal.policy import POLICY
 from acausal.result import check_writable
 
 
@@ -31,7 +32,9 @@ def effects(
         list[str] | None,
         typer.Option(help="What to compare: paths with * and ?; the scene's outputs if not given.", metavar="PATTERN"),
     ] = None,
-    tolerance: Annotated[float, typer.Option(help="Relative tolerance of a step.", metavar="R")] = 1e-6,
+    tolerance: Annotated[
+        float, typer.Option(help="Relative tolerance of a step.", metavar="R")
+    ] = POLICY.defaults.tolerance,
     stop_time: StopTime = None,
     pairs: Annotated[int, typer.Option(help="Largest number of pairs of effects to try.", metavar="N")] = 15,
     limit: Annotated[float, typer.Option(help="Seconds after which a run is stopped.", metavar="S")] = 60.0,

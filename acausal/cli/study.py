@@ -13,6 +13,7 @@ from acausal.cli.output import runs_bar, write_json
 from acausal.cli.scenes import find_scene, read_settings
 from acausal.errors import DeclarationError
 from acausal.language.component import Model
+from acausal.policy import POLICY
 from acausal.result import check_picture, check_writable
 
 
@@ -52,7 +53,9 @@ def study(
         float, typer.Option(metavar="R", help="Required accuracy of the reference, as a fraction of the range.")
     ] = 1e-4,
     stop_time: StopTime = None,
-    intervals: Annotated[int, typer.Option(help="Every run has N + 1 points.", metavar="N")] = 400,
+    intervals: Annotated[
+        int, typer.Option(help="Every run has N + 1 points.", metavar="N")
+    ] = POLICY.defaults.intervals,
     initial: Initial = None,
     repeats: Annotated[int, typer.Option(help="Runs per case; their median counts.", metavar="N")] = 3,
     limit: Annotated[float, typer.Option(help="Seconds after which a case is stopped.", metavar="S")] = 60.0,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from acausal.policy.accuracy import Accuracy, Estimate, Study
+from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Meeting, Promises, Validity
 from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks
 from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
@@ -39,6 +39,7 @@ class Policy:
     meeting: Meeting
     promises: Promises
     validity: Validity
+    defaults: Defaults
     accuracy: Accuracy
     estimate: Estimate
     study: Study
@@ -65,6 +66,7 @@ POLICY = Policy(
     Meeting(),
     Promises(),
     Validity(),
+    Defaults(),
     Accuracy(),
     Estimate(),
     Study(),

@@ -6,6 +6,16 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
+class Defaults:
+    """What a simulation takes that is told nothing else."""
+
+    # That of Modelica tools; docs/accuracy.md tells the errors of the scenes.
+    tolerance: float = 1e-6
+    # A picture shows no more points.
+    intervals: int = 400
+
+
+@dataclass(frozen=True)
 class Accuracy:
     """Search for a tolerance, an order, a method and numbers of elements."""
 
@@ -56,6 +66,8 @@ class Study:
     # Refinements that are tried, and the least tolerance of a reference.
     rounds: int = 6
     least: float = 1e-12
+    # Ratio of the tolerance of a reference to the next, and of a run's to the one that tells its error.
+    tighter: float = 10.0
     # The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes
     # with the power 2/3 of the tolerance, that of elements at least with the square of their size.
     tolerance_power: float = 2 / 3

@@ -91,8 +91,13 @@ class Locate:
     snap: float = 0.01
     # Times at which a stretch is checked between its rows.
     looks: int = 4000
-    # Of the run: no two times of a stretch are nearer.
+    # Of the run: no two times of a stretch are nearer; nor are they by so many rounding errors of the time.
     shortest: float = 1e-12
+    roundings: int = 4
+    # How far beside the predicted time the next look is, so that the change lies between both: as far as the prediction
+    # moved, at least this part of the shortest time, at most that of the interval.
+    beside: float = 1 / 3
+    aside: float = 0.1
 
 
 @dataclass(frozen=True)

@@ -113,9 +113,14 @@ class Rest:
     growth: float = 1.5
     last: float = 1e8
     shortest: float = 1e-12
+    # By what a step is shortened that is too long, and one after which the loops do not close.
+    shrinkage: float = 2.0
+    lost: float = 4.0
     # Change in a step, over the size, that is rounding.
     converged: float = 1e-12
     halvings: int = 6
+    # What a step must take off the residuals, as a fraction of what it would take off linear ones (Armijo's rule).
+    decrease: float = 0.1
     # Steps back to the guess, the shortest part of one, and the way back that is none.
     back: int = 20
     short: float = 0.1
@@ -128,8 +133,9 @@ class Rest:
     faint: float = 1e-13
     # Singular value of what is free, but for rounding.
     weak: float = 1e-11
-    # Growth that is none, over the size of the eigenvalue.
+    # Growth that is none, over the size of the eigenvalue; and over the root of rounding, by which double zeros split.
     grows: float = 1e-6
+    split: float = 10.0
     attempts: int = 3
 
 

@@ -8,13 +8,14 @@ from typing import Any
 from acausal.compiler import CompiledModel
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.policy import POLICY
 from acausal.simulation.stop_time import own_stop_time, own_value
 
 DEFAULTS = {
     "stop_time": None,
     "tolerance": None,
     "accuracy": None,
-    "intervals": 400,
+    "intervals": POLICY.defaults.intervals,
     "initial": "fixed",
     "method": "auto",
     "constraints": "auto",

@@ -11,6 +11,7 @@ from acausal.compiler import CompiledModel, ready
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
+from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.runs import Runs
@@ -21,7 +22,6 @@ from acausal.solve.run import Task, run
 
 CHOICES = ("auto", *METHODS, "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
-TOLERANCE = 1e-6
 
 
 @alone
@@ -114,7 +114,7 @@ def simulate(
     if how["accuracy"] is not None and how["tolerance"] is not None:
         raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
     accuracy = how.pop("accuracy")
-    how["tolerance"] = TOLERANCE if how["tolerance"] is None else how["tolerance"]
+    how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
     task = Task(start_time=start_time, energy=energy, progress=progress, **how)
     _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
     _choose("method", task.method, CHOICES)

@@ -15,6 +15,7 @@ from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import algebraic
 
 INSTANTS = POLICY.instants
+HUGE = np.finfo(float).max / 8  # sums of some of it are finite
 
 
 class Cycling(Exception):
@@ -118,7 +119,7 @@ class Instants:
         here = at.x, at.z, self.problem.p, at.time, at.constants.vector
         both = [at.constants.vector, constants.vector]
         found = [np.array(self.guards.continuous(*here, new, self.nominal, self.span)) for new in both]
-        (before, size), (after, size_after) = np.nan_to_num(found, posinf=1e300, neginf=-1e300)
+        (before, size), (after, size_after) = np.nan_to_num(found, posinf=HUGE, neginf=-HUGE)
         jumps = np.abs(after - before)
         excess = jumps - INSTANTS.jump * (np.abs(before) + np.abs(after) + size + size_after)
         worst = int(np.argmax(excess))

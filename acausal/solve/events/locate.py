@@ -178,7 +178,7 @@ class Locator:
             If the motion cannot be followed up to the change.
         """
         level = np.where(a.value > 0, 0.0, np.minimum(a.value, 0.0) - slack)
-        shortest = max(self.shortest, 4 * float(np.spacing(abs(b.time))))
+        shortest = max(self.shortest, LOCATE.roundings * float(np.spacing(abs(b.time))))
         predicted, last, width = b.time, b.time, [np.inf, np.inf]
         # A time that could not be reached: perhaps the law has no value beyond the change.
         wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
@@ -187,7 +187,7 @@ class Locator:
             if span <= shortest:
                 break
             last, predicted = predicted, self._predicted(a, b, level)
-            aside = min(max(abs(predicted - last), shortest / 3), span / 10)
+            aside = min(max(abs(predicted - last), LOCATE.beside * shortest), LOCATE.aside * span)
             time = predicted + aside if predicted - a.time < b.time - predicted else predicted - aside
             if span > 0.5 * width[-2] or not a.time < time < min(b.time, wall):
                 time = a.time + span / 2

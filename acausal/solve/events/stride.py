@@ -63,7 +63,7 @@ class Stride:
             return True
         if self.density < self.densest:
             needed = max(LOOKS.denser * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
-            self.density = min(self.densest, 4 ** int(np.ceil(np.log2(needed) / 2)))
+            self.density = min(self.densest, LOOKS.denser ** int(np.ceil(np.log(needed) / np.log(LOOKS.denser) - 1e-9)))
         elif len(grid) > 2:
             self.block = max(1, (len(grid) - 1) // LOOKS.fine)
         else:

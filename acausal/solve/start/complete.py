@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
+from acausal.solve.start.newton import InitialSystem
 from acausal.solve.start.rank import factored, null_space, pivots, rank, row_space
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
@@ -37,10 +39,10 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     return replace(closed, constants=choose_projection(problem, closed, spare=False)), redundancy
 
 
-def rows_and_knowns(
-    problem: Problem, at: Point, held: np.ndarray, conditions: list[int], refuse: bool
-) -> tuple[list[int], list[int], list[int], list[int]]:
-    """Choose what completes the initial system, by the ranks of its Jacobian.
+def ranked(
+    problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool
+) -> InitialSystem:
+    """Complete the initial system by the ranks of its Jacobian.
 
     Parameters
     ----------
@@ -48,23 +50,16 @@ def rows_and_knowns(
         The model.
     at : Point
         A point where the loops are closed.
-    held : array of int
-        States that are given.
+    direct : mapping of int to int
+        Conditions that give a state each, which is known then.
     conditions : list of int
-        Rows in order of importance; counted from the first algebraic equation, those of derivatives are negative.
+        Other rows in order of importance; counted from the first algebraic equation, those of derivatives are negative and
+        need not hold where others determine all.
     refuse : bool
         Whether freedoms that are left are refused or take their guesses.
-
-    Returns
-    -------
-    equations : list of int
-        Algebraic equations that count.
-    used, surplus : lists of int
-        Conditions that are solved, and those that must then hold.
-    known : list of int
-        Unknowns in (x, z) that are not solved for.
     """
     compiled, c, nx, nz = problem.compiled, problem.compiled.constraints, problem.nx, problem.nz
+    held = sorted(direct.values())
     free = np.setdiff1d(np.arange(nx), held)
     rows = nx + np.array(conditions, dtype=int)
     M, C = _reduced(problem, at, free, rows)
@@ -88,8 +83,10 @@ def rows_and_knowns(
         for row in plan.constrained.constraints[k].rows
     }
     equations = [k for k in range(nz) if k not in off]
-    used, surplus = ([conditions[k] for k in chosen] for chosen in (used, surplus))
-    return equations, used, surplus, [*held.tolist(), *left, *(nx + c.multipliers).tolist()]
+    demanded = [conditions[k] for k in surplus if conditions[k] >= 0]
+    known = sorted([*held, *left, *(nx + c.multipliers).tolist()])
+    solved = [*equations, *(conditions[k] for k in used)]
+    return InitialSystem(np.array(solved, int), np.array(demanded, int), np.array(known, int), tuple(direct.items()))
 
 
 def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

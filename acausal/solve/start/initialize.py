@@ -16,7 +16,7 @@ from acausal.language.functions import initial as initial_flag
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.complete import closed_guess, rows_and_knowns
+from acausal.solve.start.complete import closed_guess, ranked
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.redundancy import Redundancy
@@ -115,16 +115,12 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
     except InitializationError:
         if not redundancy.singular:
             raise
-    held = np.array(sorted(direct.values()), dtype=int)
     others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
         others += range(-nx, 0)
-    equations, used, surplus, known = rows_and_knowns(problem, at, held, others, initial == "fixed")
+    system = ranked(problem, at, direct, others, initial == "fixed")
     z = at.z.copy()
     z[compiled.constraints.multipliers] = 0.0
-    rows = np.array([*equations, *used], int)
-    demanded = [row for row in surplus if row >= 0]
-    system = InitialSystem(rows, np.array(demanded, int), np.array(sorted(known), int), tuple(direct.items()))
     return system, replace(at, z=z), redundancy
 
 

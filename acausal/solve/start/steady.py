@@ -178,7 +178,7 @@ class Equilibrium:
             except InitializationError:
                 continue
             left = np.linalg.norm(weight * self._all(there, conditions)[0])
-            if left <= (1 - 0.1 / 2**shorter) * np.linalg.norm(weight * value) + REST.converged:
+            if left <= (1 - REST.decrease / 2**shorter) * np.linalg.norm(weight * value) + REST.converged:
                 return there
         return None
 
@@ -225,7 +225,7 @@ class Equilibrium:
             except np.linalg.LinAlgError:
                 step = np.full(nx, np.nan)
             if not np.all(np.isfinite(step)) or self._far(step) > REST.far:
-                h /= 2
+                h /= REST.shrinkage
                 if h * feedback < REST.shortest:
                     break
                 continue
@@ -233,7 +233,7 @@ class Equilibrium:
             try:
                 here = self._at(self._close(moved))
             except InitializationError:
-                h /= 4
+                h /= REST.lost
                 continue
             h *= growth
             if (
@@ -252,7 +252,7 @@ class Equilibrium:
             return 0.0, np.zeros(self.nx)
         values, vectors = np.linalg.eig(A)
         # Double zeros, of what is free to move, split by the root of rounding.
-        floor = 10 * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))) * self.problem.feedback)
+        floor = REST.split * np.sqrt(np.finfo(float).eps * float(np.max(np.abs(A))) * self.problem.feedback)
         real = np.where(np.real(values) > np.maximum(floor, REST.grows * np.abs(values)), np.real(values), 0.0)
         k = int(np.argmax(real))
         direction = N @ (size * np.real(vectors[:, k]))

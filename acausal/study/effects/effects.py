@@ -30,8 +30,8 @@ def effects(
     *,
     stop_time: float | None = None,
     accuracy: float = 1e-2,
-    tolerance: float = 1e-6,
-    intervals: int = 400,
+    tolerance: float = POLICY.defaults.tolerance,
+    intervals: int = POLICY.defaults.intervals,
     outputs: Sequence[str] | None = None,
     parameters: Mapping[str, Any] | None = None,
     initial: str | None = None,
@@ -130,7 +130,7 @@ class _Study:
         """Switch effects, pairs of them, and find the cheapest sets."""
         singles, idle = self._singles()
         rows = self._rows(singles, "effects")
-        fine = self.variants.measure([self.base], "integration error", self.tolerance / 10)
+        fine = self.variants.measure([self.base], "integration error", self.tolerance / POLICY.study.tighter)
         floor = row({}, fine[0], self.reference)
         together, left = self._pairs(rows, pairs)
         sets = self._cheapest(rows)

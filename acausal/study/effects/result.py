@@ -118,7 +118,11 @@ class Effects:
         path : str or Path
             Name of the file, written whole or not at all.
         """
-        kinds = [("reference", self.reference), ("as it stands", self.standing), ("tolerance / 10", self.floor)]
+        kinds = [
+            ("reference", self.reference),
+            ("as it stands", self.standing),
+            (f"tolerance / {POLICY.study.tighter:g}", self.floor),
+        ]
         kinds += [("effect", row) for row in self.rows]
         kinds += [(f"cheapest for {name}", row) for name, row in self.cheapest.items()]
         write_csv(path, columns(kinds, self.outputs))
@@ -147,7 +151,7 @@ class Effects:
         if self.standing.choices:
             labelled.append(("the scene as it stands", self.standing))
         if not self.floor.error:
-            labelled.append((f"(tolerance {self.tolerance / 10:g})", self.floor))
+            labelled.append((f"(tolerance {self.tolerance / POLICY.study.tighter:g})", self.floor))
         return labelled
 
     def _findings(self) -> Iterator[str | Table]:

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from acausal.policy import POLICY
+
 
 @dataclass(frozen=True, eq=False)
 class Case:
@@ -37,7 +39,7 @@ class Case:
     formulation: str = "as given"
     settings: Mapping[str, Any] = field(default_factory=dict)
     size: str = ""
-    tolerance: float = 1e-6
+    tolerance: float = POLICY.defaults.tolerance
     max_order: int | None = None
     method: str | None = None
     constraints: str = "auto"
@@ -92,7 +94,7 @@ class Job:
     model: bytes
     case: Case
     stop_time: float
-    intervals: int = 400
+    intervals: int = POLICY.defaults.intervals
     outputs: tuple[str, ...] = ()
     repeats: int = 1
     limit: float = 60.0

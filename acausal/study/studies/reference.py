@@ -85,7 +85,7 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
     asked : float
         Deviation to be reached, as a fraction of the range.
     """
-    start = replace(case, tolerance=max(STUDY.least, least / 10))
+    start = replace(case, tolerance=max(STUDY.least, least / STUDY.tighter))
     if not any(form.refine for form in formulations):
         return _tightened(measure, _at(start, formulations[0], 0), asked)
     return _refined(measure, [form for form in formulations if form.refine], start, asked)
@@ -165,16 +165,18 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     agreement = {"coarser elements": _distances(coarser, best)}
     agreement |= {other.case.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
     elements = max(max(found.values()) for found in agreement.values())
-    looser = measure([replace(best.case, tolerance=10 * state.tolerance)])[0]
+    looser = measure([replace(best.case, tolerance=STUDY.tighter * state.tolerance)])[0]
     if looser.error:
         return None, state, _failed([looser])
     agreement["looser tolerance"] = _distances(looser, best)
     tolerance = max(agreement["looser tolerance"].values())
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
-    tighten = tolerance > max(asked, elements / 3) and state.tolerance / 10 >= STUDY.least
+    tighten = tolerance > max(asked, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
     after = (
-        _State(forms, state.tolerance / 10, state.level) if tighten else _State(forms, state.tolerance, state.level + 1)
+        _State(forms, state.tolerance / STUDY.tighter, state.level)
+        if tighten
+        else _State(forms, state.tolerance, state.level + 1)
     )
     return _reference(best, agreement, asked), after, why
 
@@ -188,14 +190,18 @@ def _ended(found: Reference | None, why: str) -> Reference:
 
 def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
     """Tighten the tolerance of a model without elements, and check by another way of integration."""
-    found, best, looser = None, measure([case])[0], measure([replace(case, tolerance=10 * case.tolerance)])[0]
+    found, best, looser = (
+        None,
+        measure([case])[0],
+        measure([replace(case, tolerance=STUDY.tighter * case.tolerance)])[0],
+    )
     why = ""
     for _ in range(STUDY.rounds):
         if best.error or looser.error:
             why = _failed([best, looser])
             break
         found = _reference(best, {"looser tolerance": _distances(looser, best)}, asked)
-        tolerance = best.case.tolerance / 10
+        tolerance = best.case.tolerance / STUDY.tighter
         if found.floor <= asked or tolerance < STUDY.least:
             break
         looser, best = best, measure([replace(best.case, tolerance=tolerance)])[0]

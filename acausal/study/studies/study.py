@@ -16,6 +16,7 @@ from acausal.compiler.call import Call
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.component import Component
 from acausal.language.expression import Expr
+from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import write_csv
@@ -142,7 +143,7 @@ def study(
     switches: Mapping[str, Sequence[Any]] | None = None,
     reference: str | Path | None = None,
     accuracy: float = 1e-4,
-    intervals: int = 400,
+    intervals: int = POLICY.defaults.intervals,
     initial: str | None = None,
     repeats: int = 3,
     limit: float = 60.0,

@@ -40,17 +40,15 @@ def test_a_failure_leaves_what_was_not_reached_undefined():
 
 
 @pytest.mark.parametrize("n", [1, 2, AT_ONCE, AT_ONCE + 1, 3 * AT_ONCE - 1])
-@pytest.mark.parametrize("shared", [True, False])
-def test_rows_are_those_of_single_calls(n, shared):
+def test_rows_are_those_of_single_calls(n):
     arguments = [ca.SX.sym(name, size) for name, size in (("x", 2), ("z", 3), ("p", 1), ("t", 1), ("c", 2))]
     x, z, p, t, c = arguments
     function = ca.Function("f", arguments, [ca.vertcat(x * p + t, z * c[0], c[1])])
     rng = np.random.default_rng(n)
     xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
-    cs, p0 = rng.random(2) if shared else rng.random((n, 2)), rng.random(1)
+    cs, p0 = rng.random((n, 2)), rng.random(1)
     found = Rowwise(function)(xs, zs, p0, ts, cs)
-    own = np.broadcast_to(cs, (n, 2))
-    expected = [np.array(function(xs[k], zs[k], p0, ts[k], own[k])).ravel() for k in range(n)]
+    expected = [np.array(function(xs[k], zs[k], p0, ts[k], cs[k])).ravel() for k in range(n)]
     np.testing.assert_array_equal(found, expected)
 
 
