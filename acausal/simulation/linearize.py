@@ -96,6 +96,11 @@ def linearize(
     Returns
     -------
     Linearization
+
+    Notes
+    -----
+    `feedback`, which keeps invariants in a run, is 1/s here: the norm of the quaternion of a freely turning body adds an
+    eigenvalue of -2 1/s that no input moves and no output shows.
     """
     compiled, p = ready(model, parameters)
     how = settled(model, parameters, {"initial": initial})["initial"]
