@@ -8,7 +8,6 @@ import acausal as ac
 from acausal import Model, Scalar, Vector3, connect, der, fixed, input, output, parameter
 from components import Body, World, WorldForce
 
-
 NOTHING = fixed((0, 0, 0))
 
 
