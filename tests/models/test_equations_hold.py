@@ -33,7 +33,7 @@ def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
     switches = flat.discontinuities.constants
     arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, switches, feedback.sx, initial.sx]
     slopes = ca.Function("slopes", arguments, [ca.fabs(J)])
-    constants = result._evaluate.constants
+    constants = result._evaluate.rows.constants
     p, worst = model.parameter_values(None), 0.0
     for k in range(0, len(result.time), 7):
         here, back = constants[k, : switches.numel()], constants[k, -1]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.simulation.simulate import CONSTRAINTS, METHODS
+from acausal.simulation.simulate import CHOICES, CONSTRAINTS
 from acausal.study.measuring.case import Case
 from acausal.study.studies.formulation import Formulation
 
@@ -52,7 +52,7 @@ class Grid:
         for value in self.max_orders:
             if value is not None and (isinstance(value, bool) or value not in range(1, 6)):
                 raise DeclarationError(f"a limit of the order is {value!r}; it must be a whole number from 1 to 5.")
-        for name, known in (("methods", METHODS), ("constraints", CONSTRAINTS)):
+        for name, known in (("methods", CHOICES), ("constraints", CONSTRAINTS)):
             for value in getattr(self, name):
                 if value not in (*known, None):
                     raise DeclarationError(f"{name} has {value!r}; it must be one of {', '.join(known)}.")

@@ -140,7 +140,7 @@ def test_work_of_many_turns_between_outputs(intervals, tolerance):
 
 def along(result: ac.Result, name: str) -> np.ndarray:
     """Power or energy at the outputs."""
-    return result._evaluate(result._evaluate.compiled.reduced.flat.energies[name])[:, 0]
+    return result._evaluate(result._evaluate.solver.compiled.reduced.flat.energies[name])[:, 0]
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames")
