@@ -77,7 +77,8 @@ class Body(Component):
         return Frame(Q=guess(self._orientation())) if np.any(self.angles_start) else Frame()
 
     def connections(self):
-        yield potential_root(self.frame_a)
+        # Of bodies that move together, the one whose orientation is given tells it.
+        yield potential_root(self.frame_a, 0 if self.angles_fixed else 1 if np.any(self.angles_start) else 2)
 
     def equations(self):
         frame, w, z = self.frame_a, self.frame_a.R.w, self.frame_a.z

@@ -33,6 +33,7 @@ class Orientation(Record):
 def unit_vector(n: Any) -> np.ndarray:
     """Return a vector of numbers scaled to length 1."""
     n = np.asarray(n, dtype=float)
+    n = n / np.max(np.abs(n))  # squares neither overflow nor vanish
     return n / np.linalg.norm(n)
 
 

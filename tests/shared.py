@@ -8,9 +8,12 @@ from functools import cache
 from itertools import combinations, product
 from typing import Any
 
+import casadi as ca
+import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.language.functions import feedback, initial, time
 
 # Columns and stop time of each scene, as the contract has them.
 CONTRACT: dict[str, tuple[tuple[str, ...], float]] = {
@@ -53,3 +56,22 @@ def pairwise(*choices: Iterable) -> list:
 def heed_interrupts() -> None:
     """What is started in the background ignores interrupts, and so does what that starts."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
+    """Largest residual of any equation as it was stated, in parts of the sizes of its terms."""
+    flat = model.reduced.flat
+    column = ca.vertcat(flat.equations.residuals, flat.unknowns.symbols)
+    found = result._evaluate(column)
+    residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
+    J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
+    switches = flat.discontinuities.constants
+    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, switches, feedback.sx, initial.sx]
+    slopes = ca.Function("slopes", arguments, [ca.fabs(J)])
+    constants = result._evaluate.rows.constants
+    p, worst = model.parameter_values(None), 0.0
+    for k in range(0, len(result.time), 7):
+        here, back = constants[k, : switches.numel()], constants[k, -1]
+        terms = np.array(slopes(values[k], p, result.time[k], here, back, 0)) @ np.abs(values[k]) + 1
+        worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
+    return worst

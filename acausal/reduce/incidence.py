@@ -18,11 +18,13 @@ from acausal.symbols import scalars
 class Linear:
     """Jacobian of residuals: columns of each row, and the coefficients that are numbers or functions of parameters.
 
-    `explicit` maps (row, column) to its coefficient.
+    `explicit` maps (row, column) to its coefficient. `cancelled` are columns by row whose unknowns stand in a residual that
+    does not depend on them, such as I w_1 w_2 - I w_2 w_1: it must be evaluated without them.
     """
 
     rows: tuple[tuple[int, ...], ...]
     explicit: dict[tuple[int, int], ca.SX]
+    cancelled: dict[int, list[int]]
 
 
 def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
@@ -35,7 +37,8 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
     others : casadi.SX
         What else a coefficient must not depend on: time, constants.
     """
-    J = ca.sparsify(ca.jacobian(residuals, unknowns))
+    pattern = ca.jacobian(residuals, unknowns)
+    J = ca.sparsify(pattern)
     entries: list[Any] = J.nonzeros()
     row, column = (np.array(i) for i in J.sparsity().get_triplet())
     varying = np.array(ca.which_depends(ca.vertcat(*entries), ca.vertcat(unknowns, others), 1, True), dtype=bool)
@@ -45,7 +48,12 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
         rows[i].append(j)
         if not varies:
             explicit[i, j] = entry
-    return Linear(tuple(map(tuple, rows)), explicit)
+    cancelled: dict[int, list[int]] = {}
+    if pattern.nnz() > J.nnz():
+        for i, j in zip(*pattern.sparsity().get_triplet(), strict=True):
+            if j not in rows[i]:
+                cancelled.setdefault(i, []).append(j)
+    return Linear(tuple(map(tuple, rows)), explicit, cancelled)
 
 
 def system_of(flat: FlatModel) -> tuple[System, Linear]:

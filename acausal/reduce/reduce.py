@@ -127,6 +127,9 @@ def _differentiate(
         seeds[p.coordinate] = elements[p.rate]
     at, direction = ca.vertcat(unknowns, time.sx), ca.vertcat(*seeds, 1)
     residuals, explicit = scalars(flat.equations.residuals), dict(linear.explicit)
+    for row, columns in linear.cancelled.items():
+        gone = ca.vertcat(*[elements[k] for k in columns])
+        residuals[row] = ca.substitute(residuals[row], gone, ca.SX.zeros(len(columns)))
     first, total = len(residuals), len(residuals) + len(plan.differentiated)
     constants = flat.discontinuities.constants
     while len(residuals) < total:

@@ -101,7 +101,7 @@ class FlexibleBeam(Beam):
         if self.reference == "pinned":
             yield branch(self.frame_a, self.chord)
         yield branch(self.ref, self.frame_b)
-        yield potential_root(self.ref, priority=1)
+        yield potential_root(self.ref, priority=3)
 
     def equations(self):
         ref, b = self.ref, self.frame_b

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import casadi as ca
-import numpy as np
 import pytest
 
 import acausal as ac
 from acausal import Model
-from acausal.language.functions import feedback, initial, time
 from models import SCENES
 from tests.acausal.solve.machines import Axis, Fall, Tether, Two
 from tests.components.test_properties import SCENES as WITH_COMPONENT
-from tests.shared import compiled, pairwise
+from tests.shared import compiled, pairwise, worst_equation
 
 SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank": 0.75, "bricard": 2.0}
 # Where one method alone takes minutes to follow vibrations, or does not get past a flat position.
@@ -21,25 +18,6 @@ FLAT = {(tolerance, "rosenbrock") for tolerance in (1e-3, 1e-5, 1e-8)}
 CHOOSY = {"slider-crank": RINGS, "pendulum": RINGS, "free-vibration": RINGS, "n-four-bar": FLAT}
 MACHINES: dict[str, tuple[type[Model], float]] = {c.__name__: (c, 1.0) for c in (Axis, Fall, Tether, Two)}
 MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in SCENES.items()}
-
-
-def worst_equation(result: ac.Result, model: ac.CompiledModel) -> float:
-    """Largest residual of any equation as it was stated, in parts of the sizes of its terms."""
-    flat = model.reduced.flat
-    column = ca.vertcat(flat.equations.residuals, flat.unknowns.symbols)
-    found = result._evaluate(column)
-    residuals, values = np.split(found, [flat.equations.residuals.numel()], axis=1)
-    J = ca.jacobian(flat.equations.residuals, flat.unknowns.symbols)
-    switches = flat.discontinuities.constants
-    arguments = [flat.unknowns.symbols, flat.parameters.symbols, time.sx, switches, feedback.sx, initial.sx]
-    slopes = ca.Function("slopes", arguments, [ca.fabs(J)])
-    constants = result._evaluate.rows.constants
-    p, worst = model.parameter_values(None), 0.0
-    for k in range(0, len(result.time), 7):
-        here, back = constants[k, : switches.numel()], constants[k, -1]
-        terms = np.array(slopes(values[k], p, result.time[k], here, back, 0)) @ np.abs(values[k]) + 1
-        worst = max(worst, float(np.max(np.abs(residuals[k]) / terms, initial=0.0)))
-    return worst
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames")

@@ -46,16 +46,21 @@ def _taker(compiled: CompiledModel, port: Connector, variable: str, field: str) 
     """Return the owner of a port, or of one connected with it, that takes a field; None if no one does."""
     if field in port._owner.fields:
         return port._owner
-    others = [
-        (part, ca.vec(_value(other, variable).sx))
-        for part in walk(compiled.tree)
-        if field in part.fields
-        for other in part._ports
-        if type(other) is type(port)
-    ]
-    wanted = compiled.reduced.resolve(ca.vec(_value(port, variable).sx))
-    found = (part for part, sx in others if ca.is_equal(compiled.reduced.resolve(sx), wanted, 2))
-    return next(found, None)
+    takers = [part for part in walk(compiled.tree) if field in part.fields]
+    ports = [(part, other) for part in takers for other in part._ports if type(other) is type(port)]
+    wanted = _resolved(compiled, port, variable)
+    found = ((part, _resolved(compiled, other, variable)) for part, other in ports)
+    return next(
+        (part for part, own in found if own is not None and wanted is not None and ca.is_equal(own, wanted, 2)), None
+    )
+
+
+def _resolved(compiled: CompiledModel, port: Connector, variable: str) -> ca.SX | None:
+    """Return a variable of a port in states and algebraic unknowns; None if it has none, as only roots have a quaternion."""
+    try:
+        return compiled.reduced.resolve(ca.vec(_value(port, variable).sx))
+    except AttributeError:
+        return None
 
 
 def _value(owner: Any, path: str) -> Any:
