@@ -64,6 +64,8 @@ class Looks:
     steps_a_row: int = 4
     # How many times as many, where there were too few.
     denser: int = 4
+    # Times since the last event in which the next one is looked for, where there are many in an interval.
+    ahead: float = 4.0
     # The same in all intervals, that there may be at least: few are checked as often as many.
     rows: int = 12_800
     # Difference of output intervals, over them, that is rounding.

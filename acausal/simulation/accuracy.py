@@ -7,7 +7,7 @@ The larger of the two errors decides what to refine.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -123,9 +123,11 @@ class Search:
         The multistep method then takes about a step for each radian of the fastest vibration, whatever the tolerance.
         """
         task, coarse = self.runs.task, self.runs(numerics)
-        if isinstance(coarse, SimulationError) or task.max_order or not _follows(chosen(task.method)[:1]):
+        if isinstance(coarse, SimulationError) or task.max_order or not METHODS[chosen(task.method)[0]].multistep:
             return numerics
-        follows = coarse.stats.max_order == POLICY.order.highest and _follows(coarse.stats.method_steps)
+        follows = coarse.stats.max_order == POLICY.order.highest and all(
+            METHODS[m].multistep for m in coarse.stats.method_steps
+        )
         turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
         if follows or ACCURACY.growth * _work(coarse) < ACCURACY.anew * turns:
             return numerics
@@ -232,11 +234,6 @@ def _what(path: str) -> str:
 def _work(run: Result) -> int:
     """Return the steps, those of the one-step method counted several times."""
     return sum(n * (1 if METHODS[name].multistep else ACCURACY.one_step) for name, n in run.stats.method_steps.items())
-
-
-def _follows(methods: Iterable[str]) -> bool:
-    """Whether every vibration is followed by all of some methods."""
-    return all(METHODS[name].multistep for name in methods)
 
 
 def _tenth(tolerance: float, k: int) -> float:

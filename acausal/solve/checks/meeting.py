@@ -98,7 +98,7 @@ class _Search:
         found = self.integrator.trial(at, times, MEETING.steps)
         if isinstance(found, Refusal):
             return None
-        return self.approach(found.since(replace(at, constants=found.constants)))
+        return self.approach(found.since(at))
 
 
 def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:

@@ -44,9 +44,9 @@ class _Look:
         self.seen = _known(compiled)
         self.integrator, self.run = integrator, run
 
-    def rows(self, rows: np.ndarray) -> np.ndarray:
-        """Values at output points."""
-        return self._values(self.run.rows[rows])
+    def rows(self, places: np.ndarray) -> np.ndarray:
+        """Values at some of the output points."""
+        return self._values(self.run.rows[places])
 
     def inside(self, row: int, times: np.ndarray) -> np.ndarray:
         """Values at times between an output point and the next."""

@@ -71,6 +71,7 @@ class Run:
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
         self.first = at = self._happen(at, acts)
+        self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for end in ends:
             if at.time != self.times[0]:
                 now = self.agenda.between(at.time, end)
@@ -220,7 +221,7 @@ class Run:
             self.integrator.trace.add(stretch.part(0, n))
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
         last = stretch.part(0, n).end(at) if n else at
-        gained = work_between(self.integrator, replace(last, constants=stretch.constants), after.at)
+        gained = work_between(self.integrator, replace(last, constants=after.at.constants), after.at)
         reached = replace(after.at, time=max(label, after.time))
         new = self._jump(reached, label, gained, crossed=out)
         if on_output and near == at.time:

@@ -132,10 +132,8 @@ class Locator:
         rows, _ = self.run.consistent(rows, self.instants.guards.needs)
         value, rate = problem.watched(rows)
         side = np.where(at.truth, -1.0, 1.0)
-        points = (
-            replace(at, time=time, x=x, z=z) for time, x, z in zip(rows.times.tolist(), rows.x, rows.z, strict=True)
-        )
-        return [Sample(here, g, d) for here, g, d in zip(points, value * side, rate * side, strict=True)]
+        columns = zip(rows.times.tolist(), rows.x, rows.z, value * side, rate * side, strict=True)
+        return [Sample(Point(t, x, z, at.constants, at.truth), g, d) for t, x, z, g, d in columns]
 
     def _seen_between(
         self, at: Point, samples: list[Sample], level: np.ndarray, turning: list[int], end: int

@@ -63,7 +63,9 @@ class Stride:
             return True
         if self.density < self.densest:
             needed = max(LOOKS.denser * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
-            self.density = min(self.densest, LOOKS.denser ** int(np.ceil(np.log(needed) / np.log(LOOKS.denser) - 1e-9)))
+            while self.density < min(needed, self.densest):
+                self.density *= LOOKS.denser
+            self.density = min(self.density, self.densest)
         elif len(grid) > 2:
             self.block = max(1, (len(grid) - 1) // LOOKS.fine)
         else:
@@ -94,4 +96,4 @@ class Stride:
         self.block = 1
         if since is not None and self.density > LOOKS.densest:
             # Where there are many looks to an interval, there are many events: look no further than a few.
-            self.piece = max(4 * since, self.interval * LOOKS.densest / self.density)
+            self.piece = max(LOOKS.ahead * since, self.interval * LOOKS.densest / self.density)

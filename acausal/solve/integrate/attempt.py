@@ -49,7 +49,7 @@ class Integrator:
     def aside(self) -> Integrator:
         """Return an integrator that goes on in the same way, and counts for itself."""
         other = Integrator(self.problem, self.settings, self.span, Trace())
-        other.way = self.way
+        other.way, other._floor = self.way, self._floor
         return other
 
     @property

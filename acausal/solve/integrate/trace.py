@@ -105,8 +105,8 @@ class Stretch:
         return self.rows.times
 
     def since(self, at: Point) -> Rows:
-        """Return the rows, and the point at which the call began before them."""
-        return Rows.joined([Rows.of(at), self.rows])
+        """Return the rows, and the point at which the call began before them, all with the constants of the call."""
+        return Rows.joined([Rows.of(replace(at, constants=self.constants)), self.rows])
 
     def end(self, at: Point) -> Point:
         """Return the last row as a point; `at` tells which conditions hold."""

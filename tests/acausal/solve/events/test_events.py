@@ -262,3 +262,28 @@ def test_events_by_the_clock():
     assert result["x"][5:7] == pytest.approx([(q + 1) * q + 1, 2.0], abs=1e-7)
     assert result["x"][-1] == pytest.approx((2 * r + 1) * np.exp(-0.05), abs=1e-7)
     assert result["due"][-1] == 1.0
+
+
+class Ringing(Model):
+    """A slow motion with an event, beside a vibration that the outputs cannot show."""
+
+    slow: Scalar = variable("slow", start=1, fixed=True)
+    mode: Scalar = discrete("how often it passed 0", start=0)
+    x: Scalar = variable("fast", start=1e-3, fixed=True)
+    v: Scalar = variable("its rate", start=0, fixed=True)
+    rate: Scalar = variable("rate of the slow motion", start=0, fixed=True)
+
+    def equations(self):
+        yield der(self.slow) == self.rate
+        yield der(self.rate) == -(10.0**2) * self.slow + self.x
+        yield when(self.slow < 0, reinit(self.mode, self.mode + 1))
+        yield der(self.x) == self.v
+        yield der(self.v) == -(1e4**2) * self.x
+
+
+@pytest.mark.parametrize(("method", "used"), [("auto", "rosenbrock"), ("resolve", "idas")])
+def test_vibrations_beside_events_are_damped_where_outputs_cannot_show_them(method, used):
+    result = ac.simulate(Ringing(), stop_time=0.2, tolerance=1e-6, intervals=40, method=method)
+    assert used in result.stats["method"]
+    np.testing.assert_allclose(result.stats["event_times"], [np.pi / 20], rtol=1e-5)
+    np.testing.assert_allclose(result["slow"], np.cos(10 * result.time), atol=1e-4)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad, simpson
 
 import acausal as ac
-from acausal import Model, chain, connect, cos, fixed, quantity, sin, time
+from acausal import Model, chain, connect, cos, fixed, quantity, reinit, sin, time, when
 from components import rotational
 from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
@@ -163,6 +163,28 @@ def test_works_are_the_integrals_of_the_powers(name, tolerance):
         exact = simpson(along(many, power), x=many.time)
         for result in (few, many):
             assert result.stats[work] == pytest.approx(exact, abs=30 * tolerance * held)
+
+
+class Kicked(Model):
+    """A rotor whose speed is set as the run starts."""
+
+    rotor = rotational.Inertia(J=1, phi=fixed(0), w=fixed(1))
+    damper, wall = rotational.Damper(d=0.5), rotational.Fixed()
+
+    def connections(self):
+        yield chain(self.rotor, self.damper, self.wall.flange)
+
+    def equations(self):
+        yield when(time >= 0, reinit(self.rotor.w, 3), at_start=True)
+
+
+def test_a_jump_at_the_start_is_before_the_first_point():
+    result = ac.simulate(Kicked(), stop_time=1.0, tolerance=1e-8, energy=True)
+    np.testing.assert_allclose(result["rotor.w"], 3 * np.exp(-0.5 * result.time), rtol=1e-6)
+    lost = 4.5 * (1 - np.exp(-1))
+    assert result.stats["energy_dissipated"] == pytest.approx(lost, rel=1e-6)
+    assert result.stats["energy_stored_change"] == pytest.approx(-lost, rel=1e-6)
+    assert result.stats["energy_supplied"] == 0
 
 
 def test_energy_of_an_impact_is_balanced():
