@@ -126,8 +126,10 @@ class Energy:
     # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
     probes: int = 24
     alike: float = 1e-2
-    # Rows at which the stored energy is evaluated.
+    # Rows at which the stored energy is evaluated, and what of it counts as exchanged even if it rests: powers that cancel
+    # leave rounding, which no spline follows.
     looks: int = 9
+    rounding: float = 1e-9
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,7 @@ def refined(
     """
     t, last = rows.times, len(rows) - 1
     count = min(ENERGY.fewest, last)
-    least = tolerance * _exchanged(solver, rows) / len(t)
+    least = tolerance * _exchanged(solver, rows)
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
         power = powers(solver, rows[some])
@@ -81,14 +81,14 @@ def refined(
         fine, rough = work(t[some], power, t), work(t[some[_halved(some)]], power[_halved(some)], t)
         each, error = (np.diff(w[some], axis=0) for w in (fine, rough - fine))
         settled = bool(
-            np.all(np.abs(error) / ENERGY.gain <= np.maximum(tolerance * np.mean(np.abs(each), axis=0), least))
+            np.all(np.abs(error) / ENERGY.gain <= np.maximum(tolerance * np.mean(np.abs(each), axis=0), least / len(t)))
         )
         if settled or len(some) == len(t):
             break
         count = min(2 * count, last)
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
-    if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power)):
+    if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power, least)):
         closer, known = between_rows(solver, rows, tolerance)
         if known or not np.all(agree):
             return given[0] + closer, known
@@ -121,16 +121,17 @@ def between_rows(solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.n
         # Between its steps an integrator is not smooth: then more points do not change less.
         rough = np.all((change >= last / 4) & (change <= ENERGY.alike * scale))
         agreed = agreed + 1 if np.all(change / ENERGY.gain <= tolerance * scale) or rough else 0
-        if agreed == 2 and _seen(solver, rows, since, power, rates):
+        if agreed == 2 and _seen(solver, rows, since, power, tolerance * exchanged, rates):
             return found, True
         parts *= 2
     return np.nan_to_num(found), False
 
 
 def _exchanged(solver: Consistent, rows: Rows) -> float:
-    """By how much the stored energy varies: a tiny power need not be known to its own tolerance."""
+    """By how much the stored energy varies, but for rounding: a tiny power need not be known to its own tolerance."""
     problem = solver.problem
-    return float(np.ptp([problem.stored(problem.point(rows, k)) for k in spread(len(rows), ENERGY.looks)]))
+    stored = [problem.stored(problem.point(rows, k)) for k in spread(len(rows), ENERGY.looks)]
+    return float(np.ptp(stored) + ENERGY.rounding * np.max(np.abs(stored)))
 
 
 def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
@@ -145,9 +146,9 @@ def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndar
 
 
 def _seen(
-    solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, rates: np.ndarray | None = None
+    solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, least: float, rates: np.ndarray | None = None
 ) -> bool:
-    """Whether a spline of the power, over times since the first row, is right beside its nodes."""
+    """Whether a spline of the power, over times since the first row, is right beside its nodes, but for a work of `least`."""
     s = (np.arange(1, ENERGY.probes + 1) * GOLDEN) % 1 * (len(rows) - 1)
     if rates is None:
         k = np.minimum(s.astype(int), len(rows) - 2)
@@ -158,7 +159,7 @@ def _seen(
         rows = rows.with_z(z)
     probes, since = _inside(rows, rates, s)
     missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(since) - powers(solver, probes))
-    return bool(np.all(missed <= ENERGY.alike * np.max(np.abs(power), axis=0)))
+    return bool(np.all(missed <= np.maximum(ENERGY.alike * np.max(np.abs(power), axis=0), least / times[-1])))
 
 
 def _halved(some: np.ndarray) -> np.ndarray:
