@@ -12,10 +12,19 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.causes import dependent, without_value
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.newton import algebraic
+from acausal.solve.start.newton import Lost, algebraic
+
+
+NO_VALUE = "at the start, t = {:g} s, these equations have no value:\n"
+ELSEWHERE = (
+    "Start where they have one, start=... or fixed(...) (an unknown without a guess begins at 0), "
+    "or give the value there by piecewise((value, condition), ..., otherwise)."
+)
+GUESSES = "Give guesses at which it does: variable(..., start=...) or guess(...)."
 
 
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
@@ -38,7 +47,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     guards, p = problem.compiled.guards, problem.p
     head = problem.compiled.guards.estimate(p, later)[0].copy()
     for _ in range(POLICY.switches.rounds):
-        begun = initialize(problem, time, head, initial)
+        begun = _begun(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
         new = head.copy()
@@ -56,6 +65,32 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         + places_text(problem.compiled, wrong)
         + "\nGive start values at which it is clear which of them hold, or use smooth=True."
     )
+
+
+def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:
+    """Initialise, and say why where that fails or ends where equations have no value."""
+    try:
+        begun = initialize(problem, time, head, initial)
+    except Lost as lost:
+        raise InitializationError(_why(problem, lost.at, lost.flag, str(lost))) from None
+    if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
+        raise InitializationError(_why(problem, begun.point, 0.0, "the equations have no value at the start."))
+    undecided = without_value(problem, begun.point, kinds=("event",)) if problem.compiled.guards.guards else ""
+    if undecided:
+        raise InitializationError(NO_VALUE.format(time) + undecided + "\n" + ELSEWHERE)
+    return begun
+
+
+def _why(problem: Problem, at: Point, flag: float, otherwise: str) -> str:
+    """The cause of a failure at the start, if there is one in the equations themselves."""
+    missing = without_value(problem, at, flag, ("equation", "start") if flag else ("equation",))
+    if missing:
+        return f"{NO_VALUE.format(at.time)}{missing}\n{ELSEWHERE}"
+    twice = dependent(problem, at, flag)
+    if not twice:
+        return otherwise
+    guesses = "" if "the same" in twice else f"\n{GUESSES}"
+    return f"at the start, t = {at.time:g} s, {twice}{guesses}"
 
 
 def _first_truth(problem: Problem, at: Point) -> np.ndarray:
