@@ -16,6 +16,8 @@ from acausal.language.functions import initial, time
 from acausal.reduce import ReducedModel
 from acausal.symbols import dense, scalars, stacked
 
+EQUATION, START, EVENT = "equation", "initial condition", "condition"
+
 
 @dataclass(frozen=True)
 class Row:
@@ -43,6 +45,8 @@ class Whole:
         equations by the unknowns, from unknowns, parameters, time, constants and the flag of the initial system.
     arguments : list of casadi.SX
         Arguments of the last two.
+    required : Call
+        What components require of variables at the start, from the same.
     """
 
     rows: list[Row]
@@ -52,6 +56,7 @@ class Whole:
     values: Call
     slopes: Call
     arguments: list[ca.SX]
+    required: Call
 
     def jacobian(self, *values: Any) -> np.ndarray:
         """Return the Jacobian of the equations by the unknowns that are solved for."""
@@ -65,11 +70,12 @@ def whole(compiled: Any) -> Whole:
     """Make the functions of all rows of a compiled model."""
     r: ReducedModel = compiled.reduced
     arguments = [r.unknowns, r.p, time.sx, r.constants, initial.sx]
-    equations = [Row(e, _origin(r, k), "equation") for k, e in enumerate(r.residuals)]
+    equations = [Row(e, _origin(r, k), EQUATION) for k, e in enumerate(r.residuals)]
     rows = equations + _assigned(r) + _conditions(r)
     known = {s.element_hash() for a in arguments for s in scalars(a)}
     rows = [row for row in rows if all(s.element_hash() in known for s in ca.symvar(row.expression))]
     column = stacked([row.expression for row in rows])
+    required = _remaining(r, [statement.sx for statement, _ in compiled.requirements.at_start])
     J = ca.jacobian(stacked([row.expression for row in equations]), r.unknowns)
     return Whole(
         rows=rows,
@@ -79,7 +85,14 @@ def whole(compiled: Any) -> Whole:
         values=Call(ca.Function("rows", arguments, [dense(column)])),
         slopes=Call(ca.Function("slopes", arguments, [J])),
         arguments=arguments,
+        required=Call(ca.Function("required", arguments, [required])),
     )
+
+
+def _remaining(r: ReducedModel, entries: list[ca.SX]) -> ca.SX:
+    """A column of expressions of the model in unknowns that remain."""
+    was, becomes = r.flat.unknowns.eliminated
+    return dense(ca.substitute([stacked(entries)], [was], [becomes])[0]) if entries else ca.SX(0, 1)
 
 
 def _origin(r: ReducedModel, row: int) -> Origin:
@@ -94,13 +107,13 @@ def _assigned(r: ReducedModel) -> list[Row]:
     """What is assigned: solving for an unknown divides by its coefficient."""
     pairs = (*r.plan.assigned, *r.plan.observed)
     values = scalars(r.definitions[1]) if pairs else []
-    return [Row(value, _origin(r, e), "equation") for value, (_, e) in zip(values, pairs, strict=True)]
+    return [Row(value, _origin(r, e), EQUATION) for value, (_, e) in zip(values, pairs, strict=True)]
 
 
 def _conditions(r: ReducedModel) -> list[Row]:
     """Initial conditions, and conditions of events and switches."""
-    flat, was, becomes = r.flat, *r.flat.unknowns.eliminated
-    found = [Row(c.residual, c.origin, "start") for c in flat.equations.initial]
+    flat = r.flat
+    found = [Row(c.residual, c.origin, START) for c in flat.equations.initial]
     guards = flat.discontinuities.guards
-    excess = ca.substitute([stacked([g.excess for g in guards])], [was], [becomes])[0] if guards else ca.SX(0, 1)
-    return found + [Row(e, g.origin, "event") for e, g in zip(scalars(excess), guards, strict=True)]
+    excess = _remaining(r, [g.excess for g in guards])
+    return found + [Row(e, g.origin, EVENT) for e, g in zip(scalars(excess), guards, strict=True)]

@@ -62,8 +62,9 @@ class Causes:
     balancing: int = 3
     # Equations of which a dense decomposition takes a few seconds.
     largest: int = 2000
-    # Beyond the last point that was reached, in parts of the way to where an integrator stopped.
-    beyond: tuple[float, ...] = (0.0, 1.0, 2.0, 10.0)
+    # Beyond the last point that was reached, in parts of the way to where an integrator stopped, at least so much of the run.
+    beyond: tuple[float, ...] = (1.0, 2.0, 10.0)
+    shortest: float = 1e-4
     # Lines and names in a message, and letters of an expression.
     shown: int = 5
     text: int = 40

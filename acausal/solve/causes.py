@@ -10,13 +10,18 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.compiler.whole import Row, Whole, whole
-from acausal.flatten.origin import Origin
+from acausal.compiler.whole import EQUATION, Row, Whole, whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.symbols import scalars, stacked
 
 CAUSES = POLICY.causes
+ELSEWHERE = (
+    "Start elsewhere: start=... or fixed(...), as an unknown without them begins at 0. Or say what holds there: "
+    "piecewise((value, condition), ..., otherwise)."
+)
+GUESSES = "Give a guess at which it does, variable(..., start=...) or guess(...): an unknown without one begins at 0."
 WORDS = {
     ca.OP_DIV: "divides by 0",
     ca.OP_INV: "divides by 0",
@@ -67,7 +72,13 @@ class _There:
         return replace(self, p=p)
 
 
-def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = ("equation",)) -> str:
+def cause(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,)) -> str:
+    """Say why equations cannot be solved at a point, "" if nothing in the equations themselves tells."""
+    twice = "" if (missing := without_value(problem, at, flag, kinds)) else dependent(problem, at, flag)
+    return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
+
+
+def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,)) -> str:
     """Say which equations have no value at a point, "" if all have one.
 
     Parameters
@@ -85,10 +96,15 @@ def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterabl
     rows = [row for row in there.failing() if row.kind in kinds]
     if not rows:
         return ""
-    zeros = [name for name, k in _zeros(problem, rows) if not _fails(there.with_parameter(k, 1.0), rows)]
-    lines = dict.fromkeys(f"  {_line(row, there)}" for row in rows)
-    text = "\n".join(list(lines)[: CAUSES.shown])
-    return f"{text}\n{_of_zeros(zeros)}" if zeros else text
+    if broken := _broken(problem, there):
+        return broken
+    lines = list(dict.fromkeys(f"  {_line(row, there)}" for row in rows))[: CAUSES.shown]
+    what = (
+        "these equations have"
+        if len(lines) > 1
+        else f"{'this' if rows[0].kind == EQUATION else 'a'} {rows[0].kind} has"
+    )
+    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, _mend(problem, there, rows)])
 
 
 def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
@@ -118,10 +134,46 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
         return f"{_of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
     if len(origins) > 1:
         return (
-            f"these equations say the same there, so that nothing determines {what}:\n{lines}\n"
+            f"these equations say the same, so that nothing determines {what}:\n{lines}\n"
             "Replace one of them by an equation that says something new."
         )
-    return f"this equation does not determine {what} there:\n{lines}"
+    return f"this equation does not determine {what}:\n{lines}\n{GUESSES}"
+
+
+def infinite_slope(problem: Problem, at: Point) -> str:
+    """Say which equations change infinitely fast with an unknown at a point, as sqrt(x) at x = 0; "" if none do."""
+    there = _There.of(problem, at, 0.0)
+    J = there.whole.slopes(*there.arguments)[0]
+    pattern = np.array(there.whole.slopes.function.sparsity_out(0).row())
+    rows = dict.fromkeys(str(there.whole.rows[k].origin) for k in pattern[~np.isfinite(J)])
+    if not rows:
+        return ""
+    lines = "\n".join(f"  {row}" for row in list(rows)[: CAUSES.shown])
+    return (
+        f"at t = {at.time:.6g} s the slope of this equation is infinite, as that of sqrt(x) at x = 0:\n{lines}\n"
+        "Start beside it, or give the law a finite slope there: sqrt(x + 1e-6), or piecewise(...)."
+    )
+
+
+def _broken(problem: Problem, there: _There) -> str:
+    """What a component requires at the start and does not hold."""
+    stated, values, first = problem.compiled.requirements.at_start, there.whole.required(*there.arguments)[0], 0
+    for requirement, origin in stated:
+        own = values[first : (first := first + requirement.sx.numel())]
+        if text := requirement.broken(own):
+            return f"{origin}: {text}."
+    return ""
+
+
+def _mend(problem: Problem, there: _There, rows: list[Row]) -> str:
+    """What to give instead: another parameter, or other values of variables."""
+    zeros = [name for name, k in _zeros(problem, rows) if not _fails(there.with_parameter(k, 1.0), rows)]
+    own = problem.compiled.reduced.flat.parameters
+    names = {s.element_hash(): name for name, s in zip(own.names, scalars(own.symbols), strict=True)}
+    inside = [s.element_hash() for s in ca.symvar(stacked([row.expression for row in rows[:1]]))]
+    if not zeros and inside and all(s in names for s in inside):
+        return f"Give {' or '.join(f'`{names[s]}`' for s in inside[: CAUSES.shown])} another value."
+    return _of_zeros(zeros) if zeros else ELSEWHERE
 
 
 def _null(there: _There) -> tuple[np.ndarray, np.ndarray]:
@@ -162,7 +214,7 @@ def _zeros(problem: Problem, rows: list[Row]) -> list[tuple[str, int]]:
     """Parameters in some rows that are 0."""
     own = problem.compiled.reduced.flat.parameters
     inside = {s.element_hash() for row in rows for s in ca.symvar(row.expression)}
-    symbols = own.symbols.elements() if own.symbols.numel() else []
+    symbols = scalars(own.symbols)
     return [
         (name, k)
         for k, (name, s) in enumerate(zip(own.names, symbols, strict=True))
@@ -178,12 +230,7 @@ def _of_zeros(names: list[str]) -> str:
 
 def _line(row: Row, there: _There) -> str:
     """Where a row is stated, and which operation in it has no value."""
-    what = {"equation": "", "start": "initial condition: ", "event": "condition: "}[row.kind]
-    return f"{_place(row.origin)}: {what}{_operation(row, there)}"
-
-
-def _place(origin: Origin) -> str:
-    return str(replace(origin, text=""))
+    return f"{row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{_operation(row, there)}"
 
 
 def _operation(row: Row, there: _There) -> str:
@@ -206,12 +253,12 @@ def _operation(row: Row, there: _There) -> str:
             continue
         words = WORDS.get(node.op())
         if words is None:
-            return "a number is too large"
+            return "gives a number that is too large"
         divisor = inner[-1]
         if node.op() in (ca.OP_DIV, ca.OP_INV) and divisor:
-            return "a number is too large"
+            return "gives a number that is too large"
         return words.format(*inner) + _named(parts[-1] if node.op() in (ca.OP_DIV, ca.OP_INV) else parts[0])
-    return "it has no value"
+    return "holds a number that is not finite, such as 1/0 or sqrt(-1)"
 
 
 def _named(operand: Any) -> str:

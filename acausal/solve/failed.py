@@ -8,14 +8,16 @@ import numpy as np
 
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
-from acausal.solve.causes import dependent, without_value
+from acausal.solve.causes import cause, infinite_slope, without_value
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.redundancy import Redundancy, is_singular
 
 MOST = 3  # states that are named
+CAUSES = POLICY.causes
 SINGULAR = (
     "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
     "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
@@ -55,27 +57,32 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
         return f"{lines[0]} {KEPT}"
     if is_singular(problem, at, left) or (left.singular and not reached):
         return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {KEPT}"])
-    cause = _cause(problem, at, failure.time)
-    if cause:
-        return "\n".join([*lines, cause, KEPT])
+    found = _cause(problem, at, failure.time, begun.time)
+    if found:
+        return "\n".join([*lines, found, KEPT])
     mend = MENDS.get(failure.kind, MENDS[None])
     return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {KEPT}"])
 
 
-def _cause(problem: Problem, at: Point, stopped: float) -> str:
+def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
     """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
+    if found := cause(problem, at) or infinite_slope(problem, at):
+        return found
     rates = problem.values(at)[: problem.nx].copy()
     slope = np.where(np.isfinite(rates), rates, 0.0)
-    for part in POLICY.causes.beyond:
-        way = part * (stopped - at.time)
-        missing = without_value(problem, replace(at, time=at.time + way, x=at.x + way * slope))
-        if missing:
-            return f"These equations have no value from there on:\n{missing}\nGive one by {PIECEWISE}, or keep away."
-    twice = dependent(problem, at)
-    return f"At t = {at.time:.6g} s {twice}" if twice else ""
+    way = max(stopped - at.time, CAUSES.shortest * (stopped - begun))
+    for part in CAUSES.beyond:
+        later = replace(at, time=at.time + part * way, x=at.x + part * way * slope)
+        if found := without_value(problem, later):
+            return found
+        try:
+            algebraic(problem, later)
+        except Lost as lost:
+            return f"from there on these equations have no solution:\n{lost.worst}\n{LIMITS}"
+    return ""
 
 
-PIECEWISE = "piecewise((value, condition), ..., otherwise)"
+LIMITS = "Check up to where they hold, and say what holds beyond: piecewise((value, condition), ..., otherwise)."
 
 
 def _fastest(problem: Problem, at: Point) -> str:
@@ -85,7 +92,11 @@ def _fastest(problem: Problem, at: Point) -> str:
     order = np.argsort(-np.nan_to_num(rates, nan=np.inf))[:MOST]
     moving = [int(k) for k in order if rates[k] > 0 or not np.isfinite(rates[k])]
     lines = [f"  `{compiled.states[k]}` = {at.x[k]:.4g}{_where(problem, k)}" for k in moving]
-    return f"What changes fastest at t = {at.time:.6g} s, the last values that are right:\n" + "\n".join(lines) if lines else ""
+    return (
+        f"What changes fastest at t = {at.time:.6g} s, the last values that are right:\n" + "\n".join(lines)
+        if lines
+        else ""
+    )
 
 
 def _where(problem: Problem, state: int) -> str:

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.errors import SimulationError, caution
+from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
@@ -32,6 +32,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
 from acausal.solve.start.start import go_on, start
 
+PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message
 ROUGH = (
     "the energies are less accurate than the tolerance: a power varies faster than points between the outputs can follow. "
@@ -115,6 +116,12 @@ class _Done:
 
 def _plan(problem: Problem, task: Task) -> _Plan:
     begin, end = task.start_time, task.stop_time
+    numbers = (task.intervals + 1) * (problem.nx + problem.nz + PLAIN)
+    if numbers > POLICY.defaults.numbers:
+        raise DeclarationError(
+            f"intervals is {task.intervals}: the result would need {8e-9 * numbers:.3g} GB. Take fewer; what happens "
+            "between two outputs is computed all the same."
+        )
     times = begin + (end - begin) * np.linspace(0.0, 1.0, task.intervals + 1)
     times[-1] = end
     found = clock_times(problem.compiled, problem.p, begin, end)

@@ -145,7 +145,7 @@ class Instants:
                 raise Failure(
                     at.time,
                     f"{self.guards.guards[guard].origin}: reinit() gives no finite number; check what it divides by, and the "
-                    "arguments of sqrt, log, acos"
+                    "arguments of sqrt, log, acos",
                 )
             for (is_state, place), value in zip(places, values, strict=True):
                 (x if is_state else discretes)[place] = value

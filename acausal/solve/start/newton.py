@@ -12,17 +12,17 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.rank import factored
-from acausal.solve.start.words import lost_text
+from acausal.solve.start.words import lost_text, worst_lines
 
 NEWTON = POLICY.newton
 
 
 class Lost(InitializationError):
-    """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system."""
+    """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system, `worst` what does not hold."""
 
-    def __init__(self, text: str, at: Point, flag: float) -> None:
+    def __init__(self, text: str, at: Point, flag: float, worst: str = "") -> None:
         super().__init__(text)
-        self.at, self.flag = at, flag
+        self.at, self.flag, self.worst = at, flag, worst
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
 
     def lost(value: np.ndarray) -> Lost:
         text = lost_text(problem.compiled, value, system.rows, system.surplus, at.time)
-        return Lost(text, at.with_y(y), flag)
+        return Lost(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
 
     value = residual(y)
     if not np.all(np.isfinite(value)):

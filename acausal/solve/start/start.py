@@ -8,23 +8,19 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.whole import EQUATION, EVENT, START
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.causes import cause, without_value
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.causes import dependent, without_value
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
 
-
-NO_VALUE = "at the start, t = {:g} s, these equations have no value:\n"
-ELSEWHERE = (
-    "Start where they have one, start=... or fixed(...) (an unknown without a guess begins at 0), "
-    "or give the value there by piecewise((value, condition), ..., otherwise)."
-)
-GUESSES = "Give guesses at which it does: variable(..., start=...) or guess(...)."
+STAGES = (EQUATION, START)
+NOT_FINITE = "the equations have no value at the start; check the start values."
 
 
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
@@ -72,25 +68,10 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     try:
         begun = initialize(problem, time, head, initial)
     except Lost as lost:
-        raise InitializationError(_why(problem, lost.at, lost.flag, str(lost))) from None
+        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES) or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
-        raise InitializationError(_why(problem, begun.point, 0.0, "the equations have no value at the start."))
-    undecided = without_value(problem, begun.point, kinds=("event",)) if problem.compiled.guards.guards else ""
-    if undecided:
-        raise InitializationError(NO_VALUE.format(time) + undecided + "\n" + ELSEWHERE)
+        raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
     return begun
-
-
-def _why(problem: Problem, at: Point, flag: float, otherwise: str) -> str:
-    """The cause of a failure at the start, if there is one in the equations themselves."""
-    missing = without_value(problem, at, flag, ("equation", "start") if flag else ("equation",))
-    if missing:
-        return f"{NO_VALUE.format(at.time)}{missing}\n{ELSEWHERE}"
-    twice = dependent(problem, at, flag)
-    if not twice:
-        return otherwise
-    guesses = "" if "the same" in twice else f"\n{GUESSES}"
-    return f"at the start, t = {at.time:g} s, {twice}{guesses}"
 
 
 def _first_truth(problem: Problem, at: Point) -> np.ndarray:
@@ -99,6 +80,8 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     if not guards.watched:
         return np.zeros(0, dtype=bool)
     value = problem.watched(Rows.of(at))[0][0]
+    if np.any(np.isnan(value)):
+        raise InitializationError(without_value(problem, at, kinds=(EVENT,)) or NOT_FINITE)
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])
