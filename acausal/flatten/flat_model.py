@@ -138,6 +138,8 @@ class FlatEquations:
         Fixed start values and initial equations.
     redundant : tuple of Origin
         Redundant equations.
+    emptied : mapping of int to tuple of Origin
+        Residual that holds no unknown any more -> equations that gave those that it held.
     """
 
     residuals: ca.SX
@@ -145,6 +147,7 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
+    emptied: Mapping[int, tuple[Origin, ...]]
 
 
 @dataclass(frozen=True)

@@ -160,11 +160,11 @@ def _check(task: Task, accuracy: float | None) -> None:
     if (stop - start) / task.intervals <= 8 * np.spacing(max(abs(start), abs(stop))):
         raise DeclarationError(
             f"start_time = {start:g} s and stop_time = {stop:g} s are too near each other for {task.intervals} outputs between "
-            "them: at such times a float tells no more of them apart. Count time from a later instant, or take fewer intervals."
+            "them: numbers of this size cannot tell them apart. Count time from 0, or take fewer intervals."
         )
-    for name, value, example in (("tolerance", task.tolerance, 1e-6), ("accuracy", accuracy, 1e-3)):
+    for name, value, example in (("tolerance", task.tolerance, "1e-6"), ("accuracy", accuracy, "1e-3")):
         if value is not None and not 0 < value < 1:
-            raise DeclarationError(f"{name} is {value:g}; it must lie between 0 and 1, for instance {example:g}.")
+            raise DeclarationError(f"{name} is {value:g}; it must lie between 0 and 1, for instance {example}.")
     if task.max_order is not None and (isinstance(task.max_order, bool) or task.max_order not in range(1, 6)):
         raise DeclarationError(f"max_order is {task.max_order!r}; it must be a whole number from 1 to 5.")
     if not isinstance(task.energy, bool | np.bool_):

@@ -14,11 +14,11 @@ from acausal.compiler.whole import EQUATION, Row, Whole, whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.symbols import scalars, stacked
+from acausal.symbols import scalars
 
 CAUSES = POLICY.causes
 ELSEWHERE = (
-    "Start elsewhere: start=... or fixed(...), as an unknown without them begins at 0. Or say what holds there: "
+    "Start elsewhere, start=... or fixed(...): an unknown without them begins at 0. Or say what holds there, "
     "piecewise((value, condition), ..., otherwise)."
 )
 GUESSES = "Give a guess at which it does, variable(..., start=...) or guess(...): an unknown without one begins at 0."
@@ -78,7 +78,9 @@ def cause(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] =
     return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
 
 
-def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,)) -> str:
+def without_value(
+    problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), mend: str = ELSEWHERE
+) -> str:
     """Say which equations have no value at a point, "" if all have one.
 
     Parameters
@@ -91,6 +93,8 @@ def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterabl
         1 while the initial system holds.
     kinds : iterable of str
         Rows that count, see `Row`.
+    mend : str
+        What to do where no parameter is the cause.
     """
     there = _There.of(problem, at, flag)
     rows = [row for row in there.failing() if row.kind in kinds]
@@ -98,13 +102,11 @@ def without_value(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterabl
         return ""
     if broken := _broken(problem, there):
         return broken
-    lines = list(dict.fromkeys(f"  {_line(row, there)}" for row in rows))[: CAUSES.shown]
-    what = (
-        "these equations have"
-        if len(lines) > 1
-        else f"{'this' if rows[0].kind == EQUATION else 'a'} {rows[0].kind} has"
-    )
-    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, _mend(problem, there, rows)])
+    found = [(row, *_operation(row, there)) for row in rows]
+    lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
+    what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
+    own = _mend(problem, there, rows, found[0][2])
+    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, own or mend])
 
 
 def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
@@ -165,15 +167,15 @@ def _broken(problem: Problem, there: _There) -> str:
     return ""
 
 
-def _mend(problem: Problem, there: _There, rows: list[Row]) -> str:
-    """What to give instead: another parameter, or other values of variables."""
+def _mend(problem: Problem, there: _There, rows: list[Row], operand: Any) -> str:
+    """Which parameter needs another value, "" if variables are the cause."""
     zeros = [name for name, k in _zeros(problem, rows) if not _fails(there.with_parameter(k, 1.0), rows)]
     own = problem.compiled.reduced.flat.parameters
     names = {s.element_hash(): name for name, s in zip(own.names, scalars(own.symbols), strict=True)}
-    inside = [s.element_hash() for s in ca.symvar(stacked([row.expression for row in rows[:1]]))]
-    if not zeros and inside and all(s in names for s in inside):
-        return f"Give {' or '.join(f'`{names[s]}`' for s in inside[: CAUSES.shown])} another value."
-    return _of_zeros(zeros) if zeros else ELSEWHERE
+    inside = [s.element_hash() for s in ca.symvar(operand)]
+    if zeros or not inside or any(s not in names for s in inside):
+        return _of_zeros(zeros) if zeros else ""
+    return f"Give {' or '.join(f'`{names[s]}`' for s in inside[: CAUSES.shown])} another value."
 
 
 def _null(there: _There) -> tuple[np.ndarray, np.ndarray]:
@@ -228,13 +230,13 @@ def _of_zeros(names: list[str]) -> str:
     return f"{shown} {verb} 0, which the equations do not allow. Give another value."
 
 
-def _line(row: Row, there: _There) -> str:
-    """Where a row is stated, and which operation in it has no value."""
-    return f"{row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{_operation(row, there)}"
+def _line(row: Row, what: str) -> str:
+    """Where a row is stated, and what fails in it."""
+    return f"  {row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{what}"
 
 
-def _operation(row: Row, there: _There) -> str:
-    """The first operation in an expression that has no value, in words."""
+def _operation(row: Row, there: _There) -> tuple[str, Any]:
+    """The first operation in an expression that has no value, in words, and its operand."""
     nodes: list[Any] = []
     seen: set[int] = set()
     stack = [(row.expression, False)]
@@ -251,17 +253,16 @@ def _operation(row: Row, there: _There) -> str:
         value, *inner = function(*there.arguments)[0].tolist()
         if np.isfinite(value) or not np.all(np.isfinite(inner)):
             continue
+        divides = node.op() in (ca.OP_DIV, ca.OP_INV)
+        operand = parts[-1 if divides else 0]
         words = WORDS.get(node.op())
-        if words is None:
-            return "gives a number that is too large"
-        divisor = inner[-1]
-        if node.op() in (ca.OP_DIV, ca.OP_INV) and divisor:
-            return "gives a number that is too large"
-        return words.format(*inner) + _named(parts[-1] if node.op() in (ca.OP_DIV, ca.OP_INV) else parts[0])
-    return "holds a number that is not finite, such as 1/0 or sqrt(-1)"
+        if words is None or (divides and inner[-1]):
+            return "gives a number that is too large", operand
+        return words.format(*inner) + _named(operand), operand
+    return "holds a number that is not finite, such as 1/0 or sqrt(-1)", row.expression
 
 
 def _named(operand: Any) -> str:
     """The operand as it is computed, where that is short."""
-    text = str(operand)
-    return f" ({text})" if len(text) <= CAUSES.text and "@" not in text and not operand.is_constant() else ""
+    text = str(operand).removeprefix("(").removesuffix(")") if str(operand).count("(") == 1 else str(operand)
+    return f", {text}" if len(text) <= CAUSES.text and "@" not in text and not operand.is_constant() else ""

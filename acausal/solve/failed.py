@@ -66,14 +66,14 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
     """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
-    if found := cause(problem, at) or infinite_slope(problem, at):
+    if found := without_value(problem, at, mend=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
         return found
     rates = problem.values(at)[: problem.nx].copy()
     slope = np.where(np.isfinite(rates), rates, 0.0)
     way = max(stopped - at.time, CAUSES.shortest * (stopped - begun))
     for part in CAUSES.beyond:
         later = replace(at, time=at.time + part * way, x=at.x + part * way * slope)
-        if found := without_value(problem, later):
+        if found := without_value(problem, later, mend=LIMITS):
             return found
         try:
             algebraic(problem, later)
@@ -82,7 +82,9 @@ def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
     return ""
 
 
-LIMITS = "Check up to where they hold, and say what holds beyond: piecewise((value, condition), ..., otherwise)."
+LIMITS = (
+    "Say what holds beyond, piecewise((value, condition), ..., otherwise), or let the run end before, stop_time=...."
+)
 
 
 def _fastest(problem: Problem, at: Point) -> str:
