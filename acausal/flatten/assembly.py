@@ -157,15 +157,13 @@ class Assembly:
         for row, value in left.done.kept.items():
             entries[row] = expression(value, elements)
         defines = self._defines(left)
-        unknown = {elements[k].element_hash() for k in left.unknowns}
-        empty = [r for r in left.rows if not any(s.element_hash() in unknown for s in ca.symvar(entries[r]))]
         return FlatEquations(
             residuals=stacked([entries[r] for r in left.rows]),
             origins=tuple(self.origins[r] for r in left.rows),
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
-            emptied={k: self._givers(r, left.done) for k, r in enumerate(left.rows) if r in empty},
+            givers=lambda k: self._givers(left.rows[k], left.done),
         )
 
     def _givers(self, row: int, done: Simplification) -> tuple[Origin, ...]:

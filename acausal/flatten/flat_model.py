@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -138,8 +138,8 @@ class FlatEquations:
         Fixed start values and initial equations.
     redundant : tuple of Origin
         Redundant equations.
-    emptied : mapping of int to tuple of Origin
-        Residual that holds no unknown any more -> equations that gave those that it held.
+    givers : callable
+        From a residual to the equations that gave the unknowns that were removed from it.
     """
 
     residuals: ca.SX
@@ -147,7 +147,7 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
-    emptied: Mapping[int, tuple[Origin, ...]]
+    givers: Callable[[int], tuple[Origin, ...]]
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,8 @@ class Defaults:
     tolerance: float = 1e-6
     # A picture shows no more points.
     intervals: int = 400
+    # No tolerance is smaller: a few rounding errors of numbers.
+    rounding: float = 1e-15
     # Most numbers that a result may hold: 8 GB.
     numbers: float = 1e9
 

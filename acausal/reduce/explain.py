@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Mapping
 
@@ -18,6 +19,7 @@ from acausal.symbols import scalars
 MOST, SHORT = 5, 3
 UNCONNECTED = "Not connected"
 KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
+DECLARED = "What an equation is to determine is declared variable(...)."
 
 
 def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
@@ -42,7 +44,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     if singularity.over:
         lines += _too_many(flat, singularity.over[0])
     if singularity.under:
-        lines += _too_few(flat, singularity.under[0])
+        lines += _too_few(flat, _together(singularity.under))
     return "\n".join(lines)
 
 
@@ -53,21 +55,23 @@ def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
         str(flat.equations.origins[e]): base for e in rows if (base := _inherited(flat, flat.equations.origins[e]))
     }
     n, own = len(part.variables), _equations(flat, part, bases)
-    others: list[str] = []
-    if not n:
+    others = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
+    if n:
+        others = [o for o in others if _is_users(flat, o) and f"  {o}" not in own]
+        lines = [
+            f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):",
+            *own,
+        ]
+        lines += ["with others that are given by:"] if others else []
+    else:
         lines = [
             f"{'This equation has' if len(own) == 1 else 'These equations have'} no unknown left to determine:",
             *own,
         ]
-        others = list(dict.fromkeys(str(o) for e in rows for o in flat.equations.emptied.get(e, ())))
-        if others:
-            lines += ["Others determine all that it holds:", *(f"  {line}" for line in others[:MOST])]
-        else:
-            lines.append(f"{'It holds' if len(own) == 1 else 'They hold'} only {KNOWN}")
-    else:
-        which = f"{n} unknown{_s(n)} ({_names(flat, part)})"
-        lines = [f"These {len(part.equations)} equations determine only {which}:", *own]
-    mend = "One of them is too many: remove it." if n else "Remove one of them." if others else "Remove it."
+        it = "it holds" if len(own) == 1 else "they hold"
+        lines.append(f"Others determine all that {it}:" if others else f"{it.capitalize()} only {KNOWN}")
+    lines += [f"  {line}" for line in list(dict.fromkeys(map(str, others)))[:MOST]]
+    mend = "One of them is too many: remove it." if n or others else f"Remove it. {DECLARED}"
     if bases:
         mend += (
             " What is inherited comes by `yield from super().equations()`; leave that out where all of it is replaced."
@@ -75,6 +79,12 @@ def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
     if flat.loops.cuts:
         mend += " Where rigid parts close a loop, their lengths cannot all be prescribed: add a joint or a spring."
     return [*lines, mend]
+
+
+def _together(parts: tuple[Subsystem, ...]) -> Subsystem:
+    """The smallest part; all that no equation holds, if it is one of these."""
+    alone = [part for part in parts if not part.equations]
+    return Subsystem.of((), (v for part in alone for v in part.variables)) if alone else parts[0]
 
 
 def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
@@ -95,6 +105,11 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, mend + zero]
+
+
+def _is_users(flat: FlatModel, origin: Origin) -> bool:
+    """Whether an equation is stated in the file of the model itself."""
+    return origin.where.startswith(f"{inspect.getsourcefile(type(flat.tree))}:")
 
 
 def _inherited(flat: FlatModel, origin: Origin) -> str:

@@ -22,19 +22,20 @@ ELSEWHERE = (
     "piecewise((value, condition), ..., otherwise)."
 )
 GUESSES = "Give a guess at which it does, variable(..., start=...) or guess(...): an unknown without one begins at 0."
+RANGE = ", which must lie between -1 and 1"
 WORDS = {
-    ca.OP_DIV: "divides by 0",
-    ca.OP_INV: "divides by 0",
-    ca.OP_SQRT: "takes the square root of {:.4g}",
-    ca.OP_LOG: "takes the logarithm of {:.4g}",
-    ca.OP_LOG1P: "takes the logarithm of 1 + {:.4g}",
-    ca.OP_ACOS: "takes acos of {:.4g}, which must lie between -1 and 1",
-    ca.OP_ASIN: "takes asin of {:.4g}, which must lie between -1 and 1",
-    ca.OP_ACOSH: "takes acosh of {:.4g}, which must be at least 1",
-    ca.OP_ATANH: "takes atanh of {:.4g}, which must lie between -1 and 1",
-    ca.OP_POW: "raises {:.4g} to the power {:.4g}",
-    ca.OP_CONSTPOW: "raises {:.4g} to the power {:.4g}",
-    ca.OP_EXP: "takes exp of {:.4g}, which is too large a number",
+    ca.OP_DIV: "divides by {}",
+    ca.OP_INV: "divides by {}",
+    ca.OP_SQRT: "takes the square root of {}",
+    ca.OP_LOG: "takes the logarithm of {}",
+    ca.OP_LOG1P: "takes the logarithm of 1 + {}",
+    ca.OP_ACOS: f"takes acos of {{}}{RANGE}",
+    ca.OP_ASIN: f"takes asin of {{}}{RANGE}",
+    ca.OP_ACOSH: "takes acosh of {}, which must be at least 1",
+    ca.OP_ATANH: f"takes atanh of {{}}{RANGE}",
+    ca.OP_POW: "takes a power of {}",
+    ca.OP_CONSTPOW: "takes a power of {}",
+    ca.OP_EXP: "takes exp of {}, which is too large a number",
 }
 
 
@@ -134,7 +135,7 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
         return f"{_of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
-    if len(origins) > 1:
+    if len(inside) > 1:
         return (
             f"these equations say the same, so that nothing determines {what}:\n{lines}\n"
             "Replace one of them by an equation that says something new."
@@ -258,11 +259,13 @@ def _operation(row: Row, there: _There) -> tuple[str, Any]:
         words = WORDS.get(node.op())
         if words is None or (divides and inner[-1]):
             return "gives a number that is too large", operand
-        return words.format(*inner) + _named(operand), operand
+        return words.format(_named(operand, inner[-1 if divides else 0])), operand
     return "holds a number that is not finite, such as 1/0 or sqrt(-1)", row.expression
 
 
-def _named(operand: Any) -> str:
-    """The operand as it is computed, where that is short."""
-    text = str(operand).removeprefix("(").removesuffix(")") if str(operand).count("(") == 1 else str(operand)
-    return f", {text}" if len(text) <= CAUSES.text and "@" not in text and not operand.is_constant() else ""
+def _named(operand: Any, value: float) -> str:
+    """The operand as it is computed, where that is short, and its value."""
+    text = str(operand)
+    text = text[1:-1] if text.startswith("(") and text.count("(") == 1 else text
+    is_short = len(text) <= CAUSES.text and "@" not in text and not operand.is_constant()
+    return f"{text} = {value:.4g}" if is_short else f"{value:.4g}"

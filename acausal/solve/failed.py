@@ -59,7 +59,7 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
         return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {KEPT}"])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
-        return "\n".join([*lines, found, KEPT])
+        return "\n".join([*lines, found[0].upper() + found[1:], KEPT])
     mend = MENDS.get(failure.kind, MENDS[None])
     return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {KEPT}"])
 
