@@ -56,6 +56,8 @@ class Task:
     progress: Progress | None
 
 
+# As in `start`.
+@np.errstate(all="ignore")
 def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     """Run a compiled model once with the parameter values p.
 

@@ -23,6 +23,8 @@ STAGES = (EQUATION, START)
 NOT_FINITE = "the equations have no value at the start; check the start values."
 
 
+# What has no value is looked for and told in the user's words; numpy's warnings would only name our own lines.
+@np.errstate(all="ignore")
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """Find consistent values at the start, and the switches that fit them.
 
