@@ -95,6 +95,13 @@ class Body(Component):
 
     def requirements(self):
         yield require(self.I, wrong_inertia)
+        if self.world.gravity == "point":
+            centre, name = self._centre(), self._path or type(self).__name__
+            yield require(
+                dot(centre, centre) > 0,
+                f"{name} starts at the origin of the world, where gravity of a point is infinite; start it elsewhere, "
+                "for instance r_0=fixed((7e6, 0, 0)), or take World(gravity=None)",
+            )
 
     def initial_equations(self):
         if is_root(self.frame_a):

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal.compiler.asked import model_of, values_of
 from acausal.compiler.clock import split_clock
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.parameters import Settable
@@ -50,6 +51,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         seconds[stage] = now - started
         started = now
 
+    model, parameters = model_of(model), values_of(parameters)
     flat = flatten(model, parameters)
     Settable(flat).values(None)  # a length of 0 also breaks the structure: report the cause first
     lap("flatten")
@@ -58,11 +60,13 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
         mend = mend_of_zeros(model, parameters, flat, error)
+        if mend:
+            why = "\n".join(line for line in why.splitlines() if line.startswith("Nothing determines"))
         raise type(error)("\n".join(filter(None, (what, mend, why)))) from None
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
-    compiled = CompiledModel(reduced, seconds, Source(compile, model, dict(parameters or {})))
+    compiled = CompiledModel(reduced, seconds, Source(compile, model, parameters))
     compiled.parameter_values(None)
     _ = (
         compiled.local,
@@ -83,6 +87,6 @@ def ready(
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
     if isinstance(model, CompiledModel):
-        return model, model.parameter_values(parameters)
+        return model, model.parameter_values(values_of(parameters))
     compiled = compile(model, parameters)
     return compiled, compiled.parameter_values(None)

@@ -17,6 +17,7 @@ from acausal.flatten.given import numeric
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
+from acausal.language.expression import Expr
 from acausal.symbols import vec
 
 
@@ -50,6 +51,13 @@ class Settable:
         return values
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
+        if isinstance(value, Expr):
+            raise DeclarationError(f"`{path}` is {value!r}, an expression; a compiled model takes plain numbers in SI.")
+        if isinstance(value, Mapping):
+            inner = next(iter(value), "m")
+            raise DeclarationError(
+                f'`{path}` is {value!r}; write the whole path of each value: {{"{path}.{inner}": ...}}.'
+            )
         own = self.own
         index = {name: k for k, name in enumerate(own.names)}
         try:
@@ -74,9 +82,8 @@ class Settable:
                 or len(entries) != array.size
                 or any(k >= n for k, n in zip(at, array.shape, strict=True))
             ):
-                raise DeclarationError(
-                    f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
-                )
+                shape = f"entries such as {name}" if name != path else "one entry"
+                raise DeclarationError(f"`{path}` has {shape}; a value of shape {array.shape} does not fit.")
             entry = float(array[at])
             if name in own.weighing and entry != values[index[name]]:
                 raise DeclarationError(

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, reduce
-from operator import add
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -26,7 +25,7 @@ from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
-from acausal.flatten.tape import Linear, Tape
+from acausal.flatten.tape import Linear, Tape, expression
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, scalars, stacked, vec
 
@@ -101,10 +100,10 @@ class Assembly:
         done, elements = left.done, scalars(self.symbols)
         removed = list(done.solved)
         was = stacked([elements[k] for k in removed])
-        becomes = stacked([_expression(left.values[k], elements) for k in removed])
+        becomes = stacked([expression(left.values[k], elements) for k in removed])
         residuals = ca.vertcat(
             ca.substitute(self.residuals, was, becomes),
-            stacked([_expression(value, elements) for value, _ in done.left]),
+            stacked([expression(value, elements) for value, _ in done.left]),
         )
         return FlatModel(
             unknowns=self._unknowns(left, (was, becomes)),
@@ -156,7 +155,7 @@ class Assembly:
     def _equations(self, left: _Left, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
         entries, elements = scalars(residuals), scalars(self.symbols)
         for row, value in left.done.kept.items():
-            entries[row] = _expression(value, elements)
+            entries[row] = expression(value, elements)
         defines = self._defines(left)
         return FlatEquations(
             residuals=stacked([entries[r] for r in left.rows]),
@@ -164,7 +163,17 @@ class Assembly:
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
+            givers=lambda k: self._givers(left.rows[k], left.done),
         )
+
+    def _givers(self, row: int, done: Simplification) -> tuple[Origin, ...]:
+        """Equations that removed the unknowns of a residual, those of the whole model first."""
+        place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))}
+        entries, found = scalars(self.residuals), [row]
+        for r in found:
+            inside = (place.get(s.element_hash()) for s in ca.symvar(entries[r]))
+            found += dict.fromkeys(done.givers[k] for k in inside if k in done.givers and done.givers[k] not in found)
+        return tuple(sorted((self.origins[r] for r in found[1:]), key=lambda o: bool(o.path)))
 
     def _parameters(self) -> FlatParameters:
         own = self.raw.build.parameters
@@ -269,15 +278,17 @@ class Assembly:
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:
             lines = [
-                f"  {self.origins[row]}: its sides differ by {value:.6g}" for row, value in done.contradictions[:10]
+                f"  {self.origins[row]}: its sides differ by {value:.6g}" for row, value in done.contradictions[:5]
             ]
+            others = dict.fromkeys(f"  {o}" for row, _ in done.contradictions[:5] for o in self._givers(row, done))
             raise DeclarationError(
-                "these equations contradict the others, whatever the motion:\n" + "\n".join(lines) + "\n"
-                "A length, position or value is given twice with different values; remove one or make them agree."
+                "\n".join(
+                    [
+                        "these equations contradict others, whatever the motion:",
+                        *lines,
+                        "The others:",
+                        *list(others)[:5],
+                    ]
+                )
+                + "\nA length, position or value is given twice with different values; remove one or make them agree."
             )
-
-
-def _expression(value: Linear, elements: list[Any]) -> Any:
-    c0, terms = value
-    products = [elements[u] if c == 1 else elements[u] * c for u, c in terms]
-    return reduce(add, [*products, c0] if c0 or not products else products)

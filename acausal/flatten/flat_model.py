@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import casadi as ca
@@ -138,6 +138,8 @@ class FlatEquations:
         Fixed start values and initial equations.
     redundant : tuple of Origin
         Redundant equations.
+    givers : callable
+        From a residual to the equations that gave the unknowns that were removed from it.
     """
 
     residuals: ca.SX
@@ -145,6 +147,7 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
+    givers: Callable[[int], tuple[Origin, ...]]
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
+from acausal.symbols import scalars
 from acausal.units import parse
 
 
@@ -144,6 +145,10 @@ class Given:
             given = as_expr(value)
             if given.shape != (shape or ()):
                 raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
+            if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
+                raise DeclarationError(
+                    f"{where} follows from others, but not to a finite number: one that divides is 0."
+                )
             unit_rules.common(Expr(given.sx, unit, where), given, "its value")
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)

@@ -38,7 +38,9 @@ class Origin:
 
 
 def line_of(generator: Any) -> str:
-    """Return file and line of the current line of a generator, "" if unknown."""
+    """Return file and line of the current line of a generator, or of the one that it yields from; "" if unknown."""
+    while (inner := getattr(generator, "gi_yieldfrom", None)) is not None and hasattr(inner, "gi_frame"):
+        generator = inner
     frame = getattr(generator, "gi_frame", None)
     return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else ""
 

@@ -48,8 +48,6 @@ class Said:
 
 def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
     """Instantiate a model, connect it and collect everything that its components state."""
-    if not isinstance(model, Component):
-        raise DeclarationError(f"expected a model, that is an instance such as SpinUp(); got {model!r}")
     pending = Pending()
     token = PENDING.set(pending)
     try:

@@ -21,7 +21,8 @@ class Simplification:
     """Result of the propagation, in indices of unknowns and residuals.
 
     `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
-    among the remaining ones; `used` are residuals that removed an unknown, `redundant` those that became 0 = 0, `kept`
+    among the remaining ones; `used` are residuals that removed an unknown,
+    `givers` those that gave each removed one, itself or by a derivative, `redundant` those that became 0 = 0, `kept`
     those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
     that residual; `contradictions` can never hold.
     """
@@ -30,6 +31,7 @@ class Simplification:
     rank: list[int]
     solved: dict[int, Linear] = field(default_factory=dict)
     used: dict[int, int] = field(default_factory=dict)
+    givers: dict[int, int] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
     left: list[tuple[Linear, int]] = field(default_factory=list)
@@ -164,6 +166,7 @@ class Simplifier:
 
     def _replace(self, unknown: int, solution: Linear, row: int) -> None:
         self.tape.solve(unknown, solution)
+        self.result.givers[unknown] = row
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1
         other, c = solution[1][0] if solution[1] else (-1, 0.0)

@@ -9,7 +9,10 @@ from __future__ import annotations
 
 import heapq
 import math
+import operator
 from collections.abc import Callable
+from functools import reduce
+from typing import Any
 
 import casadi as ca
 
@@ -179,3 +182,10 @@ def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
             return 0.0, ()
         return scale(a, b[0]) if a is not None else None
     return scale(b, a[0]) if a is not None and not a[1] and b is not None else None
+
+
+def expression(value: Linear, elements: list[Any]) -> Any:
+    """Return a linear value in terms of the unknowns."""
+    c0, terms = value
+    products = [elements[u] if c == 1 else elements[u] * c for u, c in terms]
+    return reduce(operator.add, [*products, c0] if c0 or not products else products)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
-from acausal.policy.checks import Meeting, Promises, Validity
+from acausal.policy.checks import Causes, Meeting, Promises, Validity
 from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks
 from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
@@ -39,6 +39,7 @@ class Policy:
     meeting: Meeting
     promises: Promises
     validity: Validity
+    causes: Causes
     defaults: Defaults
     accuracy: Accuracy
     estimate: Estimate
@@ -66,6 +67,7 @@ POLICY = Policy(
     Meeting(),
     Promises(),
     Validity(),
+    Causes(),
     Defaults(),
     Accuracy(),
     Estimate(),

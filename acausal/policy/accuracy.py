@@ -7,12 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Defaults:
-    """What a simulation takes that is told nothing else."""
+    """What a simulation takes that is told nothing else, and how much it may take."""
 
     # That of Modelica tools; docs/accuracy.md tells the errors of the scenes.
     tolerance: float = 1e-6
     # A picture shows no more points.
     intervals: int = 400
+    # No tolerance is smaller: a few rounding errors of numbers.
+    rounding: float = 1e-15
+    # Most numbers that a result may hold: 8 GB.
+    numbers: float = 1e9
 
 
 @dataclass(frozen=True)

@@ -48,3 +48,23 @@ class Validity:
     dear: int = 40
     # Of what is not small: values of the integrator that are less are small.
     nearly: float = 0.3
+
+
+@dataclass(frozen=True)
+class Causes:
+    """Why a run fails."""
+
+    # What has no value counts as this in the other equations: inside the range of every function.
+    ordinary: float = 0.7
+    # A combination of equations of length 1 vanishes if so little of it is left; what weighs less in it takes no part.
+    rank: float = 1e-11
+    weight: float = 1e-3
+    balancing: int = 3
+    # Equations of which a dense decomposition takes a few seconds.
+    largest: int = 2000
+    # Beyond the last point that was reached, in parts of the way to where an integrator stopped, at least so much of the run.
+    beyond: tuple[float, ...] = (1.0, 2.0, 10.0)
+    shortest: float = 1e-4
+    # Lines and names in a message, and letters of an expression.
+    shown: int = 5
+    text: int = 40

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections import Counter
+import inspect
+import re
+from collections.abc import Mapping
+
+import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
+from acausal.language.component import Connector
 from acausal.language.fields import Variable
 from acausal.structure import StructuralSingularity, Subsystem
+from acausal.symbols import scalars
 
-MOST = 10
+MOST, SHORT = 5, 3
+UNCONNECTED = "Not connected"
+KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
+DECLARED = "What an equation is to determine is declared variable(...)."
 
 
 def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
@@ -32,28 +42,85 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         head = "the model has as many equations as unknowns, but they cannot determine all of them."
     lines = [head]
     if singularity.over:
-        part = singularity.over[0]
-        lines.append(
-            f"These {len(part.equations)} equations contain only {len(part.variables)} unknown{_s(len(part.variables))} "
-            f"({_names(flat, part)}):"
-        )
-        lines += _equations(flat, part)
-        lines.append(
-            "One of them is too many: remove it. Where rigid parts close a loop, their lengths cannot all be prescribed: "
-            "add a joint or a spring."
-        )
+        lines += _too_many(flat, singularity.over[0])
     if singularity.under:
-        part = singularity.under[0]
-        lines.append(f"Nothing determines {_names(flat, part)}.")
-        lines += _hints(flat, part)
-        if part.equations:
-            lines.append(f"The only equations that contain them ({len(part.equations)}):")
-            lines += _equations(flat, part)
-        lines.append(
-            "Add the missing equation, or connect the part; "
-            "a mass or inertia of 0 at a free end also leaves its motion undetermined."
-        )
+        lines += _too_few(flat, _together(singularity.under))
     return "\n".join(lines)
+
+
+def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
+    """Equations that determine too few unknowns, and the mend."""
+    rows = [e for e in part.equations if e < len(flat.equations.origins)]
+    bases = {
+        str(flat.equations.origins[e]): base for e in rows if (base := _inherited(flat, flat.equations.origins[e]))
+    }
+    n, own = len(part.variables), _equations(flat, part, bases)
+    others = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
+    if n:
+        others = [o for o in others if _is_users(flat, o) and f"  {o}" not in own]
+        lines = [
+            f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):",
+            *own,
+        ]
+        lines += ["with others that are given by:"] if others else []
+    else:
+        lines = [
+            f"{'This equation has' if len(own) == 1 else 'These equations have'} no unknown left to determine:",
+            *own,
+        ]
+        it = "it holds" if len(own) == 1 else "they hold"
+        lines.append(f"Others determine all that {it}:" if others else f"{it.capitalize()} only {KNOWN}")
+    lines += [f"  {line}" for line in list(dict.fromkeys(map(str, others)))[:MOST]]
+    mend = "One of them is too many: remove it." if n or others else f"Remove it. {DECLARED}"
+    if bases:
+        mend += (
+            " What is inherited comes by `yield from super().equations()`; leave that out where all of it is replaced."
+        )
+    if flat.loops.cuts:
+        mend += " Where rigid parts close a loop, their lengths cannot all be prescribed: add a joint or a spring."
+    return [*lines, mend]
+
+
+def _together(parts: tuple[Subsystem, ...]) -> Subsystem:
+    """The smallest part; all that no equation holds, if it is one of these."""
+    alone = [part for part in parts if not part.equations]
+    return Subsystem.of((), (v for part in alone for v in part.variables)) if alone else parts[0]
+
+
+def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
+    """What nothing determines, and the mend."""
+    hints = _hints(flat, part)
+    lines = [f"Nothing determines {_names(flat, part)}.", *hints]
+    own = _equations(flat, part, {})
+    if own:
+        lines += ["Only these equations contain them:", *own]
+    ports = any(line.startswith(UNCONNECTED) for line in hints)
+    mend = (
+        "Connect the part, or give it what is missing"
+        if ports
+        else "Give the inputs"
+        if hints
+        else "Add the missing equation"
+    )
+    mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
+    zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
+    return [*lines, mend + zero]
+
+
+def _is_users(flat: FlatModel, origin: Origin) -> bool:
+    """Whether an equation is stated in the file of the model itself."""
+    return origin.where.startswith(f"{inspect.getsourcefile(type(flat.tree))}:")
+
+
+def _inherited(flat: FlatModel, origin: Origin) -> str:
+    """The base class whose equations() states an equation, "" if the component's own class does."""
+    owner = next((c for c in walk(flat.tree) if c._path == origin.path), None)
+    for cls in type(owner).__mro__[1:] if owner else ():
+        code = getattr(vars(cls).get("equations"), "__code__", None)
+        lines = {f"{code.co_filename}:{line}" for *_, line in code.co_lines() if line} if code else set()
+        if origin.where in lines and "equations" in vars(type(owner)):
+            return cls.__name__
+    return ""
 
 
 def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
@@ -63,28 +130,49 @@ def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
     inputs = [
         join(c._path, own)
         for c in walk(flat.tree)
-        if c._path and any(n.startswith(f"{c._path}.") for n in names)
+        if c._path
         for own, declared in c.fields.items()
         if isinstance(declared, Variable) and declared.causality == "input" and own not in c._values
+        if _holds(flat, part, getattr(c, own).sx)
     ]
-    lines = [f"Not connected: {', '.join(f'`{p}`' for p in ports[:MOST])}."] if ports else []
+    lines = [f"{UNCONNECTED}: {', '.join(f'`{p}`' for p in ports[:MOST])}."] if ports else []
     if inputs:
         lines.append(f"Inputs that need a value or an equation: {', '.join(f'`{i}`' for i in inputs[:MOST])}.")
     return lines
 
 
+def _holds(flat: FlatModel, part: Subsystem, expression: ca.SX) -> bool:
+    """Whether an expression of the model follows from unknowns of a part."""
+    symbols = scalars(flat.unknowns.symbols)
+    own = {symbols[v].element_hash() for v in part.variables if v < len(symbols)}
+    left = ca.substitute([expression], [flat.unknowns.eliminated[0]], [flat.unknowns.eliminated[1]])[0]
+    return any(s.element_hash() in own for s in ca.symvar(left))
+
+
 def _names(flat: FlatModel, part: Subsystem) -> str:
+    """What a part determines, arrays as a whole; of many only a few, and the components that have them."""
     known = flat.unknowns.names
-    written = [v for v in part.variables if v < len(known)]
-    names = [f"`{known[v]}`" for v in written[:MOST]]
-    more = len(written) - MOST
-    return ", ".join(names) + (f" and {more} more" if more > 0 else "")
+    entries = [known[v] for v in part.variables if v < len(known)]
+    whole = dict.fromkeys(re.sub(r"\[[\d,]+\](?=\)*$)", "", n) if len(entries) > SHORT else n for n in entries)
+    # Joints and bodies have names of their own for what their ports have.
+    names = sorted(whole, key=lambda n: n.count("."))
+    text = ", ".join(f"`{n}`" for n in names[:SHORT])
+    more = len(names) - SHORT
+    if more <= 0:
+        return text
+    ports = tuple(f"{c._path}." for c in walk(flat.tree) if isinstance(c, Connector))
+    owners = [c for c in walk(flat.tree) if c._path and not isinstance(c, Connector) and not c._path.startswith(ports)]
+    of = [c for c in owners if any(n.removeprefix("der(").startswith(f"{c._path}.") for n in names)]
+    parts = ", ".join(str(Origin.of(c)) for c in of[:SHORT])
+    return f"{text} and {more} more" + (f" of {parts}" if parts else "")
 
 
-def _equations(flat: FlatModel, part: Subsystem) -> list[str]:
+def _equations(flat: FlatModel, part: Subsystem, bases: Mapping[str, str]) -> list[str]:
     origins = flat.equations.origins
-    written = Counter(str(origins[e]) for e in part.equations if e < len(origins))
-    rows = [f"  {line}{f' ({n} entries)' if n > 1 else ''}" for line, n in list(written.items())[:MOST]]
+    # What the user wrote in the model itself is the likely slip.
+    known = sorted((origins[e] for e in part.equations if e < len(origins)), key=lambda o: bool(o.path))
+    written = dict.fromkeys(str(o) for o in known if o.kind != "root")
+    rows = [f"  {line}{f' (inherited from {bases[line]})' if line in bases else ''}" for line in list(written)[:MOST]]
     more = len(written) - MOST
     return rows + ([f"  and {more} more"] if more > 0 else [])
 

@@ -76,7 +76,10 @@ def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:
     observed = solved(plan.observed)
     definitions = ca.vertcat(assigned, observed[0]), ca.vertcat(values, observed[1])
     continuous = flat.discontinuities.continuous + _switching(flat, plan, residuals)
-    return ReducedModel(flat, plan, unknowns, _names(flat, plan), x, z, ode, alg, definitions, projections, continuous)
+    names = _names(flat, plan)
+    return ReducedModel(
+        flat, plan, unknowns, names, x, z, ode, alg, definitions, projections, continuous, tuple(residuals)
+    )
 
 
 def _switching(flat: FlatModel, plan: Plan, residuals: list[ca.SX]) -> tuple[tuple[ca.SX, Origin], ...]:

@@ -62,6 +62,8 @@ class ReducedModel:
         Projections on the constraints, which hold at several levels.
     continuous : tuple of (casadi.SX, Origin)
         What is differentiated although switches change it: it must not jump.
+    residuals : tuple of casadi.SX
+        What is 0 in the extended system, whatever of it was substituted.
     """
 
     flat: FlatModel
@@ -75,6 +77,7 @@ class ReducedModel:
     definitions: tuple[ca.SX, ca.SX]
     projections: Projections
     continuous: tuple[tuple[ca.SX, Origin], ...]
+    residuals: tuple[ca.SX, ...]
 
     @property
     def p(self) -> ca.SX:

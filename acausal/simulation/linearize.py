@@ -15,11 +15,14 @@ from acausal.errors import InitializationError
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.locks import alone
-from acausal.simulation.settings import settled
+from acausal.simulation.settings import check_number, settled
+from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.problem import Problem
 from acausal.solve.start.start import start
 from acausal.solve.start.tangent import state_matrix, tangent
 from acausal.symbols import scalars
+
+FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
 
 
 @dataclass(frozen=True)
@@ -102,8 +105,9 @@ def linearize(
     `feedback`, which keeps invariants in a run, is 1/s here: the norm of the quaternion of a freely turning body adds an
     eigenvalue of -2 1/s that no input moves and no output shows.
     """
-    compiled, p = ready(model, parameters)
     how = settled(model, parameters, {"initial": initial})["initial"]
+    check_number("time", time)
+    compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
     at = start(problem, time, time, how).point
     inputs = _inputs(compiled)
@@ -119,14 +123,15 @@ def linearize(
     try:
         A = state_matrix(M[: nx + nz, : nx + nz], nx)
     except RuntimeError:
-        raise InitializationError(
-            f"the model cannot be linearised at t = {time:g} s: its equations are singular there, as for a loop that "
-            "lies flat. Start slightly away from it."
-        ) from None
+        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
     gz, gu = M[nx : nx + nz, nx : nx + nz], M[nx : nx + nz, nx + nz :]
     gx = M[nx : nx + nz, :nx]
     zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))
     h = M[nx + nz :]
+    if not np.all(np.isfinite(M)):
+        raise InitializationError(
+            f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
+        )
     N, chosen = tangent(problem, at)
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal.compiler import CompiledModel
+import numpy as np
+
+from acausal.compiler import CompiledModel, model_of, values_of
+from acausal.errors import DeclarationError
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.expression import Expr
 from acausal.policy import POLICY
 from acausal.simulation.stop_time import own_stop_time, own_value
 
@@ -80,12 +84,31 @@ def own_setting(model: Component, name: str, values: Mapping[str, Any] | None = 
     return None if name == "initial" and not isinstance(value, str) else value  # a number is the user's own constant
 
 
+def check_number(name: str, value: Any) -> None:
+    """Refuse what is not a finite number.
+
+    Parameters
+    ----------
+    name : str
+        The setting.
+    value : object
+        What is given for it.
+    """
+    if isinstance(value, Expr):
+        raise DeclarationError(f"{name} is {value!r}, an expression; give a plain number, in s if it is a time.")
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        raise DeclarationError(f"{name} is {value!r}; it must be a number.")
+    if not np.isfinite(value):
+        raise DeclarationError(f"{name} is {value!r}; it must be finite.")
+
+
 def _source(
     model: Component | CompiledModel, values: Mapping[str, Any] | None
 ) -> tuple[Component, Mapping[str, Any] | None]:
     """Return a model that is not built, and the values that replace its own."""
+    model, values = model_of(model, compiled=True), values_of(values)
     if not isinstance(model, CompiledModel):
         return model, values
     if model.source is None:
         return model.tree, None
-    return model.source.model, {**model.source.parameters, **(values or {})}
+    return model.source.model, {**model.source.parameters, **values}

@@ -15,7 +15,7 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.runs import Runs
-from acausal.simulation.settings import settled
+from acausal.simulation.settings import check_number, settled
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
@@ -116,7 +116,8 @@ def simulate(
     accuracy = how.pop("accuracy")
     how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
     task = Task(start_time=start_time, energy=energy, progress=progress, **how)
-    _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
+    _check_intervals(task.intervals)
+    _check(task, accuracy)
     _choose("method", task.method, CHOICES)
     _choose("constraints", task.constraints, CONSTRAINTS)
     try:
@@ -148,21 +149,42 @@ def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:
         raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(choices)}.")
 
 
-def _check(
-    start: float, stop: float, tolerance: float, accuracy: float | None, intervals: int, order: int | None
-) -> None:
-    numbers = {"start_time": start, "stop_time": stop, "tolerance": tolerance}
-    numbers |= {} if accuracy is None else {"accuracy": accuracy}
-    for name, value in numbers.items():
-        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-            raise DeclarationError(f"{name} is {value!r}; it must be a number.")
-    if not np.isfinite(start) or not np.isfinite(stop) or stop <= start:
+def _check(task: Task, accuracy: float | None) -> None:
+    """Refuse settings that no run can have."""
+    numbers = {"start_time": task.start_time, "stop_time": task.stop_time, "tolerance": task.tolerance}
+    for name, value in {**numbers, **({} if accuracy is None else {"accuracy": accuracy})}.items():
+        check_number(name, value)
+    start, stop = task.start_time, task.stop_time
+    if stop <= start:
         raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
-    if not 0 < tolerance < 1:
-        raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
-    if accuracy is not None and not 0 < accuracy < 1:
-        raise DeclarationError(f"accuracy is {accuracy:g}; it must lie between 0 and 1, for instance 1e-3.")
-    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
-        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
-    if order is not None and order not in range(1, 6):
-        raise DeclarationError(f"max_order is {order!r}; it must be a whole number from 1 to 5.")
+    if (stop - start) / task.intervals <= 8 * np.spacing(max(abs(start), abs(stop))):
+        raise DeclarationError(
+            f"start_time = {start:g} s and stop_time = {stop:g} s are too near each other for {task.intervals} outputs between "
+            "them: numbers of this size cannot tell them apart. Count time from 0, or take fewer intervals."
+        )
+    for name, value, example in (("tolerance", task.tolerance, "1e-6"), ("accuracy", accuracy, "1e-3")):
+        if value is not None and not 0 < value < 1:
+            raise DeclarationError(f"{name} is {value:g}; it must lie between 0 and 1, for instance {example}.")
+    if task.tolerance < POLICY.defaults.rounding:
+        raise DeclarationError(
+            f"tolerance is {task.tolerance:g}, less than rounding errors of the numbers; give a larger one, for instance 1e-9."
+        )
+    if task.max_order is not None and (isinstance(task.max_order, bool) or task.max_order not in range(1, 6)):
+        raise DeclarationError(f"max_order is {task.max_order!r}; it must be a whole number from 1 to 5.")
+    if not isinstance(task.energy, bool | np.bool_):
+        raise DeclarationError(f"energy is {task.energy!r}; it must be True or False.")
+    if task.progress is not None and not callable(task.progress):
+        raise DeclarationError(
+            f"progress is {task.progress!r}; it must be a function that takes the part that is done and the number of steps."
+        )
+
+
+def _check_intervals(intervals: int) -> None:
+    whole = isinstance(intervals, int | np.integer) and not isinstance(intervals, bool)
+    if not whole or intervals < 1:
+        mend = (
+            f": {int(intervals)}"
+            if isinstance(intervals, float) and intervals >= 1 and intervals == intervals // 1
+            else ""
+        )
+        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{mend}.")

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.errors import SimulationError, caution
+from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
@@ -18,6 +18,7 @@ from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Chattering, Run
+from acausal.solve.failed import failure_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
@@ -29,9 +30,9 @@ from acausal.solve.integrate.trace import Trace
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
-from acausal.solve.start.redundancy import is_singular
 from acausal.solve.start.start import go_on, start
 
+PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message
 ROUGH = (
     "the energies are less accurate than the tolerance: a power varies faster than points between the outputs can follow. "
@@ -55,6 +56,8 @@ class Task:
     progress: Progress | None
 
 
+# As in `start`.
+@np.errstate(all="ignore")
 def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     """Run a compiled model once with the parameter values p.
 
@@ -115,6 +118,12 @@ class _Done:
 
 def _plan(problem: Problem, task: Task) -> _Plan:
     begin, end = task.start_time, task.stop_time
+    numbers = (task.intervals + 1) * (problem.nx + problem.nz + PLAIN)
+    if numbers > POLICY.defaults.numbers:
+        raise DeclarationError(
+            f"intervals is {task.intervals}: the result would need {8e-9 * numbers:.3g} GB. Take fewer; what happens "
+            "between two outputs is computed all the same."
+        )
     times = begin + (end - begin) * np.linspace(0.0, 1.0, task.intervals + 1)
     times[-1] = end
     found = clock_times(problem.compiled, problem.p, begin, end)
@@ -160,7 +169,9 @@ def _raise(done: _Done, result: Result) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     failure: Any = done.failure
     if isinstance(failure, Failure):
-        raise SimulationError(_failure_text(done, failure), result)
+        run = done.integrator
+        text = failure_text(run.problem, done.at, done.begun.redundancy, run.trace, failure)
+        raise SimulationError(text, result)
     if isinstance(failure, Chattering):
         raise SimulationError(str(failure), result)
     failure.result = result
@@ -243,28 +254,3 @@ def _loosened(run: Integrator) -> list[str]:
         f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as happens near a singular position; "
         "a larger one was taken for one output interval each time, and the error may be larger from there on."
     ]
-
-
-def _failure_text(done: _Done, failure: Failure) -> str:
-    problem, trace, at = done.integrator.problem, done.integrator.trace, done.at
-    compiled = problem.compiled
-    lines = [f"the integration stopped at t = {failure.time:.6g} s after {trace.steps} steps: {failure.reason}."]
-    if trace.pieces:
-        at = problem.point(trace.pieces[-1].rows, -1)
-        rates = problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx]
-        fastest = np.argsort(-np.abs(np.nan_to_num(rates, nan=np.inf)))[:3]
-        names = ", ".join(f"`{compiled.states[k]}`" for k in fastest)
-        lines.append(f"The solution is good up to t = {at.time:.6g} s; what changes fastest there: {names}.")
-    left = done.begun.redundancy
-    if is_singular(problem, at, left) or (left.singular and not trace.pieces):
-        lines.append(
-            "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
-            "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
-            "they can continue, w=fixed(...) of a joint, or try another method=. The result up to there is kept."
-        )
-        return "\n".join(lines)
-    lines.append(
-        "A motion that grows without bound, a force that becomes infinite, or a jump that no break time declares "
-        "stops an integrator. The result up to there is kept."
-    )
-    return "\n".join(lines)

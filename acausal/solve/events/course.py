@@ -12,6 +12,7 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
+from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
 from acausal.solve.events.instant import Cycling, Instants
@@ -23,6 +24,7 @@ from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.points import Point, Rows
+from acausal.solve.start.newton import Lost
 from acausal.solve.start.start import places_text
 
 INSTANTS = POLICY.instants
@@ -251,7 +253,8 @@ class Run:
         except Cycling as cycling:
             raise Chattering(self._text(at.time, cycling.guards, "switch back and forth")) from None
         except InitializationError as error:
-            raise Failure(at.time, f"the equations have no solution after an event: {error}") from None
+            why = cause(self.integrator.problem, error.at) if isinstance(error, Lost) else ""
+            raise Failure(at.time, f"the equations have no solution after an event: {why or error}") from None
         stored = self.integrator.settings.energy and changed
         energy = self.integrator.problem.stored
         change = energy(new) - energy(at) if stored else 0.0

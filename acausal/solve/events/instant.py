@@ -141,6 +141,12 @@ class Instants:
         for guard in fires:
             call, places = self.guards.jump(guard)
             values = call(at.x, at.z, self.problem.p, at.time, at.constants.vector)[0]
+            if not np.all(np.isfinite(values)):
+                raise Failure(
+                    at.time,
+                    f"{self.guards.guards[guard].origin}: reinit() gives no finite number; check what it divides by, and the "
+                    "arguments of sqrt, log, acos",
+                )
             for (is_state, place), value in zip(places, values, strict=True):
                 (x if is_state else discretes)[place] = value
                 jumped += [place] * is_state

@@ -115,7 +115,11 @@ class Integrator:
         grid = tuple(np.round((times[1:] - times[0]) / span, POLICY.calls.digits).tolist())
         setup = METHODS[way.method].set_up(self.problem, self.settings, way, at, times, self.rounding(at))
         started = clock.perf_counter()
-        call = c.integrator(setup.plugin, grid, setup.options, works, way.moves, setup.sizes is not None)
+        try:
+            call = c.integrator(setup.plugin, grid, setup.options, works, way.moves, setup.sizes is not None)
+        except RuntimeError:
+            # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
+            return Refusal(Kind.UNSOLVABLE, at.time)
         self.trace.building += clock.perf_counter() - started
         setup.give(call, at, np.concatenate([[times[0], span], self.hoisted, at.constants.vector]))
         try:
@@ -174,9 +178,9 @@ class Integrator:
         end = self.problem.point(last, 0)
         q = self.problem.projected(end).x
         if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
-            return Refusal(Kind.APART, end.time, Kind.APART.value)
+            return Refusal(Kind.APART, end.time)
         if lost and not self.consistent.holds(given, 0, tolerance):
-            return Refusal(Kind.UNSOLVABLE, end.time, f"{Kind.UNSOLVABLE.value} there")
+            return Refusal(Kind.UNSOLVABLE, end.time)
         return replace(stretch, rows=Rows.joined([stretch.rows[:-1], last]))
 
     def report(self, time: float) -> None:

@@ -49,13 +49,14 @@ Found = TypeVar("Found")
 class Kind(Enum):
     """Why an integrator gave up."""
 
-    STEPS = "more steps than allowed"
-    CORRECTOR = "the Newton iteration does not converge"
-    ERROR_TEST = "no step is short enough"
-    WORN = "the chosen states are no longer fit"
+    STEPS = "it took more steps than are allowed between two outputs"
+    CORRECTOR = "the equations could not be solved, however short the step"
+    ERROR_TEST = "no step was short enough for the tolerance"
+    ROUNDING = "the tolerance is smaller than rounding errors"
+    WORN = "the coordinates that were chosen for the loops are no longer fit"
     APART = "the loops came apart"
-    UNSOLVABLE = "the algebraic equations have no solution"
-    OTHER = "something else"
+    UNSOLVABLE = "the equations have no solution there"
+    OTHER = "no way to go on was found"
 
 
 @dataclass(frozen=True)
@@ -68,29 +69,26 @@ class Refusal:
         The kind of reason.
     time : float
         Where it had got to, in s.
-    reason : str
-        What the integrator reported, if anything.
     reached : Stretch or None
         Rows before that, where they were asked for.
     """
 
     kind: Kind
     time: float
-    reason: str = ""
     reached: Any = None
 
 
 class Failure(Exception):
-    """The integrator gave up; `time` is where, `reason` what it reported."""
+    """A run cannot go on; `time` is where, `reason` what to tell the user, which is all if there is no `kind`."""
 
-    def __init__(self, time: float, reason: str) -> None:
+    def __init__(self, time: float, reason: str, kind: Kind | None = None) -> None:
         super().__init__(reason)
-        self.time, self.reason = time, reason
+        self.time, self.reason, self.kind = time, reason, kind
 
     @classmethod
     def of(cls, refusal: Refusal) -> Failure:
         """Return the failure that a refusal is, if nothing else helps."""
-        return cls(refusal.time, refusal.reason or "the integrator reported no reason")
+        return cls(refusal.time, refusal.kind.value, refusal.kind)
 
 
 def accepted(found: Found | Refusal) -> Found:
@@ -110,11 +108,16 @@ def read(said: str, begin: float, end: float) -> Refusal:
     begin, end : float
         Ends of the stretch in s.
     """
-    found = re.search(r"At t = ([-+.\deE]+)[^,]*,[\s,]*([^\n]*)", said)
-    time, reason = (begin + float(found[1]) * (end - begin), found[2].strip().rstrip(".")) if found else (begin, "")
-    words = {"mxstep": Kind.STEPS, "corrector": Kind.CORRECTOR, "error test": Kind.ERROR_TEST}
+    found = re.search(r"At t = ([-+.\deE]+)", said)
+    time = begin + float(found[1]) * (end - begin) if found else begin
+    words = {
+        "mxstep": Kind.STEPS,
+        "corrector": Kind.CORRECTOR,
+        "error test": Kind.ERROR_TEST,
+        "too much accuracy": Kind.ROUNDING,
+    }
     kind = next((kind for word, kind in words.items() if word in said), Kind.OTHER)
-    return Refusal(kind, float(time), reason)
+    return Refusal(kind, float(time))
 
 
 @dataclass(frozen=True)

@@ -23,17 +23,19 @@ ORDER = POLICY.order
 def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
     """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one.
 
-    Where the equations are singular, there are none.
+    Where the equations are singular, or a slope is infinite, there are none.
     """
     try:
         return _eigenvalues(problem, at)
-    except RuntimeError:
+    except (RuntimeError, np.linalg.LinAlgError):
         return np.zeros(0, complex)
 
 
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
     J = problem.local(at).jacobian[: nx + nz]
+    if not np.all(np.isfinite(J.data)):
+        return np.zeros(0, complex)
     if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
         N, chosen = tangent(problem, at)
         return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])

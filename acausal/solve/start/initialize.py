@@ -72,7 +72,8 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         If conditions are missing or contradict each other, or no solution is found.
     """
     if initial not in INITIAL:
-        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.")
+        mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
+        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
     compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
     at, redundancy = _guess(problem, time, head), Redundancy()
     if initial == "steady":

@@ -12,9 +12,17 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.rank import factored
-from acausal.solve.start.words import lost_text
+from acausal.solve.start.words import lost_text, worst_lines
 
 NEWTON = POLICY.newton
+
+
+class Lost(InitializationError):
+    """The iteration found no solution; `at` is where it ended, `flag` is 1 for the initial system, `worst` what does not hold."""
+
+    def __init__(self, text: str, at: Point, flag: float, worst: str = "") -> None:
+        super().__init__(text)
+        self.at, self.flag, self.worst = at, flag, worst
 
 
 @dataclass(frozen=True)
@@ -67,10 +75,13 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     def residual(y: np.ndarray) -> np.ndarray:
         return problem.values(at.with_y(y), flag)[rows] - offset
 
-    def lost(value: np.ndarray) -> InitializationError:
-        return InitializationError(lost_text(problem.compiled, value, system.rows, system.surplus, at.time))
+    def lost(value: np.ndarray) -> Lost:
+        text = lost_text(problem.compiled, value, system.rows, system.surplus, at.time)
+        return Lost(text, at.with_y(y), flag, "\n".join(worst_lines(problem.compiled, value, system.rows)))
 
     value = residual(y)
+    if not np.all(np.isfinite(value)):
+        raise lost(value)
     for _ in range(NEWTON.iterations):
         J = problem.local(at.with_y(y), flag).jacobian
         block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]

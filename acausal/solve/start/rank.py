@@ -27,7 +27,13 @@ def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
 def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[np.ndarray], np.ndarray]:
     """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
     matrix = rows * sizes
-    return lambda right: (sizes * np.linalg.lstsq(matrix, right, rcond=cutoff)[0].T).T
+
+    def solve(right: np.ndarray) -> np.ndarray:
+        if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(right))):
+            return np.full((matrix.shape[1], *right.shape[1:]), np.nan)
+        return (sizes * np.linalg.lstsq(matrix, right, rcond=cutoff)[0].T).T
+
+    return solve
 
 
 def factored(

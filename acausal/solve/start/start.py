@@ -8,16 +8,23 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.whole import EQUATION, EVENT, START
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.causes import cause, without_value
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.newton import algebraic
+from acausal.solve.start.newton import Lost, algebraic
+
+STAGES = (EQUATION, START)
+NOT_FINITE = "the equations have no value at the start; check the start values."
 
 
+# What has no value is looked for and told in the user's words; numpy's warnings would only name our own lines.
+@np.errstate(all="ignore")
 def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """Find consistent values at the start, and the switches that fit them.
 
@@ -38,7 +45,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     guards, p = problem.compiled.guards, problem.p
     head = problem.compiled.guards.estimate(p, later)[0].copy()
     for _ in range(POLICY.switches.rounds):
-        begun = initialize(problem, time, head, initial)
+        begun = _begun(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
         new = head.copy()
@@ -58,12 +65,25 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     )
 
 
+def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:
+    """Initialise, and say why where that fails or ends where equations have no value."""
+    try:
+        begun = initialize(problem, time, head, initial)
+    except Lost as lost:
+        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES) or str(lost)) from None
+    if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
+        raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
+    return begun
+
+
 def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     """Which watched conditions hold at the start; those that act at the start do not hold before."""
     guards: Any = problem.compiled.guards
     if not guards.watched:
         return np.zeros(0, dtype=bool)
     value = problem.watched(Rows.of(at))[0][0]
+    if np.any(np.isnan(value)):
+        raise InitializationError(without_value(problem, at, kinds=(EVENT,)) or NOT_FINITE)
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])

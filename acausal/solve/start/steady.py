@@ -18,7 +18,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motion
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
-from acausal.solve.start.newton import algebraic
+from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.rank import factored, scaled
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
@@ -82,6 +82,7 @@ class Equilibrium:
             found, (rate, push) = relaxed, self._growing(relaxed)
             at, growth, attempts = _moved(relaxed.point, push), 1 + (growth - 1) / 2, attempts - 1
         if found is None:
+            self._at(self.guess)  # the cause may be there
             refuse_motion(self.problem, self._nearly(at))
         if rate:
             caution(unstable_text(self.problem.compiled, self.guess.time, rate))
@@ -109,6 +110,8 @@ class Equilibrium:
         nx, nz = self.nx, self.problem.nz
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
+        if not (np.all(np.isfinite(local.value)) and np.all(np.isfinite(local.jacobian.data))):
+            raise Lost("the equations have no value there", at, 0.0)
         J = local.jacobian.tocsc()
         solve = factored(J[nx : nx + nz, nx:], self.problem.nominal[nx:], POLICY.ranks.rank) if nz else None
         dz = solve(-J[nx : nx + nz, :nx].toarray()) if solve else np.zeros((0, nx))

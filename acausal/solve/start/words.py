@@ -89,10 +89,21 @@ def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[i
 def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surplus: np.ndarray, time: float) -> str:
     """List the equations of the initial system with the largest residuals."""
     flat, nz = compiled.reduced.flat, compiled.nz
-    order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
     lines = [
-        f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:"
+        f"no consistent initial values were found at t = {time:g} s; the worst equations of the initial system are:",
+        *worst_lines(compiled, value, rows),
     ]
+    if surplus.size:
+        lines.append("More values are fixed than there are degrees of freedom; these had to follow from the others:")
+        lines += [f"  {c.text} ({c.origin})" for c in (flat.equations.initial[row - nz] for row in surplus[:5])]
+    lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
+    return "\n".join(lines)
+
+
+def worst_lines(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray) -> list[str]:
+    """List rows of the initial system, those with the largest residuals first."""
+    flat, nz, lines = compiled.reduced.flat, compiled.nz, list[str]()
+    order = np.argsort(-np.abs(np.nan_to_num(value, nan=np.inf)))
     for k in order[:5]:
         row = rows[k]
         if row < 0:
@@ -102,11 +113,7 @@ def lost_text(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray, surp
         else:
             condition = flat.equations.initial[row - nz]
             lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
-    if surplus.size:
-        lines.append("More values are fixed than there are degrees of freedom; these had to follow from the others:")
-        lines += [f"  {c.text} ({c.origin})" for c in (flat.equations.initial[row - nz] for row in surplus[:5])]
-    lines.append("Give better guesses for the variables in them (guess(...)), or check lengths and start values.")
-    return "\n".join(lines)
+    return lines
 
 
 def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:

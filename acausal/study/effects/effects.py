@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler import compile
+from acausal.compiler import compile, model_of, values_of
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
@@ -90,7 +90,7 @@ def effects(
     SimulationError
         If neither the fullest scene nor the scene as it stands can be integrated.
     """
-    given = dict(parameters or {})
+    model, given = model_of(model), values_of(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
-from acausal.compiler import CompiledModel, compile
+from acausal.compiler import CompiledModel, compile, model_of, values_of
 from acausal.compiler.call import Call
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.component import Component
@@ -206,7 +206,7 @@ def study(
     SimulationError
         If there is no reference.
     """
-    given = dict(parameters or {})
+    model, given = model_of(model), values_of(parameters)
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)

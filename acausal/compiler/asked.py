@@ -1,0 +1,87 @@
+"""What every entry of the package requires of a model and of values by path, in the user's words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from acausal.compiler.compiled_model import CompiledModel
+from acausal.errors import DeclarationError
+from acausal.language.component import Component
+from acausal.language.expression import Expr
+from acausal.language.path import Path
+
+MOST = 60  # letters of a value that are shown
+
+
+def model_of(given: Any, compiled: bool = False) -> Any:
+    """Return a whole model as it is given.
+
+    Parameters
+    ----------
+    given : object
+        What should be a model.
+    compiled : bool
+        Whether a compiled one is accepted as well.
+
+    Raises
+    ------
+    DeclarationError
+        If it is none, with the mend.
+    """
+    if isinstance(given, CompiledModel):
+        if compiled:
+            return given
+        raise DeclarationError("this model is compiled already; give the model itself, such as SpinUp().")
+    if isinstance(given, Component) and not given._is_bound:
+        return given
+    if isinstance(given, type) and issubclass(given, Component):
+        raise DeclarationError(f"{given.__name__} is a class; give an instance of it: {given.__name__}().")
+    if isinstance(given, Component) and given._path:
+        what = f"`{given._path}` is a part of a built model"
+        raise DeclarationError(f"{what}; give the whole model as it was constructed, such as SpinUp().")
+    if isinstance(given, Component):
+        raise DeclarationError(
+            f"this {type(given).__name__} is the inside of a compiled model (its `tree`); give the compiled model."
+        )
+    if isinstance(given, Path):
+        raise DeclarationError(f"`{given}` is a part of a model; give the whole model, such as SpinUp().")
+    if isinstance(given, str):
+        raise DeclarationError(
+            f"{given!r} is a text; give a model, such as SpinUp(), imported from where its class is defined "
+            "(scenes are run by name on the command line: acausal simulate spin-up)."
+        )
+    raise DeclarationError(f"a model is an instance such as SpinUp(), not {_shown(given)}.")
+
+
+def values_of(given: Any) -> dict[str, Any]:
+    """Return values by path.
+
+    Parameters
+    ----------
+    given : object
+        A mapping from paths to values, or None.
+
+    Raises
+    ------
+    DeclarationError
+        If it is something else, or a key is no path.
+    """
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise DeclarationError(
+            f'parameters is {_shown(given)}; it must be a dictionary of values by path, such as {{"mass.m": 2.0}}.'
+        )
+    found = {}
+    for key, value in given.items():
+        if not isinstance(key, str | Path):
+            text = f'"{key.name}"' if isinstance(key, Expr) and key.name else 'such as "mass.m"'
+            raise DeclarationError(f"{_shown(key)} is no path of a parameter; write the path as a text, {text}.")
+        found[str(key)] = value
+    return found
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= MOST and "\n" not in text else f"a {type(value).__name__}"

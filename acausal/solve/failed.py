@@ -1,0 +1,112 @@
+"""Why a run ended early, in the user's words: what an integrator could not do, in which equations, and the mend."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.flatten.origin import Origin
+from acausal.policy import POLICY
+from acausal.solve.causes import cause, infinite_slope, without_value
+from acausal.solve.integrate.ladder import Failure, Kind
+from acausal.solve.integrate.trace import Trace
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.start.newton import Lost, algebraic
+from acausal.solve.start.redundancy import Redundancy, is_singular
+
+MOST = 3  # states that are named
+CAUSES = POLICY.causes
+SINGULAR = (
+    "The loops are in or near a singular position there, as where all links lie in line: it does not determine "
+    "on which branch they continue, and forces have no value. Start 0.01 rad away from it, give a velocity with which "
+    "they can continue, w=fixed(...) of a joint, or try another method=."
+)
+MENDS = {
+    Kind.STEPS: "Something changes ever faster, or much faster than the outputs are apart: a force that becomes infinite "
+    "(1/r^2 at r = 0), a value that grows without bound, or a very stiff or very light part. Check the equations above, or "
+    "let the run end earlier, stop_time=...; a run that is only long needs more intervals=....",
+    Kind.ROUNDING: "Take a larger one, for instance tolerance=1e-9.",
+    None: "A value that grows without bound, a force that becomes infinite, or a jump inside a function stops a run. Check "
+    "the equations above; write a jump as piecewise(...) or when(...).",
+}
+KEPT = "The result up to there is kept."
+
+
+def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace, failure: Failure) -> str:
+    """Return the message for a run that an integrator gave up.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    begun : Point
+        Where the run began.
+    left : Redundancy
+        What was found about its loops there.
+    trace : Trace
+        What was computed.
+    failure : Failure
+        When it ended, and why.
+    """
+    reached = bool(trace.pieces)
+    at = problem.point(trace.pieces[-1].rows, -1) if reached else begun
+    lines = [f"the run stopped at t = {failure.time:.6g} s: {failure.reason}."]
+    if failure.kind is None:
+        return f"{lines[0]} {KEPT}"
+    if is_singular(problem, at, left) or (left.singular and not reached):
+        return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {KEPT}"])
+    found = _cause(problem, at, failure.time, begun.time)
+    if found:
+        return "\n".join([*lines, found[0].upper() + found[1:], KEPT])
+    mend = MENDS.get(failure.kind, MENDS[None])
+    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {KEPT}"])
+
+
+def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
+    """What fails in the equations at the last point, or a little beyond it along the motion; "" if nothing does."""
+    if found := without_value(problem, at, mend=LIMITS) or cause(problem, at) or infinite_slope(problem, at):
+        return found
+    rates = problem.values(at)[: problem.nx].copy()
+    slope = np.where(np.isfinite(rates), rates, 0.0)
+    way = max(stopped - at.time, CAUSES.shortest * (stopped - begun))
+    for part in CAUSES.beyond:
+        later = replace(at, time=at.time + part * way, x=at.x + part * way * slope)
+        if found := without_value(problem, later, mend=LIMITS):
+            return found
+        try:
+            algebraic(problem, later)
+        except Lost as lost:
+            return f"from there on these equations have no solution:\n{lost.worst}\n{LIMITS}"
+    return ""
+
+
+LIMITS = (
+    "Say what holds beyond, piecewise((value, condition), ..., otherwise), or let the run end before, stop_time=...."
+)
+
+
+def _fastest(problem: Problem, at: Point) -> str:
+    """The states that change fastest at a point, and the equations that say so."""
+    compiled = problem.compiled
+    rates = np.abs(problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx])
+    order = np.argsort(-np.nan_to_num(rates, nan=np.inf))[:MOST]
+    moving = [int(k) for k in order if rates[k] > 0 or not np.isfinite(rates[k])]
+    lines = [f"  `{compiled.states[k]}` = {at.x[k]:.4g}{_where(problem, k)}" for k in moving]
+    return (
+        f"What changes fastest at t = {at.time:.6g} s, the last values that are right:\n" + "\n".join(lines)
+        if lines
+        else ""
+    )
+
+
+def _where(problem: Problem, state: int) -> str:
+    """Where the derivative of a state is stated, "" if it follows from a joint or a root."""
+    r = problem.compiled.reduced
+    rate = r.plan.system.derivative[r.plan.states[state]]
+    origins = r.flat.equations.origins
+    found: list[Origin] = [
+        origins[e] for v, e in (*r.plan.assigned, *r.plan.observed) if v == rate and e < len(origins)
+    ]
+    return f" ({found[0]})" if found and found[0].kind != "root" else ""
