@@ -19,9 +19,12 @@ from acausal.simulation.settings import settled
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
+from acausal.solve.start.initialize import INITIAL
 
 CHOICES = ("auto", *METHODS, "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
+CHOOSE = {"method": CHOICES, "constraints": CONSTRAINTS, "initial": INITIAL}
+MOST = 100_000_000  # points of a run
 
 
 @alone
@@ -106,19 +109,7 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    how = settled(model, parameters, given)
-    if how["stop_time"] is None:
-        raise DeclarationError(
-            "the model declares no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
-        )
-    if how["accuracy"] is not None and how["tolerance"] is not None:
-        raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
-    accuracy = how.pop("accuracy")
-    how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
-    task = Task(start_time=start_time, energy=energy, progress=progress, **how)
-    _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
-    _choose("method", task.method, CHOICES)
-    _choose("constraints", task.constraints, CONSTRAINTS)
+    task, accuracy = planned(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
@@ -143,9 +134,55 @@ def _warn(result: object) -> None:
             caution(doubt)
 
 
-def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:
-    if value not in choices:
-        raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(choices)}.")
+def planned(
+    model: Component | CompiledModel,
+    parameters: Mapping[str, Any] | None,
+    given: Mapping[str, Any],
+    start_time: float = 0.0,
+    energy: bool = False,
+    progress: Progress | None = None,
+) -> tuple[Task, float | None]:
+    """Return what to run and the accuracy, or refuse what cannot be meant, before any work is done.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    parameters : mapping of str to value or None
+        As of `simulate`.
+    given : mapping of str to value
+        Settings by the name of the argument, None where it is not given.
+    start_time, energy, progress
+        As of `simulate`.
+    """
+    how = settled(model, parameters, given)
+    if how["stop_time"] is None:
+        raise DeclarationError(
+            "the model declares no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
+        )
+    if how["accuracy"] is not None and how["tolerance"] is not None:
+        raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
+    accuracy = how.pop("accuracy")
+    how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
+    task = Task(start_time=start_time, energy=energy, progress=progress, **how)
+    _check(start_time, task.stop_time, task.tolerance, accuracy, task.intervals, task.max_order)
+    for name in CHOOSE:
+        check_choice(name, getattr(task, name))
+    return task, accuracy
+
+
+def check_choice(name: str, value: Any) -> None:
+    """Refuse what is none of the choices of an argument of `simulate`.
+
+    Parameters
+    ----------
+    name : "method", "constraints" or "initial"
+        The argument.
+    value : object
+        What is given; None leaves it to the model.
+    """
+    if value is not None and not (isinstance(value, str) and value in CHOOSE[name]):
+        raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(CHOOSE[name])}.")
 
 
 def _check(
@@ -156,7 +193,10 @@ def _check(
     for name, value in numbers.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number):
             raise DeclarationError(f"{name} is {value!r}; it must be a number.")
-    if not np.isfinite(start) or not np.isfinite(stop) or stop <= start:
+    for name, value in {"start_time": start, "stop_time": stop}.items():
+        if not np.isfinite(value):
+            raise DeclarationError(f"{name} is {value:g} s; it must be a finite number of seconds, for instance 2.0.")
+    if stop <= start:
         raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
     if not 0 < tolerance < 1:
         raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
@@ -164,5 +204,7 @@ def _check(
         raise DeclarationError(f"accuracy is {accuracy:g}; it must lie between 0 and 1, for instance 1e-3.")
     if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
         raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
+    if intervals > MOST:
+        raise DeclarationError(f"intervals is {intervals}; more than {MOST} points do not fit into the memory.")
     if order is not None and order not in range(1, 6):
         raise DeclarationError(f"max_order is {order!r}; it must be a whole number from 1 to 5.")

@@ -13,6 +13,7 @@ from acausal.compiler import compile
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
+from acausal.simulation.simulate import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.listing import Effect, fullest, same
 from acausal.study.effects.result import Effects
@@ -96,6 +97,10 @@ def effects(
     check_counts(0, pairs=pairs)
     check_shares(1e-2, accuracy=accuracy)
     check_shares(1e-6, tolerance=tolerance)
+    check_choice("initial", initial)
+    check_choice("method", method)
+    if workers is not None:
+        check_counts(workers=workers)
     names = outputs_of(compile(model, given), outputs or ())
     found, full = fullest(model, given)
     if not found:
