@@ -26,11 +26,13 @@ def scenes() -> Mapping[str, type[Model]]:
     try:
         from models import SCENES
     except ImportError:
+        SCENES = None
+    if not isinstance(SCENES, Mapping):
         other = getattr(sys.modules.get("models"), "__file__", None)
         raise DeclarationError(
             f"the scenes are in the package `models`, but {other or 'something else'} has that name; rename it, or start the "
             "command in another directory."
-        ) from None
+        )
     return SCENES
 
 

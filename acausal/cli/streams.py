@@ -69,7 +69,7 @@ def _own_descriptor() -> Iterator[IO[str]]:
             own.close()
 
 
-def ended(status: object) -> object:
+def ended(status: str | int | None) -> str | int | None:
     """Write what is still to be written on standard output, and return the exit status."""
     try:
         if sys.stdout is not None:

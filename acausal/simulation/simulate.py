@@ -185,6 +185,20 @@ def check_choice(name: str, value: Any) -> None:
         raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(CHOOSE[name])}.")
 
 
+def check_intervals(intervals: Any) -> None:
+    """Refuse what is no number of intervals, or more than any memory holds.
+
+    Parameters
+    ----------
+    intervals : object
+        What is given.
+    """
+    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
+        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
+    if intervals > MOST:
+        raise DeclarationError(f"intervals is {intervals}; more than {MOST} points do not fit into the memory.")
+
+
 def _check(
     start: float, stop: float, tolerance: float, accuracy: float | None, intervals: int, order: int | None
 ) -> None:
@@ -200,11 +214,12 @@ def _check(
         raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
     if not 0 < tolerance < 1:
         raise DeclarationError(f"tolerance is {tolerance:g}; it must lie between 0 and 1, for instance 1e-6.")
+    if tolerance < np.finfo(float).eps:
+        raise DeclarationError(
+            f"tolerance is {tolerance:g}, but numbers have 16 digits; take one between 1e-12 and 1e-2."
+        )
     if accuracy is not None and not 0 < accuracy < 1:
         raise DeclarationError(f"accuracy is {accuracy:g}; it must lie between 0 and 1, for instance 1e-3.")
-    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
-        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1.")
-    if intervals > MOST:
-        raise DeclarationError(f"intervals is {intervals}; more than {MOST} points do not fit into the memory.")
+    check_intervals(intervals)
     if order is not None and order not in range(1, 6):
         raise DeclarationError(f"max_order is {order!r}; it must be a whole number from 1 to 5.")

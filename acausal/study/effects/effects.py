@@ -19,7 +19,15 @@ from acausal.study.effects.listing import Effect, fullest, same
 from acausal.study.effects.result import Effects
 from acausal.study.effects.rows import ALL, EffectRow, Interaction, interaction, row
 from acausal.study.effects.variants import Choices, Variants
-from acausal.study.measuring.arguments import check_counts, check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.arguments import (
+    check_counts,
+    check_model,
+    check_run,
+    check_shares,
+    outputs_of,
+    stop_time_of,
+    table_of,
+)
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
@@ -91,7 +99,8 @@ def effects(
     SimulationError
         If neither the fullest scene nor the scene as it stands can be integrated.
     """
-    given = dict(parameters or {})
+    check_model(model)
+    given = table_of("parameters", parameters, '{"beam.E": 7e10}')
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_counts(0, pairs=pairs)

@@ -57,7 +57,11 @@ def executor_of(executor: Executor | str | None, workers: int | None) -> Abstrac
     """
     if executor is None:
         return processes(workers)
-    return cluster(executor, workers) if isinstance(executor, str) else nullcontext(executor)
+    if isinstance(executor, str):
+        return cluster(executor, workers)
+    if not callable(getattr(executor, "submit", None)):
+        raise DeclarationError(f"executor is {executor!r}; it must be one of concurrent.futures, or an address.")
+    return nullcontext(executor)
 
 
 @contextmanager

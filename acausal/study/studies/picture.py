@@ -41,6 +41,8 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
     Figure
         On an Agg canvas.
     """
+    if output is not None and output not in reference.values:
+        raise DeclarationError(f"the study has no output {output!r}; it compares: {', '.join(reference.values)}.")
     good = [row for row in rows if not row.remark and row.error_of(output) > 0]
     if not good:
         raise DeclarationError("there is nothing to draw: no point has an error greater than 0.")

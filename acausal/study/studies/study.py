@@ -22,7 +22,16 @@ from acausal.result.files import whole
 from acausal.result.plots import save
 from acausal.result.tables import read_csv, write_csv
 from acausal.simulation.simulate import check_choice
-from acausal.study.measuring.arguments import check_counts, check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.arguments import (
+    check_counts,
+    check_model,
+    check_run,
+    check_shares,
+    items,
+    outputs_of,
+    stop_time_of,
+    table_of,
+)
 from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.pool import executor_of
@@ -208,7 +217,8 @@ def study(
     SimulationError
         If there is no reference.
     """
-    given = dict(parameters or {})
+    check_model(model)
+    given = table_of("parameters", parameters, '{"beam.E": 7e10}')
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
@@ -218,8 +228,9 @@ def study(
     if journal is not None:
         check_writable(journal)
     table = None if reference is None else read_csv(reference, "the reference")
-    forms = tuple(formulations or formulations_of(model, given))
-    grid = Grid(forms, tolerances, max_orders, methods, constraints or ("auto",), switches or {})
+    forms = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
+    grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied)
     compiled = compile(model, given)
     names = outputs_of(compiled, outputs)
     if constraints is None and compiled.constraints.size and len(forms) == 1 and not forms[0].refine:
