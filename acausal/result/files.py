@@ -118,7 +118,9 @@ def document(text: str) -> Any:
     except json.JSONDecodeError as error:
         if not text.strip():
             raise ValueError("it is empty") from None
-        raise ValueError(f"line {error.lineno}, column {error.colno}: {error.msg.lower()}") from None
+        raise ValueError(
+            f"line {error.lineno}, column {error.colno}: {error.msg.lower().removesuffix(' starting at')}"
+        ) from None
 
 
 def same_file(one: str | Path, other: str | Path) -> bool:

@@ -16,7 +16,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
-from acausal.language.expression import Expr
+from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
 from acausal.language.refusals import shown
 from acausal.result.files import shown_name
@@ -261,10 +261,7 @@ def unknown(path: str, known: list[str]) -> str:
     derivative, plain = re.fullmatch(r"der\((.+)\)", path), re.sub(r"[\[(].*", "", path)
     if derivative and derivative[1] in known:
         name = derivative[1]
-        return (
-            f"`{path}` is not a variable of the model; declare one and equate it with der({name}), or read the expression: "
-            f"result[der(result.tree.{name})]."
-        )
+        return f"`{path}` is not a variable of the model; declare one, here v, and give it by an equation, v == der({name})."
     mend = f"; did you mean {', '.join(f'`{name}`' for name in _near(path, known))}?" if _near(path, known) else "."
     if plain in known and plain != path:
         mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
@@ -275,7 +272,9 @@ def unknown(path: str, known: list[str]) -> str:
 
 def no_path(key: object) -> str:
     """Return the message for what is no path."""
-    text = "a field of the class" if isinstance(key, f.Field) else shown(key)
+    text = shown(key)
+    for kind, word in ((f.Field, "a field of the class"), (Equation, "an equation")):
+        text = word if isinstance(key, kind) else text
     mend = "; give several one by one." if isinstance(key, list | tuple | set) else "."
     return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{mend}"
 

@@ -113,9 +113,9 @@ class Columns:
             except ValueError:
                 found[k] = np.nan
             if not np.isfinite(found[k]):
-                cell = shown_name(row[place].strip()) or "nothing"
+                cell = f"`{shown_name(row[place].strip())}`" if row[place].strip() else "an empty entry"
                 raise DeclarationError(
-                    f"{self} has entries that are not finite numbers: in line {line}, column `{name}`, stands {cell}."
+                    f"{self} has entries that are not finite numbers: {cell} in line {line}, column `{name}`."
                 )
         return found
 
