@@ -12,6 +12,7 @@ from pathlib import Path
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 
 _PACKAGES = tuple(str(Path(PACKAGE).parent / name) + os.sep for name in ("acausal", "components"))
+_NO_TEXT: dict[type[BaseException], str] = {MemoryError: "this needs more memory than there is"}
 _NOT_THERE = re.compile(r"cannot import name '(.+?)' from '(.+?)'")
 
 
@@ -44,7 +45,7 @@ def brief(error: BaseException) -> str:
     if isinstance(error, AcausalError):
         return str(error)
     text = error.msg if isinstance(error, SyntaxError) else str(error)
-    first = (text.splitlines() or [""])[0]
+    first = (text.splitlines() or [_NO_TEXT.get(type(error), "")])[0]
     if isinstance(error, ImportError):
         return _not_imported(error, first)
     return f"{type(error).__name__}: {first}" if first else type(error).__name__

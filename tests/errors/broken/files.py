@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
 from functools import cache
@@ -49,15 +49,14 @@ class Serial(Executor):
 
 
 @contextmanager
-def inside(**files: str | bytes) -> Iterator[None]:
-    """Work in a new directory with files in it, `_` in their names for the dot."""
+def inside(files: Mapping[str, str | bytes] | None = None) -> Iterator[None]:
+    """Work in a new directory with files in it."""
     before = Path.cwd()
     with tempfile.TemporaryDirectory() as directory:
         os.chdir(directory)
         try:
-            for name, content in files.items():
-                path = Path(name.replace("_", "."))
-                path.write_bytes(content if isinstance(content, bytes) else content.encode())
+            for name, content in (files or {}).items():
+                Path(name).write_bytes(content if isinstance(content, bytes) else content.encode())
             yield
         finally:
             os.chdir(before)
@@ -84,13 +83,13 @@ def studied(wrong: dict[str, Any], repaired: bool, **right: Any) -> None:
     """A study with an argument that is wrong, or right; without one that is right nothing needs to be run."""
     if repaired and not right:
         return
-    with inside(r_csv=REFERENCE):
+    with inside({"r.csv": REFERENCE}):
         study(Decay(), **{**QUICK, **(right if repaired else wrong)})
 
 
 def journal(content: str | bytes, repaired: bool) -> None:
     right = '{"version": "1"}\n'
-    with inside(a_journal=right if repaired else content):
+    with inside({"a.journal": right if repaired else content}):
         Journal("a.journal", {"version": "1"})
 
 
@@ -138,7 +137,7 @@ def journal_links_in_a_circle(repaired):
 
 
 def reference(content: str | bytes, repaired: bool) -> None:
-    with inside(r_csv=REFERENCE if repaired else content):
+    with inside({"r.csv": REFERENCE if repaired else content}):
         read("r.csv", ("y",), np.linspace(0, 1, 5))
 
 
@@ -199,12 +198,12 @@ def reference_is_a_picture(repaired):
 
 
 def reference_is_a_directory(repaired):
-    with inside(r_csv=REFERENCE):
+    with inside({"r.csv": REFERENCE}):
         read("r.csv" if repaired else ".", ("y",), np.linspace(0, 1, 5))
 
 
 def reference_is_an_array(repaired):
-    with inside(r_csv=REFERENCE):
+    with inside({"r.csv": REFERENCE}):
         read("r.csv" if repaired else np.zeros(3), ("y",), np.linspace(0, 1, 5))  # type: ignore[arg-type]
 
 
@@ -214,7 +213,7 @@ def reference_is_missing(repaired):
 
 def choices(content: str | bytes, repaired: bool) -> None:
     right = json.dumps({"scene": "decay", "effects": {"drag": False}})
-    with inside(e_json=right if repaired else content):
+    with inside({"e.json": right if repaired else content}):
         with_effects(Decay(), "decay", "e.json", {})
 
 
@@ -275,7 +274,7 @@ def choices_with_a_wrong_value(repaired):
 
 
 def choices_are_a_directory(repaired):
-    with inside(e_json='{"scene": "decay", "effects": {}}'):
+    with inside({"e.json": '{"scene": "decay", "effects": {}}'}):
         with_effects(Decay(), "decay", "e.json" if repaired else ".", {})
 
 
@@ -463,7 +462,7 @@ def study_with_too_many_points(repaired):
 
 
 def study_drawn_for_an_unknown_output(repaired):
-    with inside(r_csv=REFERENCE):
+    with inside({"r.csv": REFERENCE}):
         found = study(Decay(), **QUICK)
     found.plot(output="y" if repaired else "z")
 
