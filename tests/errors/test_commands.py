@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -19,6 +20,7 @@ from typer.testing import CliRunner
 
 from acausal.cli import app
 from tests.errors.broken.files import inside
+from tests.shared import heed_interrupts
 
 ROOT = Path(__file__).parents[2]
 GOLDEN = Path(__file__).parent / "messages/commands.txt"
@@ -72,6 +74,7 @@ FILES: dict[str, str | bytes] = {
     "ünï.py": PLAIN,
     "prints.py": PLAIN + "print('hello')\n",
 }
+LIST = ["-m", "acausal", "list"]
 SHORT = "--intervals 4 --stop-time 1"
 WRONG = {
     # Scenes.
@@ -314,6 +317,26 @@ def test_a_directory_that_is_gone(place):
     done = _shell(f"mkdir gone; cd gone; rmdir ../gone; {python} -m acausal simulate simple-pendulum --csv a.csv")
     assert done.returncode == 2
     assert done.stderr == "Error: cannot write a.csv: the current directory no longer exists; change to another one.\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_an_interrupt_while_it_loads(place):
+    command = [
+        sys.executable,
+        "-c",
+        f"import os, sys; os.execv(sys.executable, {['python', '-X', 'importtime', *LIST]!r})",
+    ]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment}
+    process = subprocess.Popen(command, preexec_fn=heed_interrupts, **how)
+    for line in process.stderr or ():
+        if "casadi" in line:
+            break
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode in (130, -signal.SIGINT)
+    assert "Traceback" not in errors
+    assert errors.endswith("Error: interrupted.\n")
 
 
 def test_no_more_memory(place, monkeypatch):

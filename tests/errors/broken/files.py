@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 import acausal as ac
-from acausal import Model, Scalar, der, effect, output, structural, variable
+from acausal import Model, Scalar, der, effect, output, parameter, structural, variable
 from acausal.study import effects, formulations_of, study
 from acausal.study.effects.choices_file import with_effects
 from acausal.study.measuring.journal import Journal
@@ -26,15 +26,16 @@ class Decay(Model):
     """Decays."""
 
     drag: bool = effect("friction", default=True)
+    rate: Scalar = parameter("of friction", default=1)
     order: int = structural("order", default=2)
     v: Any = variable("both", shape=(2,))
     x: Scalar = variable("position", start=1, fixed=True)
-    rate: Scalar = variable("of the position")
+    w: Scalar = variable("der(x)")
     y: Scalar = output("what is seen")
 
     def equations(self):
-        yield der(self.x) == (-self.x if self.drag else 0)
-        yield self.rate == der(self.x)
+        yield der(self.x) == (-self.rate * self.x if self.drag else 0)
+        yield self.w == der(self.x)
         yield self.y == self.x
         yield self.v == (self.x, 2 * self.x)
 
@@ -308,7 +309,7 @@ def result_with_the_model_in_front(repaired):
 
 
 def result_of_a_derivative(repaired):
-    run()["rate" if repaired else "der(x)"]
+    run()["w" if repaired else "der(x)"]
 
 
 def result_in_round_brackets(repaired):
@@ -486,3 +487,7 @@ def a_tolerance_below_rounding(repaired):
 
 def a_start_of_another_name(repaired):
     ac.simulate(Decay(), stop_time=1, intervals=4, initial="guesses" if repaired else "guess")
+
+
+def a_number_of_400_digits(repaired):
+    ac.compile(Decay(rate=10 ** (4 if repaired else 400)))
