@@ -263,7 +263,7 @@ def unknown(path: str, known: list[str]) -> str:
         name = derivative[1]
         return f"`{path}` is not a variable of the model; declare one, here v, and give it by an equation, v == der({name})."
     mend = f"; did you mean {', '.join(f'`{name}`' for name in _near(path, known))}?" if _near(path, known) else "."
-    if plain in known and plain != path:
+    if plain in known and plain != path and "]." not in path:
         mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
     if path.endswith(FILES):
         mend = "; the name of a file is given by path=..."
@@ -281,7 +281,7 @@ def no_path(key: object) -> str:
 
 def _near(path: str, known: list[str]) -> list[str]:
     """Return the names that may have been meant, the likeliest first."""
-    near = [name for name in known if name.endswith(f".{path}") or path.endswith(f".{name}")]
+    near = [name for name in known if name.endswith(f".{path}") or path in (f"self.{name}", f"model.{name}")]
     near += [name for name in known if name.casefold() == path.casefold()]
     near += [name for name in difflib.get_close_matches(path[:LONG], known, 3, 0.5) if name not in near]
     return near[:3]
