@@ -154,6 +154,7 @@ def simulate(
 def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
     """Compile a scene and report what the compiler did: equations and unknowns, states, what was removed, seconds."""
     with running(json) as standard_output:
+        check_outputs((file_of(scene), effects), json=json)
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
         found = _at_start(compiled)
         typer.echo(compiled.summary(found))
@@ -169,6 +170,7 @@ def linearize(
     with running(json) as standard_output:
         import acausal as ac
 
+        check_outputs((file_of(scene), effects), json=json)
         check_choice("initial", initial)
         linear = ac.linearize(compile_scene(scene, find_scene(scene), settings, effects), initial=initial)
         typer.echo(modes_table(linear.eigenvalues))

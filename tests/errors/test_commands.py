@@ -181,6 +181,8 @@ WRONG = {
     "csv_full_disk": f"simulate decay.py:Decay {SHORT} --csv /dev/full",
     "json_full_disk": f"simulate decay.py:Decay {SHORT} --json /dev/full",
     "csv_over_the_model": "simulate decay.py:Decay --csv ./decay.py",
+    "json_of_check_over_the_model": "check decay.py:Decay --json decay.py",
+    "json_of_linearize_over_the_model": "linearize decay.py:Decay --json decay.py",
     "csv_over_the_reference": "study decay.py:Decay --csv r.csv --reference r.csv",
     "one_file_twice": "simulate decay.py:Decay --csv out.csv --json ./out.csv",
     "json_and_csv_on_standard_output": "simulate decay.py:Decay --json - --csv /dev/stdout",
@@ -321,11 +323,7 @@ def test_a_directory_that_is_gone(place):
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 def test_an_interrupt_while_it_loads(place):
-    command = [
-        sys.executable,
-        "-c",
-        f"import os, sys; os.execv(sys.executable, {['python', '-X', 'importtime', *LIST]!r})",
-    ]
+    command = [sys.executable, "-X", "importtime", *LIST]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment}
     process = subprocess.Popen(command, preexec_fn=heed_interrupts, **how)

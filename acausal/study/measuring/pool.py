@@ -111,7 +111,7 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         try:
             client = Client(address, timeout="10s")
         except (OSError, ValueError) as error:
-            raise DeclarationError(f"there is no Dask scheduler at {address}: {error}") from None
+            raise DeclarationError(f"there is no Dask scheduler at {address or 'no address'}: {error}") from None
         with client:
             yield client.get_executor(pure=False)
         return

@@ -222,11 +222,7 @@ def study(
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
-    check_choice("initial", initial)
-    if workers is not None:
-        check_counts(workers=workers)
-    if journal is not None:
-        check_writable(journal)
+    _check(initial, workers, journal)
     table = None if reference is None else read_csv(reference, "the reference")
     forms = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
@@ -249,6 +245,15 @@ def study(
             known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
     kept.remove()
     return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
+
+
+def _check(initial: str | None, workers: int | None, journal: str | Path | None) -> None:
+    """Refuse what would only be found after the model is compiled."""
+    check_choice("initial", initial)
+    if workers is not None:
+        check_counts(workers=workers)
+    if journal is not None:
+        check_writable(journal)
 
 
 def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Case:
