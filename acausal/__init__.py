@@ -4,6 +4,11 @@ Compose a model from connected components; the engine flattens it, reduces its i
 integrates them.
 """
 
+# ruff: noqa: E402 - the rest takes a second to load, and may be interrupted meanwhile
+from acausal.interrupts import heed
+
+heed()
+
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,

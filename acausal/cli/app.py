@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
@@ -22,11 +23,13 @@ from acausal.cli.common import (
     running,
     stop_time_of,
 )
-from acausal.cli.output import Files, Progress, modes_table, progress_bar, summary, write_json
-from acausal.cli.scenes import find_scene, scenes
+from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
+from acausal.cli.scenes import file_of, find_scene, scenes
+from acausal.cli.streams import ended, tell, tolerant
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError, SimulationError
 from acausal.result import Result, check_columns, match
+from acausal.simulation.asked import check_choice, planned
 from acausal.simulation.runs import adaptive
 from acausal.simulation.settings import settled
 
@@ -46,7 +49,11 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line."""
-    app(prog_name="acausal")
+    tolerant()
+    try:
+        app(prog_name="acausal")
+    except SystemExit as end:
+        sys.exit(ended(end.code))
 
 
 @app.command("list")
@@ -112,30 +119,29 @@ def simulate(
         import acausal as ac
 
         files = Files(scene, csv, plot, json, standard_output)
-        files.check()
+        check_outputs((file_of(scene), effects), csv=csv, plot=plot, json=json)
         cls = find_scene(scene)
         model, values = make_scene(scene, cls, settings, effects)
+        how = {
+            "tolerance": tolerance,
+            "accuracy": accuracy,
+            "intervals": intervals,
+            "method": method,
+            "constraints": constraints,
+            "max_order": max_order,
+            "initial": initial,
+        }
         with blaming(cls):
+            how["stop_time"] = stop_time_of(model, values, stop_time)
+            planned(model, values, how)
             compiled = ac.compile(model, parameters=values)
-            stop = stop_time_of(model, values, stop_time)
         # Wrong names are refused before any work.
         chosen = match(compiled.tree, variables or ())
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
         chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
-        options = {
-            "stop_time": stop,
-            "tolerance": tolerance,
-            "accuracy": accuracy,
-            "parameters": values if again else None,
-            "intervals": intervals,
-            "method": method,
-            "constraints": constraints,
-            "max_order": max_order,
-            "initial": initial,
-            "energy": True,
-        }
+        options = {**how, "parameters": values if again else None, "energy": True}
         with blaming(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)
@@ -148,6 +154,7 @@ def simulate(
 def check(scene: Scene, settings: Set = None, effects: Applied = None, json: Json = None) -> None:
     """Compile a scene and report what the compiler did: equations and unknowns, states, what was removed, seconds."""
     with running(json) as standard_output:
+        check_outputs((file_of(scene), effects), json=json)
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
         found = _at_start(compiled)
         typer.echo(compiled.summary(found))
@@ -163,6 +170,8 @@ def linearize(
     with running(json) as standard_output:
         import acausal as ac
 
+        check_outputs((file_of(scene), effects), json=json)
+        check_choice("initial", initial)
         linear = ac.linearize(compile_scene(scene, find_scene(scene), settings, effects), initial=initial)
         typer.echo(modes_table(linear.eigenvalues))
         if json:
@@ -182,7 +191,7 @@ def _at_start(compiled: CompiledModel) -> AtStart | None:
     try:
         return start(Problem(compiled, compiled.parameter_values(None)), 0.0, 0.0, "guesses").found(compiled)
     except InitializationError as error:
-        typer.echo(f"no consistent start was found, so ranks and independent states are not known: {error}", err=True)
+        tell(f"no consistent start was found, so ranks and independent states are not known: {error}")
         return None
 
 
@@ -193,7 +202,7 @@ def _chosen(result: Result, patterns: list[str] | None) -> list[str]:
         try:
             found |= dict.fromkeys(match(result.tree, [pattern]))
         except DeclarationError as error:
-            typer.echo(f"left out: {error}", err=True)
+            tell(f"left out: {error}")
     return list(found)
 
 

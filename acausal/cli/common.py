@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
 import signal
-import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext, redirect_stdout
+from contextlib import contextmanager
 from pathlib import Path
 from threading import current_thread, main_thread
 from typing import IO, TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from acausal.cli.scenes import brief, ended, place_in, read_settings
+from acausal.cli.faults import brief, ended, place_in
+from acausal.cli.scenes import instance
+from acausal.cli.streams import aside, tell, unwritten
+from acausal.cli.values import read_settings
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
 from acausal.result import check_writable
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
 FAILED, WRONG, INTERRUPTED, TERMINATED = 1, 2, 130, 143
+# What a full, closed or unread standard output gives.
+NO_OUTPUT = (errno.EPIPE, errno.ENOSPC, errno.EBADF, errno.EIO, errno.EFBIG)
 STOP_TIME = 1.0  # of a model that declares none, in s
 
 Scene = Annotated[str, typer.Argument(help="Name of a scene, or path/to/file.py:ClassName.", show_default=False)]
@@ -63,12 +68,17 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
 
     With `json` "-" everything else that is printed goes to standard error; with `quiet` there are no warnings.
     """
-    standard_output = sys.stdout
     try:
         if json not in (None, "-"):
             check_writable(json)
-        with _told(quiet), _terminable(), redirect_stdout(sys.stderr) if json == "-" else nullcontext():
+        with _told(quiet), _terminable(), aside(json == "-") as standard_output:
             yield standard_output
+    except OSError as error:
+        if error.filename is not None or error.errno not in NO_OUTPUT:
+            raise
+        raise typer.Exit(unwritten(error)) from None
+    except MemoryError:
+        _stop("there is not enough memory; take fewer intervals, elements or variables.", FAILED)
     except SimulationError as error:
         _stop(f"the simulation failed: {error}", FAILED)
     except AcausalError as error:
@@ -114,7 +124,7 @@ def _told(quiet: bool) -> Iterator[None]:
                 plain(message, category, *place)
             elif not quiet and str(message) not in told:
                 told.add(str(message))
-                typer.echo(f"Warning: {message}", err=True)
+                tell(f"Warning: {message}")
 
         warnings.showwarning = show
         yield
@@ -142,7 +152,7 @@ def make_scene(
     """Return a scene and the values that the user gave."""
     values: dict[str, Any] = read_settings(settings or ())
     with blaming(cls):
-        model = cls()
+        model = instance(cls)
         if effects is not None:
             from acausal.study.effects.choices_file import with_effects
 
@@ -166,5 +176,5 @@ def stop_time_of(model: Model, values: dict[str, Any], given: float | None) -> f
 
 
 def _stop(message: str, status: int) -> NoReturn:
-    typer.echo(f"Error: {message}", err=True)
+    tell(f"Error: {message}")
     raise typer.Exit(status) from None

@@ -8,10 +8,10 @@ import typer
 
 from acausal.cli.app import app
 from acausal.cli.common import Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
-from acausal.cli.output import runs_bar, write_json
-from acausal.cli.scenes import find_scene, read_settings
+from acausal.cli.output import check_outputs, runs_bar, write_json
+from acausal.cli.scenes import file_of, find_scene, instance
+from acausal.cli.values import read_settings
 from acausal.policy import POLICY
-from acausal.result import check_writable
 
 
 @app.command("effects")
@@ -51,12 +51,10 @@ def effects(
         from acausal.study import effects as study
         from acausal.study.effects.choices_file import choices_document
 
-        for path in (apply, csv, markdown):
-            if path is not None:
-                check_writable(path)
+        check_outputs((file_of(scene),), apply=apply, csv=csv, markdown=markdown, json=json)
         cls, values = find_scene(scene), read_settings(settings or ())
         with blaming(cls), runs_bar(not quiet) as show:
-            model = cls()
+            model = instance(cls)
             found = study(
                 model,
                 stop_time=stop_time_of(model, values, stop_time),

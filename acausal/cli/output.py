@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import combinations, product
 from typing import IO, Any
 
 import numpy as np
 
-from acausal.result import Result, check_picture, check_writable
+from acausal.errors import ExportError
+from acausal.result import Result, check_picture, check_writable, same_file, shown_name
 from acausal.result.files import whole
 from acausal.result.plots import Series
 from acausal.result.statistics import Statistics
@@ -24,6 +26,30 @@ FINAL_VALUES = 20
 SMALL = 0.1
 ROUNDING = 1e-12
 Progress = Callable[[float, int], None] | None
+
+
+def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
+    """Refuse impossible output files before any work is done.
+
+    Parameters
+    ----------
+    reads : iterable of str or None
+        Files that the command reads.
+    **writes : str or None
+        Files that it writes, by the name of the option.
+    """
+    files = [(f"--{option}", path) for option, path in writes.items() if path is not None]
+    for option, path in files:
+        if option == "--plot":
+            check_picture(path)
+        elif (option, path) != ("--json", "-"):
+            check_writable(path)
+    for (one, first), (other, second) in combinations(files, 2):
+        if same_file(first, second) or {first, second} == {"-", "/dev/stdout"}:
+            raise ExportError(f"{one} and {other} both write {shown_name(first)}; give each a file of its own.")
+    for (option, path), read in product(files, reads):
+        if read is not None and same_file(path, read):
+            raise ExportError(f"{option} would replace {shown_name(path)}, which the command reads; give another name.")
 
 
 @dataclass(frozen=True)
@@ -46,13 +72,6 @@ class Files:
     json: str | None
     standard_output: IO[str]
 
-    def check(self) -> None:
-        """Refuse impossible output files before any work is done."""
-        if self.csv is not None:
-            check_writable(self.csv)
-        if self.plot is not None:
-            check_picture(self.plot)
-
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
         """Write outputs and chosen variables; `more` goes into the JSON document."""
         wrong = result.not_finite(*result.outputs, *chosen)
@@ -68,13 +87,23 @@ class Files:
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:
     """Write a document to a file, or to standard output if the path is "-"."""
-    text = json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    text = _json(document, "utf-8" if path != "-" else getattr(standard_output, "encoding", None) or "utf-8")
     if path == "-":
         standard_output.write(text)
         standard_output.flush()
         return
     with whole(path) as file:
         file.write(text)
+
+
+def _json(document: Mapping[str, Any], encoding: str) -> str:
+    written, how = plain(document), {"indent": 2, "allow_nan": False}
+    text = json.dumps(written, ensure_ascii=False, **how) + "\n"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:  # letters that the stream does not have, or a name of a file that is no text
+        return json.dumps(written, **how) + "\n"
+    return text
 
 
 def plain(value: Any) -> Any:

@@ -1,24 +1,38 @@
-"""Find a scene by its name or in the user's file, and read the values given to it."""
+"""Find a scene by its name or in the user's file."""
 
 from __future__ import annotations
 
-import ast
 import difflib
+import inspect
+import os
+import re
 import sys
-import traceback
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from acausal.errors import AcausalError, DeclarationError
-from acausal.language.component import Model
+from acausal.cli.faults import brief, ended, place_in
+from acausal.errors import DeclarationError
+from acausal.language.component import Component, Model
+from acausal.result import shown_name
+
+FORM = "a model of your own is given as path/to/file.py:ClassName."
+_FILE = re.compile(r"(.+?\.py)(?::(.*))?", re.IGNORECASE | re.DOTALL)
 
 
 def scenes() -> Mapping[str, type[Model]]:
     """Return the scenes of `models` by name."""
-    from models import SCENES
-
+    try:
+        from models import SCENES
+    except ImportError:
+        SCENES = None
+    if not isinstance(SCENES, Mapping):
+        other = getattr(sys.modules.get("models"), "__file__", None)
+        raise DeclarationError(
+            f"the scenes are in the package `models`, but {other or 'something else'} has that name; rename it, or start the "
+            "command in another directory."
+        )
     return SCENES
 
 
@@ -35,92 +49,87 @@ def find_scene(name: str) -> type[Model]:
     DeclarationError
         If there is none; the message names the nearest ones.
     """
-    path, _, cls = name.rpartition(":") if ".py:" in name else (name, "", "")
-    if path.endswith(".py"):
-        return _of_file(Path(path), cls)
+    file = _FILE.fullmatch(name)
+    if file:
+        return _of_file(Path(file[1]), file[2] or "")
     known = scenes()
     if name not in known:
-        near = difflib.get_close_matches(name.lower().replace("_", "-"), known, 1, 0.5)
-        mend = f"did you mean `{near[0]}`? " if near else ""
-        raise DeclarationError(
-            f"there is no scene `{name}`; {mend}Scenes: {', '.join(known)}. "
-            "A model of your own is given as path/to/file.py:ClassName."
-        )
+        raise DeclarationError(_no_scene(name, list(known)))
     return known[name]
 
 
-def place_in(error: BaseException, path: Path) -> str:
-    """Return "file:line" of the innermost line of a file in an error's traceback, "" if there is none."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
-        return f"{path}:{error.lineno}"
-    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
-    return f"{path}:{lines[-1]}" if lines else ""
+def file_of(name: str) -> str | None:
+    """Return the file that a scene is in, None where it is one of `models`."""
+    file = _FILE.fullmatch(name)
+    return file[1] if file else None
 
 
-def ended(error: SystemExit, path: Path) -> DeclarationError:
-    """Return the error for a file that exits while it is read."""
-    return DeclarationError(
-        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "
-        'only define a model. Put code that runs, sys.exit included, under `if __name__ == "__main__":`.'
-    )
-
-
-def brief(error: BaseException) -> str:
-    """Return kind and first line of an error."""
-    if isinstance(error, AcausalError):
-        return str(error)
-    text = error.msg if isinstance(error, SyntaxError) else str(error)
-    return f"{type(error).__name__}: {(text.splitlines() or [''])[0]}"
-
-
-def read_settings(texts: Iterable[str]) -> dict[str, Any]:
-    """Read NAME=VALUE pairs.
+def instance(cls: type[Model]) -> Model:
+    """Return a model of a class.
 
     Parameters
     ----------
-    texts : iterable of str
-        VALUE is a number, a word (fem, true, false, None) or a tuple such as 0,0,1.
-
-    Raises
-    ------
-    DeclarationError
-        If a text is not such a pair.
+    cls : type
+        Of a scene; its constructor must get along without arguments.
     """
-    values: dict[str, Any] = {}
-    for text in texts:
-        name, equals, value = (part.strip() for part in text.partition("="))
-        if not (name and equals and value):
-            raise DeclarationError(f"--set takes NAME=VALUE, such as --set omega=4 or --set beam.E=7e10, not `{text}`.")
-        values[name] = _value(value)
-    return values
+    own = inspect.unwrap(cls.__init__)
+    needed = [
+        name
+        for name, given in list(inspect.signature(own).parameters.items())[1:]
+        if given.default is given.empty and given.kind not in (given.VAR_POSITIONAL, given.VAR_KEYWORD)
+    ]
+    if needed:
+        code = getattr(own, "__code__", None)
+        place = f"{code.co_filename}:{code.co_firstlineno}: " if code else ""
+        name = needed[0]
+        raise DeclarationError(
+            f"{place}{cls.__name__}(...) needs `{name}`, but the command makes a model without arguments. Declare it in the "
+            f"class, {name}: Scalar = parameter(...), and give it by --set {name}=VALUE; or give it a default, {name}=..."
+        )
+    return cls()
 
 
-def _value(text: str) -> Any:
-    if text.lower() in ("true", "false"):
-        return text.lower() == "true"
-    try:
-        return ast.literal_eval(text)
-    except (ValueError, SyntaxError):
-        pass
-    try:
-        return float(text)
-    except ValueError:
-        return text
+def _no_scene(name: str, known: list[str]) -> str:
+    if not name.strip():
+        return f"the name of the scene is empty. Scenes: {', '.join(known)}; {FORM}"
+    shown, path = shown_name(name), name.partition(":")[0]
+    if os.path.isfile(f"{path}.py"):
+        return f"there is no scene `{shown}`, but a file {path}.py: name its class, as in {path}.py:ClassName."
+    if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
+        return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
+    near = difflib.get_close_matches(name.lower().replace("_", "-"), known, 1, 0.5)
+    mend = f"did you mean `{near[0]}`? " if near else ""
+    return f"there is no scene `{shown}`; {mend}Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 
 
 def _of_file(path: Path, name: str) -> type[Model]:
-    if not path.is_file():
-        raise DeclarationError(f"there is no file {path}; a model of your own is given as path/to/file.py:ClassName.")
+    shown = shown_name(path)
+    if not os.path.lexists(path) or "\0" in str(path):
+        raise DeclarationError(f"there is no file {shown}; {FORM}")
+    if not os.path.isfile(path):
+        what = "a directory" if os.path.isdir(path) else "not a file that can be read"
+        raise DeclarationError(f"{shown} is {what}; {FORM}")
     module = _load(path.resolve())
-    known = {n: c for n, c in vars(module).items() if _is_model(c) and c.__module__ == module.__name__}
-    cls = getattr(module, name, None) if name else None
-    if _is_model(cls):
-        return cls
-    if cls is not None:
-        raise DeclarationError(f"{name} in {path} is not a Model: class {name}(Model), with Model from acausal.")
+    known = [n for n, c in vars(module).items() if _is_model(c) and c.__module__ == module.__name__]
+    found = getattr(module, name, None) if name else None
+    if _is_model(found) and found is not Model:
+        return found
     choice = ", ".join(f"{path}:{n}" for n in known) or "none; derive a class from Model"
-    what = f"{path} has no class `{name}`" if name else f"{path} needs the name of a class"
+    if found is not None:
+        raise DeclarationError(f"{name} in {shown} {_other(name, found)}")
+    what = f"{shown} has no class `{shown_name(name)}`" if name else f"{shown} needs the name of a class"
     raise DeclarationError(f"{what}; its models: {choice}.")
+
+
+def _other(name: str, found: Any) -> str:
+    """Tell what is not the class of a model, and the remedy."""
+    if found is Model:
+        return "is the class from which models are derived: class MyModel(Model)."
+    if isinstance(found, Model):
+        return f"is an instance; give its class, {type(found).__name__}."
+    if isinstance(found, type) and issubclass(found, Component):
+        return f"is a part, not a Model; use it in one: class MyModel(Model), with {name.lower()} = {name}(...)."
+    return f"is not a Model: class {name}(Model), with Model from acausal."
 
 
 def _is_model(value: Any) -> TypeGuard[type[Model]]:
@@ -132,13 +141,21 @@ def _load(path: Path) -> ModuleType:
     name = f"scene_{path.stem}"
     module = ModuleType(name)
     module.__file__ = str(path)
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise DeclarationError(f"cannot read {shown_name(path)}: {error.strerror or error}.") from None
+    if b"\0" in text:
+        raise DeclarationError(f"{shown_name(path)} is not a text of Python in UTF-8.")
     sys.modules[name] = module
     if str(path.parent) not in sys.path:
         sys.path.insert(0, str(path.parent))
     try:
-        exec(compile(path.read_bytes(), str(path), "exec"), vars(module))
-    except Exception as error:
-        raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
+        exec(compile(text, str(path), "exec"), vars(module))
+    except KeyboardInterrupt:
+        raise
     except SystemExit as error:
         raise ended(error, path) from None
+    except BaseException as error:
+        raise DeclarationError(f"{place_in(error, path) or path}: {brief(error)}") from error
     return module

@@ -9,12 +9,14 @@ import typer
 
 from acausal.cli.app import app
 from acausal.cli.common import Initial, Json, Quiet, Scene, Set, StopTime, blaming, running, stop_time_of
-from acausal.cli.output import runs_bar, write_json
-from acausal.cli.scenes import find_scene, read_settings
+from acausal.cli.output import check_outputs, runs_bar, write_json
+from acausal.cli.scenes import file_of, find_scene, instance
+from acausal.cli.streams import tell
+from acausal.cli.values import read_settings, read_switches
 from acausal.errors import DeclarationError
 from acausal.language.component import Model
 from acausal.policy import POLICY
-from acausal.result import check_picture, check_writable
+from acausal.result import shown_name
 
 
 @app.command("study")
@@ -79,26 +81,24 @@ def study(
     with running(json) as standard_output:
         from acausal.study import study as run
 
-        for path in (csv, markdown):
-            if path is not None:
-                check_writable(path)
-        if plot is not None:
-            check_picture(plot)
+        check_outputs((file_of(scene), reference), csv=csv, markdown=markdown, plot=plot, json=json)
         cls, values = find_scene(scene), read_settings(settings or ())
         options = {
             "parameters": values,
-            "tolerances": _list(tolerances, float, "tolerances"),
-            "max_orders": _list(max_orders, lambda text: None if text == "auto" else int(text), "max-orders"),
-            "methods": _list(methods, str, "methods") if methods else (None,),
-            "constraints": _list(constraints, str, "constraints") if constraints else None,
-            "switches": _switches(switches or ()),
+            "tolerances": _list(tolerances, float, "tolerances", "numbers, such as 1e-3,1e-6"),
+            "max_orders": _list(max_orders, _order, "max-orders", "whole numbers from 1 to 5, or auto, such as 2,5"),
+            "methods": _list(methods, _word, "methods", "names, such as idas,rosenbrock") if methods else (None,),
+            "constraints": _list(constraints, _word, "constraints", "names, such as states,projection")
+            if constraints
+            else None,
+            "switches": read_switches(switches or ()),
             "outputs": outputs or (),
         }
         numbers = {"accuracy": accuracy, "intervals": intervals, "initial": initial, "repeats": repeats, "limit": limit}
         journal = f"{csv}.journal" if csv else None
         try:
             with blaming(cls), runs_bar(not quiet) as show:
-                model = cls()
+                model = instance(cls)
                 found = run(
                     model,
                     stop_time=stop_time_of(model, values, stop_time),
@@ -113,9 +113,7 @@ def study(
                 )
         except KeyboardInterrupt:
             kept = f"finished cases are kept in {journal}: the same command continues from there"
-            typer.echo(
-                kept if journal else "nothing is kept; with --csv FILE a study can continue where it stopped", err=True
-            )
+            tell(kept if journal else "nothing is kept; with --csv FILE a study can continue where it stopped")
             raise
         if csv:
             found.to_csv(csv)
@@ -129,20 +127,23 @@ def study(
             typer.echo(found.table())
 
 
-def _list(text: str, read: Callable[[str], Any], option: str) -> tuple[Any, ...]:
+def _list(text: str, read: Callable[[str], Any], option: str, what: str) -> tuple[Any, ...]:
     try:
         return tuple(read(part.strip()) for part in text.split(","))
     except ValueError:
-        raise DeclarationError(f"--{option} takes comma-separated values, not `{text}`.") from None
+        raise DeclarationError(
+            f"--{option} takes comma-separated values, not `{shown_name(text)}`. Give {what}."
+        ) from None
 
 
-def _switches(texts: list[str] | tuple[()]) -> dict[str, list[Any]]:
-    """Read NAME=VALUE,VALUE."""
-    found = {}
-    for text in texts:
-        name, _, values = text.partition("=")
-        found[name.strip()] = [read_settings([f"{name}={value}"])[name.strip()] for value in values.split(",")]
-    return found
+def _order(text: str) -> int | None:
+    return None if text == "auto" else int(text)
+
+
+def _word(text: str) -> str:
+    if not text:
+        raise ValueError
+    return text
 
 
 def _chosen(cls: type[Model], values: dict[str, Any], names: list[str] | None) -> list[Any] | None:
@@ -151,7 +152,7 @@ def _chosen(cls: type[Model], values: dict[str, Any], names: list[str] | None) -
         return None
     from acausal.study import formulations_of
 
-    known = {form.name: form for form in formulations_of(cls(), values)}
+    known = {form.name: form for form in formulations_of(instance(cls), values)}
     unknown = [name for name in names if name not in known]
     if unknown:
         raise DeclarationError(f"there is no formulation `{unknown[0]}` in the scene; it has: {', '.join(known)}.")

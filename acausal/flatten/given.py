@@ -198,6 +198,8 @@ def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
     except (TypeError, ValueError):
         wanted = f"an array of numbers of shape {shape}" if shape else "a number"
         raise DeclarationError(f"{where} is {value!r}; it must be {wanted}.") from None
+    except OverflowError:
+        raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if array.shape != shape:
         raise DeclarationError(f"{where} has shape {array.shape}; it must have shape {shape}.")
     if not all(math.isfinite(x) for x in array.flat):

@@ -1,8 +1,19 @@
 """Results: every variable of a run by the name that the user gave, as arrays, tables and pictures."""
 
-from acausal.result.files import check_writable
+from acausal.result.files import check_writable, document, read_text, same_file, shown_name
 from acausal.result.lookup import match, names
 from acausal.result.plots import check_picture
 from acausal.result.result import Result, check_columns
 
-__all__ = ["Result", "check_columns", "check_picture", "check_writable", "match", "names"]
+__all__ = [
+    "Result",
+    "check_columns",
+    "check_picture",
+    "check_writable",
+    "document",
+    "match",
+    "names",
+    "read_text",
+    "same_file",
+    "shown_name",
+]

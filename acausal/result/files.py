@@ -1,16 +1,20 @@
-"""Files that are written whole or not at all."""
+"""Files: written whole or not at all, read as text or as a document."""
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, NoReturn
 
-from acausal.errors import ExportError
+from acausal.errors import AcausalError, DeclarationError, ExportError
+
+SHOWN = 60  # characters of a long name
+DIGITS = 300  # of a number
 
 
 def check_writable(path: str | Path) -> None:
@@ -21,10 +25,10 @@ def check_writable(path: str | Path) -> None:
     ExportError
         With the reason why not.
     """
-    target = _target(path)
-    if _is_device(target):
-        return
-    with _reasons(path):
+    with _reasons("write", path):
+        target = _target(path)
+        if _is_device(target):
+            return
         temporary = _beside(target)
         temporary.touch(exist_ok=False)
         temporary.unlink()
@@ -46,9 +50,10 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
     ExportError
         If it cannot be written.
     """
-    target = _target(path)
-    text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
-    with _reasons(path):
+    # A name of a file that is no UTF-8 may stand in what is written.
+    text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "", "errors": "backslashreplace"}
+    with _reasons("write", path):
+        target = _target(path)
         if _is_device(target):
             with open(target, mode, **text) as file:
                 yield file
@@ -65,19 +70,124 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
                 temporary.unlink()
 
 
+def read_text(path: str | Path, what: str = "") -> str:
+    """Return what is in a text file.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file.
+    what : str
+        What it is, for messages.
+
+    Raises
+    ------
+    DeclarationError
+        With the reason why it cannot be read.
+    """
+    verb = f"read {what}".rstrip()
+    with _reasons(verb, path):
+        source = _named(verb, path)
+        if source.is_dir():
+            _refuse(verb, path, "it is a directory; append a file name")
+        if source.is_char_device() or source.is_block_device():
+            _refuse(verb, path, "it is a device, not a file")
+        try:
+            return source.read_text(encoding="utf-8-sig")
+        except UnicodeDecodeError:
+            _refuse(verb, path, "it is not a text in UTF-8")
+
+
+def document(text: str) -> Any:
+    """Return what a text in JSON says.
+
+    Parameters
+    ----------
+    text : str
+        In JSON.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or says what no file of ours does: a name twice, NaN, an infinity.
+    """
+    try:
+        return json.loads(text, object_pairs_hook=_once, parse_constant=_no_number, parse_int=_integer)
+    except RecursionError:
+        raise ValueError("its brackets are nested too deeply") from None
+    except json.JSONDecodeError as error:
+        if not text.strip():
+            raise ValueError("it is empty") from None
+        raise ValueError(
+            f"line {error.lineno}, column {error.colno}: {error.msg.lower().removesuffix(' starting at')}"
+        ) from None
+
+
+def same_file(one: str | Path, other: str | Path) -> bool:
+    """Return whether two names lead to the same file, which need not exist; what is no file is another each time."""
+    with suppress(OSError, RuntimeError, ValueError):
+        first, second = (Path(path).expanduser().resolve() for path in (one, other))
+        return first == second and not _is_device(first)
+    return False
+
+
+def shown_name(path: object) -> str:
+    """Return the name of a file for a message, shortened where it is long."""
+    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(path))
+    return text if len(text) <= 2 * SHOWN else f"{text[:SHOWN]}...{text[-SHOWN // 2 :]}"
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"it has `{next(name for name in found if names.count(name) > 1)}` more than once")
+    return found
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number in JSON")
+
+
+def _integer(text: str) -> int:
+    if len(text) > DIGITS:
+        raise ValueError(f"it has a number of {len(text)} digits")
+    return int(text)
+
+
+def _named(verb: str, path: str | Path) -> Path:
+    """Return the file that a name means, links followed, or refuse what names none."""
+    if not isinstance(path, str | os.PathLike):
+        _refuse(verb, repr(path), "a file is given by its name, such as 'out.csv'")
+    if not str(path).strip():
+        _refuse(verb, "", "the name of the file is empty; give one, such as out.csv")
+    try:
+        plain = Path(path).expanduser()
+        target = plain.resolve()
+    except FileNotFoundError:
+        _refuse(verb, path, "the current directory no longer exists; change to another one")
+    except RuntimeError:
+        home = str(path).startswith("~")
+        _refuse(verb, path, "there is no such user, or no home directory" if home else "its links lead in a circle")
+    except ValueError:
+        _refuse(verb, path, "the name contains the character of code 0")
+    # What /dev/stdout leads to has no name where it is a pipe.
+    return plain if plain.exists() and not target.exists() else target
+
+
 def _target(path: str | Path) -> Path:
     """Return the intended file, links followed, or raise ExportError where none is possible."""
-    if not str(path).strip():
-        raise ExportError("cannot write: the name of the file is empty; give one, such as out.csv.")
-    target = Path(path).expanduser().resolve()
+    target = _named("write", path)
     if not target.is_dir() and os.path.basename(path) in ("", ".", ".."):  # a Path forgets the slash at the end
-        raise ExportError(f"cannot write {path}: that is the name of a directory; append a file name.")
+        _refuse("write", path, "that is the name of a directory; append a file name")
     if target.is_dir():
-        raise ExportError(f"cannot write {path}: it is a directory; append a file name.")
+        _refuse("write", path, "it is a directory; append a file name")
+    if target.name == "-":
+        _refuse("write", path, "only --json takes - for standard output; give the name of a file, or /dev/stdout")
     if not target.parent.is_dir():
-        raise ExportError(f"cannot write {path}: there is no directory {target.parent}; create it first.")
+        _refuse("write", path, f"there is no directory {target.parent}; create it first")
     if target.exists() and not os.access(target, os.W_OK):
-        raise ExportError(f"cannot write {path}: the file is write-protected.")
+        _refuse("write", path, "the file is write-protected")
     return target
 
 
@@ -91,8 +201,16 @@ def _beside(target: Path) -> Path:
 
 
 @contextmanager
-def _reasons(path: str | Path) -> Iterator[None]:
+def _reasons(verb: str, path: str | Path) -> Iterator[None]:
+    """Tell why a file cannot be written or read where the system refuses."""
     try:
         yield
+    except BrokenPipeError:
+        raise  # whoever reads has seen enough
     except OSError as error:
-        raise ExportError(f"cannot write {path}: {error.strerror or error}.") from None
+        _refuse(verb, path, str(error.strerror or error))
+
+
+def _refuse(verb: str, path: object, why: str) -> NoReturn:
+    kind: type[AcausalError] = ExportError if verb.startswith("write") else DeclarationError
+    raise kind(f"cannot {verb}{' ' if str(path) else ''}{shown_name(path)}: {why}.") from None

@@ -13,7 +13,7 @@ from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
-from acausal.result.lookup import Key, Quantity, choose, find, names, not_readable, parse, unknown
+from acausal.result.lookup import Key, Quantity, choose, find, names, no_path, not_readable, parse, unknown
 
 # Entries whose values are computed at once.
 AT_ONCE = 2000
@@ -76,7 +76,7 @@ class Kept:
                 f"name and compute with the arrays, as in {mend}; or simulate again."
             )
         if not isinstance(key, str | Path):
-            raise DeclarationError(f"a result is read by a path such as 'beam.frame_b.r_0', not by {key!r}.")
+            raise DeclarationError(no_path(key))
         try:
             return self._walk(str(key))
         except LookupError:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from acausal.errors import DeclarationError, ExportError
-from acausal.result.files import check_writable, whole
+from acausal.result.files import check_writable, shown_name, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,14 +51,10 @@ def draw(time: np.ndarray, series: Sequence[Series], title: str = "") -> Figure:
     Figure
         On an Agg canvas.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     if not series:
         raise DeclarationError("there is nothing to plot: the model has no outputs; name some variables.")
     groups = [group for unit in dict.fromkeys(s.unit for s in series) for group in _alike(series, unit)]
-    figure = Figure(figsize=(8.0, 1.2 + 2.4 * len(groups)), dpi=DPI, layout="tight")
-    FigureCanvasAgg(figure)
+    figure = canvas(8.0, 1.2 + 2.4 * len(groups), "tight")
     column = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
     for axes, group in zip(column, groups, strict=True):
         _fill(axes, time, group, group[0].unit)
@@ -93,12 +90,39 @@ def check_picture(path: str | Path) -> None:
     ExportError
         With the reason why not.
     """
-    from matplotlib.backend_bases import FigureCanvasBase
-
-    known = FigureCanvasBase.get_supported_filetypes()
-    if str(path).strip() and _ending(path) not in known:
-        raise ExportError(f"cannot write {path}: a picture's name ends in .png, .svg or .pdf.")
+    if isinstance(path, str | Path) and str(path).strip() and _ending(path) not in _formats():
+        raise ExportError(f"cannot write {shown_name(path)}: a picture's name ends in .png, .svg or .pdf.")
     check_writable(path)
+
+
+def canvas(width: float, height: float, layout: Literal["tight", "constrained"]) -> Figure:
+    """Return an empty figure on an Agg canvas.
+
+    Parameters
+    ----------
+    width, height : float
+        In inches.
+    layout : str
+        How matplotlib places the axes.
+    """
+    _formats()
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _formats() -> dict[str, str]:
+    """Return the endings of pictures; matplotlib refuses to be imported where its environment is wrong."""
+    try:
+        from matplotlib.backend_bases import FigureCanvasBase
+    except (ImportError, OSError, ValueError) as error:
+        name = os.environ.get("MPLBACKEND")
+        mend = f"; MPLBACKEND is {name!r}: unset it, pictures need no screen" if name and name in str(error) else ""
+        raise ExportError(f"matplotlib cannot be loaded, so there are no pictures{mend or f': {error}'}.") from None
+    return FigureCanvasBase.get_supported_filetypes()
 
 
 def _ending(path: str | Path) -> str:

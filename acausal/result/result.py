@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import casadi as ca
 import numpy as np
@@ -122,6 +122,16 @@ class Result:
             If the model has no such variable; the message names the nearest ones.
         """
         return self._look([key])[0][1]
+
+    def __contains__(self, key: object) -> bool:
+        try:
+            find(self.tree, cast("Key", key))
+        except DeclarationError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(names(self.tree))
 
     def _ipython_key_completions_(self) -> list[str]:
         return names(self.tree)

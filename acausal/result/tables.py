@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from acausal.result.files import whole
+from acausal.errors import DeclarationError
+from acausal.result.files import read_text, shown_name, whole
 
 # Where a narrow table breaks, in characters: names of columns, and what is in them.
 NAME, CELL = 10, 42
@@ -79,6 +80,87 @@ def write_csv(path: str | Path, columns: Mapping[str, Iterable[object]]) -> None
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*plain, strict=True))
+
+
+@dataclass(frozen=True)
+class Columns:
+    """A table that was read, not yet as numbers.
+
+    Parameters
+    ----------
+    what, path : str
+        What it is, and the name of its file, for messages.
+    head : tuple of str
+        Names of the columns.
+    rows : tuple of (int, list of str)
+        Line of the file and cells.
+    """
+
+    what: str
+    path: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[int, list[str]], ...]
+
+    def __str__(self) -> str:
+        return f"{self.what} {shown_name(self.path)}"
+
+    def numbers(self, name: str) -> np.ndarray:
+        """Return a column, or raise DeclarationError with the line of what is no finite number."""
+        place, found = self.head.index(name), np.empty(len(self.rows))
+        for k, (line, row) in enumerate(self.rows):
+            try:
+                found[k] = float(row[place])
+            except ValueError:
+                found[k] = np.nan
+            if not np.isfinite(found[k]):
+                cell = f"`{shown_name(row[place].strip())}`" if row[place].strip() else "an empty entry"
+                raise DeclarationError(
+                    f"{self} has entries that are not finite numbers: {cell} in line {line}, column `{name}`."
+                )
+        return found
+
+
+def read_csv(path: str | Path, what: str) -> Columns:
+    """Read a table as `write_csv` writes it.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file.
+    what : str
+        What it is, for messages.
+
+    Raises
+    ------
+    DeclarationError
+        If it cannot be read or is no table.
+    """
+    reader = csv.reader(read_text(path, what).splitlines(keepends=True))
+    title = f"{what} {shown_name(path)}"
+    try:
+        rows = tuple((reader.line_num, row) for row in reader if row)
+    except csv.Error as error:
+        raise DeclarationError(f"{title} is no table: line {reader.line_num}: {error}.") from None
+    if not rows:
+        raise DeclarationError(f"cannot read {title}: it is empty.")
+    head, rows = tuple(name.strip() for name in rows[0][1]), rows[1:]
+    twice = next((name for name in head if head.count(name) > 1), None)
+    if twice is not None:
+        raise DeclarationError(f"{title} has the column `{twice}` more than once.")
+    for line, row in rows:
+        if len(row) != len(head):
+            raise DeclarationError(
+                f"{title} needs an entry in line {line} for each of its columns ({column_names(head)}), but has {len(row)}. "
+                "Entries are separated by commas, and decimals by points."
+            )
+    return Columns(what, str(path), head, rows)
+
+
+def column_names(head: Sequence[str]) -> str:
+    """Return the names of columns for a message, not all where they are many."""
+    most = 20
+    shown = [shown_name(name) for name in head[:most]]
+    return ", ".join([*shown, f"... ({len(head)} in all)"] if len(head) > most else shown)
 
 
 def _broken(name: str) -> list[str]:

@@ -5,23 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from acausal.compiler import CompiledModel, ready
-from acausal.errors import DeclarationError, SimulationError, caution
+from acausal.errors import SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
-from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
+from acausal.simulation.asked import planned
 from acausal.simulation.runs import Runs
-from acausal.simulation.settings import check_number, settled
-from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
-
-CHOICES = ("auto", *METHODS, "resolve")
-CONSTRAINTS = ("auto", "states", "projection")
 
 
 @alone
@@ -106,20 +99,7 @@ def simulate(
         "constraints": constraints,
         "max_order": max_order,
     }
-    how = settled(model, parameters, given)
-    if how["stop_time"] is None:
-        raise DeclarationError(
-            "the model declares no stop_time; give one: stop_time=2.0, or stop_time = 2.0 in its class."
-        )
-    if how["accuracy"] is not None and how["tolerance"] is not None:
-        raise DeclarationError("accuracy and tolerance are both given; accuracy chooses the tolerance, leave one out.")
-    accuracy = how.pop("accuracy")
-    how["tolerance"] = POLICY.defaults.tolerance if how["tolerance"] is None else how["tolerance"]
-    task = Task(start_time=start_time, energy=energy, progress=progress, **how)
-    _check_intervals(task.intervals)
-    _check(task, accuracy)
-    _choose("method", task.method, CHOICES)
-    _choose("constraints", task.constraints, CONSTRAINTS)
+    task, accuracy = planned(model, parameters, given, start_time=start_time, energy=energy, progress=progress)
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
@@ -142,49 +122,3 @@ def _warn(result: object) -> None:
     if isinstance(result, Result):
         for doubt in result.stats.doubts:
             caution(doubt)
-
-
-def _choose(name: str, value: str, choices: tuple[str, ...]) -> None:
-    if value not in choices:
-        raise DeclarationError(f"{name} is {value!r}; it must be one of {', '.join(choices)}.")
-
-
-def _check(task: Task, accuracy: float | None) -> None:
-    """Refuse settings that no run can have."""
-    numbers = {"start_time": task.start_time, "stop_time": task.stop_time, "tolerance": task.tolerance}
-    for name, value in {**numbers, **({} if accuracy is None else {"accuracy": accuracy})}.items():
-        check_number(name, value)
-    start, stop = task.start_time, task.stop_time
-    if stop <= start:
-        raise DeclarationError(f"stop_time is {stop:g} s; it must come after start_time = {start:g} s.")
-    if (stop - start) / task.intervals <= 8 * np.spacing(max(abs(start), abs(stop))):
-        raise DeclarationError(
-            f"start_time = {start:g} s and stop_time = {stop:g} s are too near each other for {task.intervals} outputs between "
-            "them: numbers of this size cannot tell them apart. Count time from 0, or take fewer intervals."
-        )
-    for name, value, example in (("tolerance", task.tolerance, "1e-6"), ("accuracy", accuracy, "1e-3")):
-        if value is not None and not 0 < value < 1:
-            raise DeclarationError(f"{name} is {value:g}; it must lie between 0 and 1, for instance {example}.")
-    if task.tolerance < POLICY.defaults.rounding:
-        raise DeclarationError(
-            f"tolerance is {task.tolerance:g}, less than rounding errors of the numbers; give a larger one, for instance 1e-9."
-        )
-    if task.max_order is not None and (isinstance(task.max_order, bool) or task.max_order not in range(1, 6)):
-        raise DeclarationError(f"max_order is {task.max_order!r}; it must be a whole number from 1 to 5.")
-    if not isinstance(task.energy, bool | np.bool_):
-        raise DeclarationError(f"energy is {task.energy!r}; it must be True or False.")
-    if task.progress is not None and not callable(task.progress):
-        raise DeclarationError(
-            f"progress is {task.progress!r}; it must be a function that takes the part that is done and the number of steps."
-        )
-
-
-def _check_intervals(intervals: int) -> None:
-    whole = isinstance(intervals, int | np.integer) and not isinstance(intervals, bool)
-    if not whole or intervals < 1:
-        mend = (
-            f": {int(intervals)}"
-            if isinstance(intervals, float) and intervals >= 1 and intervals == intervals // 1
-            else ""
-        )
-        raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{mend}.")

@@ -240,7 +240,11 @@ def test_missing_start_value_tells_the_option(run):
     ("text", "message"),
     [
         ("import acausal\nx = 1 +\n", "{path}:2: SyntaxError: invalid syntax"),
-        ("import nothing_there\n", "{path}:1: ModuleNotFoundError: No module named 'nothing_there'"),
+        (
+            "import nothing_there\n",
+            "{path}:1: ModuleNotFoundError: No module named 'nothing_there'; install it, or put nothing_there.py beside this "
+            "file.",
+        ),
         ("x = 1\n1 / 0\n", "{path}:2: ZeroDivisionError: division by zero"),
         ("x = 1\n", "{name} has no class `A`; its models: none; derive a class from Model."),
     ],

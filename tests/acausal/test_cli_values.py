@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from acausal.cli.output import modes_table, plain, write_json
-from acausal.cli.scenes import read_settings
+from acausal.cli.values import read_settings
 from acausal.errors import DeclarationError
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import unknown_name
 from acausal.language.component import Component
+from acausal.result import document, read_text, shown_name
 from acausal.study.effects.listing import effects_of, fitting
 from acausal.study.effects.result import Effects
 from acausal.study.effects.rows import ALL
@@ -65,29 +65,31 @@ def with_effects(model: Component, scene: str, path: str | Path, settings: Mappi
 
 
 def _read(path: str | Path, scene: str) -> dict[str, Any]:
+    text = read_text(path)
     try:
-        document = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise DeclarationError(f"cannot read {path}: {error.strerror or error}.") from None
+        found = document(text)
     except ValueError as error:
-        raise DeclarationError(f"{path} is not a JSON document: {error}.") from None
-    choices = document.get("effects") if isinstance(document, dict) else None
-    if not isinstance(choices, dict) or "scene" not in document:
+        raise DeclarationError(f"{shown_name(path)} is not a JSON document: {error}.") from None
+    choices = found.get("effects") if isinstance(found, dict) else None
+    if not isinstance(choices, dict) or "scene" not in found:
         raise DeclarationError(
-            f"{path} contains no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
+            f"{shown_name(path)} contains no choices of effects; `acausal effects {scene} --apply {path}` writes such a file."
         )
     # The location of the user's file may change, and the directory from which it is named.
-    if PurePath(str(document["scene"])).name != PurePath(scene).name:
+    if PurePath(str(found["scene"])).name != PurePath(scene).name:
         raise DeclarationError(
-            f"{path} is for the scene {document['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "
+            f"{shown_name(path)} is for the scene {found['scene']}, not for {scene}; `acausal effects {scene} --apply FILE.json` "
             "writes one for it."
         )
     return choices
 
 
 def _check_names(model: Component, choices: Mapping[str, Any], path: str | Path) -> None:
-    known = [effect.path for effect in effects_of(model, fitting(model, choices))]
+    try:
+        known = [effect.path for effect in effects_of(model, fitting(model, choices))]
+    except DeclarationError as error:
+        raise DeclarationError(f"{shown_name(path)}: {error}") from None
     for name in choices:
         if name not in known:
             message = unknown_name(name, known).replace("in the model", "among the effects of the scene", 1)
-            raise DeclarationError(f"{path}: {message}")
+            raise DeclarationError(f"{shown_name(path)}: {message}")

@@ -13,12 +13,19 @@ from acausal.compiler import compile, model_of, values_of
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
+from acausal.simulation.asked import check_choice
 from acausal.study.effects.cheapest import cheapest, search
 from acausal.study.effects.listing import Effect, fullest, same
 from acausal.study.effects.result import Effects
 from acausal.study.effects.rows import ALL, EffectRow, Interaction, interaction, row
 from acausal.study.effects.variants import Choices, Variants
-from acausal.study.measuring.arguments import check_counts, check_run, check_shares, outputs_of, stop_time_of
+from acausal.study.measuring.arguments import (
+    check_counts,
+    check_run,
+    check_shares,
+    outputs_of,
+    stop_time_of,
+)
 from acausal.study.measuring.case import Case, Job, Measurement
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress
@@ -96,6 +103,10 @@ def effects(
     check_counts(0, pairs=pairs)
     check_shares(1e-2, accuracy=accuracy)
     check_shares(1e-6, tolerance=tolerance)
+    check_choice("initial", initial)
+    check_choice("method", method)
+    if workers is not None:
+        check_counts(workers=workers)
     names = outputs_of(compile(model, given), outputs or ())
     found, full = fullest(model, given)
     if not found:

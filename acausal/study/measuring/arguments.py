@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
+from acausal.language.refusals import shown
 from acausal.result.lookup import find, match
+from acausal.simulation.asked import check_intervals
 from acausal.simulation.stop_time import check_stop_time, own_stop_time
 
 
@@ -40,7 +42,7 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
     patterns : sequence of str
         Paths, with * and ?; the outputs of the model if empty.
     """
-    paths = match(compiled.tree, patterns) or compiled.outputs
+    paths = match(compiled.tree, items("outputs", patterns, '["x", "y"]')) or compiled.outputs
     found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
     if not found:
         raise DeclarationError(
@@ -48,6 +50,40 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
             f"outputs=[{next(iter(compiled.states), 'joint.phi')!r}]."
         )
     return found
+
+
+def items(name: str, given: Any, example: str) -> tuple[Any, ...]:
+    """Return what a list holds, or refuse what is not a list.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    given : object
+        What was given.
+    example : str
+        What could be given.
+    """
+    if isinstance(given, str | Mapping) or not isinstance(given, Iterable):
+        raise DeclarationError(f"{name} is {shown(given)}; it must be a list, such as {name}={example}.")
+    return tuple(given)
+
+
+def table_of(name: str, given: Any, example: str) -> dict[str, Any]:
+    """Return a dictionary of names, or refuse what is none.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    given : object
+        What was given; None is an empty one.
+    example : str
+        What could be given.
+    """
+    if given is not None and not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
+        raise DeclarationError(f"{name} is {shown(given)}; it must be a dictionary, such as {name}={example}.")
+    return dict(given or {})
 
 
 def check_run(intervals: int, repeats: int, limit: float) -> None:
@@ -61,6 +97,7 @@ def check_run(intervals: int, repeats: int, limit: float) -> None:
         In s.
     """
     check_counts(intervals=intervals, repeats=repeats)
+    check_intervals(intervals)
     if isinstance(limit, bool) or not isinstance(limit, int | float) or not limit > 0:
         raise DeclarationError(f"limit is {limit!r}; it must be a number of seconds greater than 0.")
 

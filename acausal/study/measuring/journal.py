@@ -8,7 +8,7 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +17,18 @@ import numpy as np
 from acausal.errors import DeclarationError, ExportError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
-from acausal.result import check_writable
+from acausal.result import check_writable, read_text
+from acausal.result.files import whole
 from acausal.study.measuring.case import Case, Measurement
 
 # Under this name a line holds the key of its case.
 POINT = "point"
+# What else a line holds, but for the arrays.
+KINDS = {
+    f.name: {str: (str,), int: (int,), float: (int, float)}[type(f.default)]
+    for f in fields(Measurement)
+    if isinstance(f.default, str | int | float)
+}
 
 
 class Journal:
@@ -36,12 +43,15 @@ class Journal:
     """
 
     def __init__(self, path: str | Path | None, identity: Mapping[str, Any]) -> None:
-        self.path = None if path is None else Path(path)
+        self.path: Path | None = None
         self._found: dict[str, dict[str, Any]] = {}
-        if self.path is None:
+        if path is None:
             return
-        check_writable(self.path)
-        lines = self.path.read_text(encoding="utf-8").splitlines() if self.path.exists() else []
+        check_writable(path)
+        self.path = Path(path).expanduser()
+        if self.path.exists() and not self.path.is_file():
+            raise ExportError(f"a study cannot keep its cases in {self.path}: it is a device or a pipe; name a file.")
+        lines = read_text(self.path).splitlines() if self.path.exists() else []
         if lines:
             self._take(lines, dict(identity))
         else:
@@ -85,20 +95,20 @@ class Journal:
 
     def _take(self, lines: list[str], identity: dict[str, Any]) -> None:
         first = _read(lines[0])
-        other = [
-            name for name in identity if first is None or first.get(name) != json.loads(json.dumps(identity[name]))
-        ]
+        if not isinstance(first, dict) or not first.keys() & identity.keys():
+            raise DeclarationError(f"{self.path} is not the journal of a study; give the table another name.")
+        other = [name for name in identity if first.get(name) != json.loads(json.dumps(identity[name]))]
         if other:
             raise DeclarationError(
                 f"{self.path} holds cases of another study (other {', '.join(other)}). "
                 "Remove it to start again, or give the table another name."
             )
-        # The last line may be cut where the session was killed.
-        found = [document for document in map(_read, lines[1:]) if document]
-        self._found = {document[POINT]: document for document in found}
-        if _read(lines[-1]) is None and self.path is not None:
-            text = "\n".join([lines[0], *[json.dumps(d) for d in found]]) + "\n"
-            self.path.write_text(text, encoding="utf-8")
+        found = [line for line in map(_read, lines[1:]) if _is_measurement(line)]
+        self._found = {line[POINT]: line for line in found}
+        # A line may be cut where the session was killed: its case is measured again.
+        if len(found) < len(lines) - 1 and self.path is not None:
+            with whole(self.path) as file:
+                file.writelines(line + "\n" for line in [lines[0], *map(json.dumps, found)])
 
     def _write(self, document: dict[str, Any]) -> None:
         if self.path is None:
@@ -138,8 +148,25 @@ def identity(model: Component, trees: Iterable[Component], **options: Any) -> di
     }
 
 
-def _read(line: str) -> dict[str, Any] | None:
+def _read(line: str) -> Any:
     try:
         return json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
+
+
+def _is_measurement(line: Any) -> bool:
+    """Return whether a line has everything that a measurement has, each of its kind."""
+    if not isinstance(line, dict) or line.keys() != {*KINDS, POINT, "times", "values"}:
+        return False
+    times, values = line["times"], line["values"]
+    return (
+        isinstance(line[POINT], str)
+        and all(type(line[name]) in kinds for name, kinds in KINDS.items())
+        and isinstance(values, dict)
+        and all(_are_numbers(column) and len(column) == len(times) for column in (times, *values.values()))
+    )
+
+
+def _are_numbers(column: Any) -> bool:
+    return isinstance(column, list) and all(type(number) in (int, float) for number in column)

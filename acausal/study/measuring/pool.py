@@ -57,7 +57,11 @@ def executor_of(executor: Executor | str | None, workers: int | None) -> Abstrac
     """
     if executor is None:
         return processes(workers)
-    return cluster(executor, workers) if isinstance(executor, str) else nullcontext(executor)
+    if isinstance(executor, str):
+        return cluster(executor, workers)
+    if not callable(getattr(executor, "submit", None)):
+        raise DeclarationError(f"executor is {executor!r}; it must be one of concurrent.futures, or an address.")
+    return nullcontext(executor)
 
 
 @contextmanager
@@ -107,7 +111,7 @@ def cluster(address: str = "local", workers: int | None = None) -> Iterator[Exec
         try:
             client = Client(address, timeout="10s")
         except (OSError, ValueError) as error:
-            raise DeclarationError(f"there is no Dask scheduler at {address}: {error}") from None
+            raise DeclarationError(f"there is no Dask scheduler at {address or 'no address'}: {error}") from None
         with client:
             yield client.get_executor(pure=False)
         return

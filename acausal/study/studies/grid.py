@@ -8,10 +8,19 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.simulation.simulate import CHOICES, CONSTRAINTS
+from acausal.language.refusals import shown
+from acausal.simulation.asked import CHOICES, CONSTRAINTS
+from acausal.study.measuring.arguments import items
 from acausal.study.measuring.case import Case
 from acausal.study.studies.formulation import Formulation
 
+EXAMPLES = {
+    "formulations": "formulations_of(model)",
+    "tolerances": "[1e-4, 1e-6]",
+    "max_orders": "[2, 5]",
+    "methods": '["idas", "rosenbrock"]',
+    "constraints": '["states", "projection"]',
+}
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
 
@@ -43,8 +52,8 @@ class Grid:
     switches: Mapping[str, Sequence[Any]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for name in ("formulations", "tolerances", "max_orders", "methods", "constraints"):
-            if not getattr(self, name):
+        for name, example in EXAMPLES.items():
+            if not items(name, getattr(self, name), example):
                 raise DeclarationError(f"{name} is empty; give at least one.")
         for value in self.tolerances:
             if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-12 <= value < 1:
@@ -56,11 +65,16 @@ class Grid:
             for value in getattr(self, name):
                 if value not in (*known, None):
                     raise DeclarationError(f"{name} has {value!r}; it must be one of {', '.join(known)}.")
+        for form in self.formulations:
+            if not isinstance(form, Formulation):
+                raise DeclarationError(
+                    f"a formulation is {shown(form)}; choose from formulations_of(model), or give none."
+                )
         names = [form.name for form in self.formulations]
         if len(set(names)) < len(names):
             raise DeclarationError(f"formulations need names of their own, not {', '.join(names)}.")
         for path, values in self.switches.items():
-            if not values:
+            if not items(f'switches["{path}"]', values, "[1, 2]"):
                 raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
 
     def cases(self, given: Mapping[str, Any]) -> list[Case]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from acausal.errors import DeclarationError
-from acausal.result.plots import DPI
+from acausal.result.plots import canvas
 from acausal.study.studies.reference import Reference
 from acausal.study.studies.rows import TOLERANCE, StudyRow, pareto
 
@@ -41,15 +41,14 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
     Figure
         On an Agg canvas.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
+    if output is not None and output not in reference.values:
+        raise DeclarationError(f"the study has no output {output!r}; it compares: {', '.join(reference.values)}.")
     good = [row for row in rows if not row.remark and row.error_of(output) > 0]
     if not good:
         raise DeclarationError("there is nothing to draw: no point has an error greater than 0.")
-    figure = Figure(figsize=(10.0, 6.0), dpi=DPI, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = canvas(10.0, 6.0, "constrained")
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     axes = figure.subplots()
     axes.set(xscale="log", yscale="log", xlabel="solve time [ms]")
     axes.set_ylabel(f"largest error of {output or 'all outputs'} as a fraction of the range")

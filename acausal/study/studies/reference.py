@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, SimulationError
 from acausal.policy import POLICY
+from acausal.result.tables import Columns, column_names, read_csv
 from acausal.simulation import METHODS
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
@@ -103,30 +104,35 @@ def read(path: str | Path, outputs: Sequence[str], times: np.ndarray) -> Referen
     times : array, shape (times,)
         Of the study, in s.
     """
-    import pandas as pd
+    return matching(read_csv(path, "the reference"), outputs, times)
 
-    try:
-        table = pd.read_csv(path)
-    except (OSError, ValueError) as error:
-        raise DeclarationError(
-            f"cannot read the reference {path}: {getattr(error, 'strerror', None) or error}."
-        ) from None
-    missing = [name for name in ("time", *outputs) if name not in table]
+
+def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Reference:
+    """Take a table as the reference.
+
+    Parameters
+    ----------
+    table : Columns
+        What was read.
+    outputs : sequence of str
+        Outputs that are compared.
+    times : array, shape (times,)
+        Of the study, in s.
+    """
+    missing = [name for name in ("time", *outputs) if name not in table.head]
     if missing:
         raise DeclarationError(
-            f"the reference {path} has no column {', '.join(f'`{n}`' for n in missing)}; its columns: "
-            f"{', '.join(map(str, table.columns))}. Write it by `acausal simulate ... --csv`, or choose outputs."
+            f"{table} has no column {', '.join(f'`{n}`' for n in missing)}; its columns: {column_names(table.head)}. "
+            "Write it by `acausal simulate ... --csv`, or choose outputs."
         )
-    own = table["time"].to_numpy()
+    own = table.numbers("time")
     if own.shape != times.shape or not np.allclose(own, times, rtol=0, atol=1e-9 * abs(times[-1] - times[0])):
         raise DeclarationError(
-            f"the reference {path} has {len(own)} times up to {own[-1] if len(own) else 0:g} s, the study {len(times)} "
+            f"{table} has {len(own)} times{f' up to {own[-1]:g} s' if len(own) else ''}, the study {len(times)} "
             f"up to {times[-1]:g} s, equidistant. They must be the same: choose stop time and intervals to fit."
         )
-    values = {name: table[name].to_numpy(dtype=float) for name in outputs}
-    if not all(np.all(np.isfinite(column)) for column in values.values()):
-        raise DeclarationError(f"the reference {path} has entries that are not finite numbers.")
-    return Reference(times, values, text=str(path))
+    values = {name: table.numbers(name) for name in outputs}
+    return Reference(times, values, text=table.path)
 
 
 def _refined(measure: Measure, forms: Sequence[Formulation], start: Case, asked: float) -> Reference:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,10 +17,20 @@ from acausal.flatten.instantiate import Instantiation
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.policy import POLICY
+from acausal.result import check_writable
 from acausal.result.files import whole
 from acausal.result.plots import save
-from acausal.result.tables import write_csv
-from acausal.study.measuring.arguments import check_run, check_shares, outputs_of, stop_time_of
+from acausal.result.tables import read_csv, write_csv
+from acausal.simulation.asked import check_choice
+from acausal.study.measuring.arguments import (
+    check_counts,
+    check_run,
+    check_shares,
+    items,
+    outputs_of,
+    stop_time_of,
+    table_of,
+)
 from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.pool import executor_of
@@ -29,7 +39,7 @@ from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
-from acausal.study.studies.reference import Reference, make, read
+from acausal.study.studies.reference import Reference, make, matching
 from acausal.study.studies.rows import StudyRow, pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
@@ -210,15 +220,18 @@ def study(
     stop = stop_time_of(model, stop_time, given)
     check_run(intervals, repeats, limit)
     check_shares(1e-4, accuracy=accuracy)
+    _check(initial, workers, journal)
+    table = None if reference is None else read_csv(reference, "the reference")
+    forms = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
+    grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied)
     compiled = compile(model, given)
     names = outputs_of(compiled, outputs)
-    forms = tuple(formulations or formulations_of(model, given))
-    loops = compiled.constraints.size and len(forms) == 1 and not forms[0].refine
-    kinds = constraints or (("states", "projection") if loops else ("auto",))
-    grid = Grid(forms, tolerances, max_orders, methods, kinds, switches or {})
+    if constraints is None and compiled.constraints.size and len(forms) == 1 and not forms[0].refine:
+        grid = replace(grid, constraints=("states", "projection"))
     trees = [Instantiation(model, case.settings).root for case in grid.structures(given)]
     job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial)
-    known = None if reference is None else read(reference, names, stop * np.linspace(0.0, 1.0, intervals + 1))
+    known = None if table is None else matching(table, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
     kept = Journal(journal, identity(model, trees, **common))
     with executor_of(executor, workers) as pool:
@@ -230,6 +243,15 @@ def study(
             known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
     kept.remove()
     return Study(type(model).__name__, rows_of(measured, known, forms), known, tuple(grid.switches))
+
+
+def _check(initial: str | None, workers: int | None, journal: str | Path | None) -> None:
+    """Refuse what would only be found after the model is compiled."""
+    check_choice("initial", initial)
+    if workers is not None:
+        check_counts(workers=workers)
+    if journal is not None:
+        check_writable(journal)
 
 
 def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Case:

@@ -102,7 +102,7 @@ def test_match(result):
         ("x[0].q", "there is no `x[0].q` in the model; did you mean `piece[0].q`, `piece[1].q`, `piece[0].k`?"),
         ("n", "`n` is structural and does not vary with time; its value is 2."),
         ("check", "there is no `check` in the model."),
-        ("", "there is no `` in the model."),
+        ("", "the name of a variable is empty; give its path, such as 'beam.frame_b.r_0'."),
         ("piece[a].q", "there is no `piece[a].q` in the model; did you mean `piece[1].q`, `piece[0].q`, `piece[1].k`?"),
         (3, "a result is read by a path such as 'beam.frame_b.r_0', not by 3."),
     ],

@@ -68,7 +68,7 @@ def test_a_table_as_reference(run, tmp_path):
             ["--formulation", "fifth"],
             "there is no formulation `fifth` in the scene; it has: square, fourth, off, unstable.",
         ),
-        (["--switch", "rate"], "--set takes NAME=VALUE, such as --set omega=4 or --set beam.E=7e10, not `rate=`."),
+        (["--switch", "rate"], "--switch takes NAME=VALUE,VALUE, such as --switch crank=elastic,rigid, not `rate`."),
         (["--workers", "0"], "workers is 0; it must be a whole number of at least 1."),
         (["--outputs", "z"], "there is no `z` in the model."),
         (["--plot", "a.txt"], "cannot write a.txt: a picture's name ends in .png, .svg or .pdf."),

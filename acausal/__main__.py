@@ -1,0 +1,6 @@
+"""`python -m acausal` is the `acausal` command."""
+
+from acausal.cli import main
+
+if __name__ == "__main__":
+    main()

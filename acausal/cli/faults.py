@@ -1,0 +1,72 @@
+"""What Python itself finds wrong in the user's file: where, and in a few words."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+import sys
+import traceback
+from pathlib import Path
+
+from acausal.errors import PACKAGE, AcausalError, DeclarationError
+
+_PACKAGES = tuple(str(Path(PACKAGE).parent / name) + os.sep for name in ("acausal", "components"))
+_NO_TEXT: dict[type[BaseException], str] = {MemoryError: "this needs more memory than there is"}
+_NOT_THERE = re.compile(r"cannot import name '(.+?)' from '(.+?)'")
+
+
+def place_in(error: BaseException, path: Path) -> str:
+    """Return "file:line" of the innermost line of the user in an error's traceback, "" if there is none.
+
+    Parameters
+    ----------
+    error : BaseException
+        What was raised.
+    path : Path
+        The user's file; the files beside it, which it imports, are the user's too.
+    """
+    if isinstance(error, SyntaxError) and error.filename and _is_users(error.filename, path):
+        return f"{error.filename}:{error.lineno}" if error.lineno else error.filename
+    lines = [(f.filename, f.lineno) for f in traceback.extract_tb(error.__traceback__) if _is_users(f.filename, path)]
+    return f"{lines[-1][0]}:{lines[-1][1]}" if lines else ""
+
+
+def ended(error: SystemExit, path: Path) -> DeclarationError:
+    """Return the error for a file that exits while it is read."""
+    return DeclarationError(
+        f"{place_in(error, path) or path}: the file ends the program here (SystemExit: {error.code}), but it should "
+        'only define a model. Put code that runs, sys.exit included, under `if __name__ == "__main__":`.'
+    )
+
+
+def brief(error: BaseException) -> str:
+    """Return kind and first line of an error, and the remedy where it is known."""
+    if isinstance(error, AcausalError):
+        return str(error)
+    text = error.msg if isinstance(error, SyntaxError) else str(error)
+    first = (text.splitlines() or [_NO_TEXT.get(type(error), "")])[0]
+    if isinstance(error, ImportError):
+        return _not_imported(error, first)
+    return f"{type(error).__name__}: {first}" if first else type(error).__name__
+
+
+def _not_imported(error: ImportError, text: str) -> str:
+    missing = _NOT_THERE.search(text)
+    if missing:
+        name, module = missing.groups()
+        near = difflib.get_close_matches(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"], 1)
+        mend = f"; did you mean `{near[0]}`?" if near else "."
+        return f"{type(error).__name__}: there is no `{name}` in {module}{mend}"
+    if "relative import" in text:
+        return "the file is no part of a package: write `import helper`, not `from . import helper`, for the file beside it."
+    if isinstance(error, ModuleNotFoundError) and error.name:
+        return f"{type(error).__name__}: {text}; install it, or put {error.name}.py beside this file."
+    return f"{type(error).__name__}: {text}"
+
+
+def _is_users(name: str, path: Path) -> bool:
+    """Return whether a file is the user's: the given one, or beside or below it and of no package that is installed."""
+    if name == str(path):
+        return True
+    return name.startswith(f"{path.parent}{os.sep}") and "site-packages" not in name and not name.startswith(_PACKAGES)
