@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,13 @@ class Origin:
         return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
 
 
+def method_origin(component: Component, name: str) -> Origin:
+    """Where a method of a component is written."""
+    code = getattr(inspect.unwrap(getattr(type(component), name)), "__code__", None)
+    where = f"{code.co_filename}:{code.co_firstlineno}" if code else component._origin
+    return Origin(component._path, type(component).__name__, where)
+
+
 def line_of(generator: Any) -> str:
     """Return file and line of the current line of a generator, "" if unknown."""
     frame = getattr(generator, "gi_frame", None)
@@ -48,7 +56,9 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
     try:
         return call()
     except AcausalError as error:
-        raise type(error)(f"{_place(error, origin)}: {error}") from None
+        if not error.place:
+            error.place = str(replace(origin, where=error.line, text="") if error.line else _place(error, origin))
+        raise
     except RecursionError as error:
         raise DeclarationError(f"{_place(error, origin)}: infinite recursion.") from None
     except Exception as error:

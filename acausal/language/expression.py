@@ -11,8 +11,10 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
+from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.entries import chosen
+from acausal.language.no_expression import no_expression, ragged
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.symbols import combined
@@ -186,13 +188,15 @@ def as_expr(value: Any) -> Expr:
         return Expr(ca.SX(value))
     if isinstance(value, Sequence) and not isinstance(value, str):
         rows = [as_expr(item) for item in value]
+        if any(row.shape != rows[0].shape or len(row.shape) > 1 for row in rows):
+            raise DeclarationError(f"{ragged([row.shape for row in rows])}: {value!r}")
         matrix = any(len(row.shape) == 1 for row in rows)
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
         return Expr(sx, unit_rules.of_array(rows))
-    shown = getattr(value, "__name__", None) or repr(value)
-    raise DeclarationError(f"cannot use a {type(value).__name__} ({shown}) in an expression; give a number or a symbol")
+    raise DeclarationError(no_expression(value))
 
 
+@told
 def quantity(value: Any, unit: str) -> Expr:
     """Return a constant with a unit, where a number alone would be a pure number.
 
