@@ -84,7 +84,8 @@ class AcausalWarning(UserWarning):
 def user_line() -> str:
     """Return file and line of the innermost statement outside this package."""
     frame = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
+    # By the name of the module: generated functions have no file.
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 

@@ -21,6 +21,7 @@ from acausal.flatten.flat_model import (
     FlatParameters,
     FlatUnknowns,
     Initial,
+    Removal,
 )
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
@@ -164,6 +165,14 @@ class Assembly:
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
+            removal=Removal(
+                self.residuals,
+                self.symbols,
+                tuple(self.origins),
+                tuple(name for a in self.raw.arrays for name in a.names),
+                tuple(left.rows),
+                left.done.source,
+            ),
         )
 
     def _parameters(self) -> FlatParameters:

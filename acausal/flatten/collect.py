@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.origin import Origin, bounded, line_of, method_origin, refuse_endless, with_place
+from acausal.flatten.origin import Origin, bounded, inherited, line_of, method_origin, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -133,7 +133,7 @@ def _run(component: Component, method: str, found: Equations, most: int) -> None
         statement = with_place(lambda: next(generator, _END), here)
         if statement is _END:
             return
-        origin = Origin(component._path, name, line_of(generator) or here.where)
+        origin = Origin(component._path, name, line_of(generator) or here.where, inherited(generator))
         refuse_endless(count, origin, f"{method}()", most)
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
@@ -152,4 +152,3 @@ def _run(component: Component, method: str, found: Equations, most: int) -> None
 
 
 _END: Any = object()
-

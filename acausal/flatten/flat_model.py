@@ -123,6 +123,32 @@ class FlatUnknowns:
 
 
 @dataclass(frozen=True)
+class Removal:
+    """The equations as they were written, and which of them removed which unknown.
+
+    Parameters
+    ----------
+    residuals, symbols : casadi.SX
+        Columns of all residuals and all unknowns.
+    origins : tuple of Origin
+        Where each residual comes from.
+    names : tuple of str
+        Name of each declared unknown.
+    rows : tuple of int
+        Remaining residual -> the row where it was written.
+    source : mapping of int to int
+        Unknown that was removed -> the row of the residual that did it, or whose derivative did.
+    """
+
+    residuals: ca.SX
+    symbols: ca.SX
+    origins: tuple[Origin, ...]
+    names: tuple[str, ...]
+    rows: tuple[int, ...]
+    source: Mapping[int, int]
+
+
+@dataclass(frozen=True)
 class FlatEquations:
     """Scalar equations.
 
@@ -138,6 +164,8 @@ class FlatEquations:
         Fixed start values and initial equations.
     redundant : tuple of Origin
         Redundant equations.
+    removal : Removal
+        What was simplified away.
     """
 
     residuals: ca.SX
@@ -145,6 +173,7 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
+    removal: Removal
 
 
 @dataclass(frozen=True)

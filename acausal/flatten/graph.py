@@ -61,7 +61,11 @@ def build_graph(components: list[Component]) -> Graph:
             else:
                 raise ConnectError(f"{origin}: {misplaced(statement, 'connections')}")
     _refuse_doubles(connects)
-    cuts, chosen = spanning_tree(connectors, connects, branches, roots)
+    try:
+        cuts, chosen = spanning_tree(connectors, connects, branches, roots)
+    except ConnectError:
+        _refuse_elsewhere(components)
+        raise
     for cut in cuts:
         for part in cut.loop:
             part._in_loop = True
@@ -107,6 +111,18 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
             raise ConnectError(
                 f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Write the component that has "
                 "it in the class body, and connect the port of that."
+            )
+
+
+def _refuse_elsewhere(components: list[Component]) -> None:
+    """Where something is not connected: refuse connections that are stated in equations()."""
+    for component in components:
+        code = getattr(type(component).equations, "__code__", None)
+        word = next((w for w in ("connect", "chain") if code and w in code.co_names), None)
+        if word:
+            raise ConnectError(
+                f"{method_origin(component, 'equations')}: {word}(...) is called in equations(), and belongs to connections(): "
+                "write it there."
             )
 
 

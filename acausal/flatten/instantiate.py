@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import difflib
 import dis
+import traceback
 from collections.abc import Iterator, Mapping
 from itertools import islice, pairwise
 from typing import Any
 
-from acausal.errors import DeclarationError
+from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.given import Given, owner_text
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
@@ -71,7 +72,7 @@ class Instantiation:
         }
         self.components.append(bound)
         self._given.fill(bound, owner)
-        with_place(bound.check, here)
+        with_place(lambda: _check(bound), here)
         for name, declared in cls.fields.items():
             if isinstance(declared, f.Part):
                 own[name] = self._part(bound, name, declared)
@@ -122,7 +123,9 @@ class Instantiation:
 
     def _member(self, bound: Component, template: Component, path: str) -> Component:
         if not isinstance(template, Component) or template._is_bound:
-            raise DeclarationError(f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {_no_part(template)}.")
+            raise DeclarationError(
+                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {_no_part(template)}."
+            )
         built = self._build(template, path, bound)
         if isinstance(built, Connector):
             built._owner = bound
@@ -142,6 +145,16 @@ class Instantiation:
                 )
                 raise DeclarationError(f"{owner_text(component)} needs the one {cls} of the model, but {what}.")
             vars(component)[name] = found[0]
+
+
+def _check(component: Component) -> None:
+    """Check a component; what it refuses itself is wrong where it is constructed."""
+    try:
+        component.check()
+    except AcausalError as error:
+        *_, last = traceback.extract_tb(error.__traceback__)
+        error.line = error.line if last.filename.startswith(PACKAGE) else component._origin
+        raise
 
 
 def _no_part(value: Any) -> str:

@@ -107,7 +107,7 @@ def _no_power(name: str, value: Any) -> str:
         return f"{name}() must return {unit}; write `return`, not `yield`."
     if isinstance(value, Expr | np.ndarray | list | tuple):
         return f"{name}() must return {unit}, not {len(value)} values; a sum over entries is dot(a, b) or sum(...)."
-    what = "a method; call it, self.{}()".format(value.__name__) if callable(value) else shown(value)
+    what = f"a method; call it, self.{value.__name__}()" if callable(value) else shown(value)
     return f"{name}() must return {unit}, not {'an equation' if isinstance(value, Equation) else what}."
 
 

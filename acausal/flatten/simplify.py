@@ -21,7 +21,8 @@ class Simplification:
     """Result of the propagation, in indices of unknowns and residuals.
 
     `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
-    among the remaining ones; `used` are residuals that removed an unknown, `redundant` those that became 0 = 0, `kept`
+    among the remaining ones; `used` are residuals that removed an unknown, `source` the
+    residual that removed each, by itself or by its derivative, `redundant` those that became 0 = 0, `kept`
     those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
     that residual; `contradictions` can never hold.
     """
@@ -30,6 +31,7 @@ class Simplification:
     rank: list[int]
     solved: dict[int, Linear] = field(default_factory=dict)
     used: dict[int, int] = field(default_factory=dict)
+    source: dict[int, int] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
     left: list[tuple[Linear, int]] = field(default_factory=list)
@@ -128,6 +130,7 @@ class Simplifier:
             solution = scale((c0, rest), -1 / c)
             if self._may_replace(unknown, solution):
                 self._replace(unknown, solution, row)
+                self.result.source[unknown] = row
                 if not derived:
                     self.result.used[row] = unknown
                 return True

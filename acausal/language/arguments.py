@@ -56,7 +56,9 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     parameters = inspect.signature(function).parameters
     name = function.__name__
     kinds = [p.kind for p in parameters.values()]
-    places = [n for n, p in parameters.items() if p.kind in (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)]
+    places = [
+        n for n, p in parameters.items() if p.kind in (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
+    ]
     needed = [n for n in places if parameters[n].default is Parameter.empty]
     other = [n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY]
     several = [f"*{n}" for n, p in parameters.items() if p.kind is Parameter.VAR_POSITIONAL]

@@ -82,22 +82,23 @@ def _wrong_shape(cls: Any, name: str, field: f.Field) -> str:
     if isinstance(shape, tuple) and any(isinstance(n, f.Deferrable) for n in shape):
         return "the shape depends on another field: write a function, shape=lambda s: (s.n,)."
     whole = isinstance(shape, tuple) and all(isinstance(n, int) and not isinstance(n, bool) and n >= 0 for n in shape)
-    if not whole or len(shape) > 2:
+    if not whole or not isinstance(shape, tuple) or len(shape) > 2:
         return f"shape={shown(shape)} is no shape: a vector has shape=(3,), a matrix shape=(3, 3)."
     said = shape_of_annotation(cls, name)
     if said is not None and said != shape:
-        return f"its type says shape {said}, its argument shape={shape}. Write `{name} = ...` without the type for a shape of your own."
+        return f"its type says shape {said}, its argument shape={shape}: leave out one of the two, `{name} = ...`."
     return ""
 
 
 def _wrong_variable(cls: Any, field: f.Variable) -> str:
     if isinstance(field.start, f.InitialValue):
         start = f"start={shown(field.start.value)}"
-        return f"write {start}{', fixed=True' if field.start.fixed else ''}; fixed(...) and guess(...) are for the part: {cls.__name__}(...)."
+        held = ", fixed=True" if field.start.fixed else ""
+        return f"write {start}{held}; fixed(...) and guess(...) are for a part: {cls.__name__}(...)."
     if not isinstance(field.fixed, bool):
         return f"fixed is True or False; the value is the start: start={shown(field.fixed)}, fixed=True."
     if field.select not in (f.NEVER, f.AVOID, f.DEFAULT, f.PREFER, f.ALWAYS):
-        return f"select={shown(field.select)} is not one of NEVER, AVOID, DEFAULT, PREFER and ALWAYS, which are imported from acausal."
+        return f"select={shown(field.select)} is not one of NEVER, AVOID, DEFAULT, PREFER and ALWAYS of acausal."
     for word, value in (("start", field.start), ("nominal", field.nominal)):
         if isinstance(value, str | bool | dict | set | f.Template) or (value is None and word == "start"):
             return f"{word}={shown(value)} must be a number, or an array of its shape."
@@ -141,7 +142,7 @@ def _wrong_part(field: f.Part) -> str:
         fits = make is None or isinstance(make, f.Template | list) or callable(make)
     if not fits:
         what = getattr(make, "__name__", None) or shown(make)
-        return f"port() takes a connector class, port(Frame), or marks a method; {what} is none. A part stands in the class body as it is."
+        return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
     if inspect.isfunction(make) and not _takes_self(make):
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
     return ""

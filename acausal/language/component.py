@@ -93,7 +93,9 @@ class Component(f.Template):
         if self._demand is not None and isinstance(member, f.Structural | f.Parameter):
             return self._demand(name)
         when = "equations() only" if isinstance(member, f.Variable) else "connections() and equations()"
-        raise AttributeError(f"{self!r} does not have its `{name}` yet: it exists in {when}")
+        raise AttributeError(
+            f"{self!r} does not have its `{name}` yet: it exists in {when}. What contains it belongs there."
+        )
 
     def __repr__(self) -> str:
         return f"{self._path or 'model'} ({type(self).__name__})" if self._is_bound else f"{type(self).__name__}()"

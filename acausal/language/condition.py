@@ -134,15 +134,18 @@ def refuse_cases(cases: tuple[Any, ...]) -> None:
                 "Python's `a if condition else b`, or compare variables: time < 1."
             )
         if not isinstance(condition, Condition):
+            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "no condition"
             raise DeclarationError(
-                f"{_shown(condition)} {'is an equation, not a condition' if type(condition).__name__ == 'Equation' else 'is no condition of piecewise'}: a condition compares two scalars by <, <=, > or >=, such as time < 1. "
-                "`==` of variables is an equation; a variable meets a value at single instants only."
+                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, such as "
+                "time < 1."
             )
         if getattr(condition.excess, "shape", ()) and not getattr(condition.excess, "is_deferred", False):
             raise DeclarationError("a condition of piecewise compares two scalars; an entry of a vector is v[0].")
     last = cases[-1]
     if isinstance(last, Condition) or (isinstance(last, tuple | list) and any(isinstance(c, Condition) for c in last)):
-        raise DeclarationError(f"piecewise lacks the value that it has where no condition holds, its last argument: {form}.")
+        raise DeclarationError(
+            f"piecewise lacks the value that it has where no condition holds, its last argument: {form}."
+        )
 
 
 def _shown(value: Any) -> str:

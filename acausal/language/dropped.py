@@ -11,7 +11,9 @@ from acausal.language.arguments import refused
 
 STATEMENTS = ("connect", "chain", "branch", "root", "potential_root", "when", "require", "expect", "apart")
 _COMPARED, _CALLED = (
-    re.compile(b"(?s)" + re.escape(bytes([dis.opmap[name]])) + b".(?:\x00.)*" + re.escape(bytes([dis.opmap["POP_TOP"]])))
+    re.compile(
+        b"(?s)" + re.escape(bytes([dis.opmap[name]])) + b".(?:\x00.)*" + re.escape(bytes([dis.opmap["POP_TOP"]]))
+    )
     for name in ("COMPARE_OP", "CALL")
 )
 
@@ -30,9 +32,7 @@ def refuse_dropped(kind: str, methods: Iterable[FunctionType | CodeType]) -> Non
         code = method.__code__ if isinstance(method, FunctionType) else method
         for what, line in _dropped(code):
             inside = "Yield it in equations()." if code.co_name == kind else "Write `yield` before it."
-            raise refused(
-                f"{kind}: {what} has no effect, as it is not yielded. {inside}", f"{code.co_filename}:{line}"
-            )
+            raise refused(f"{kind}: {what} has no effect, as it is not yielded. {inside}", f"{code.co_filename}:{line}")
 
 
 def _dropped(code: CodeType) -> Iterator[tuple[str, int]]:

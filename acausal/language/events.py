@@ -40,7 +40,9 @@ def reinit(variable: Any, value: Any) -> Reinit:
         What it becomes, computed from the values just before the instant.
     """
     if not isinstance(variable, Expr) or not variable.name:
-        raise DeclarationError(f"reinit needs a variable before its value, such as reinit(self.v, 0), not {variable!r}.")
+        raise DeclarationError(
+            f"reinit needs a variable before its value, such as reinit(self.v, 0), not {variable!r}."
+        )
     same: Equation = equation(variable, value)
     return Reinit(same.lhs, same.rhs)
 

@@ -62,7 +62,7 @@ class Expr(Symbolic):
         return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None)
 
     def __repr__(self) -> str:
-        return self.name or str(self.sx)
+        return self.name or str(ca.densify(self.sx))
 
     def _shown(self) -> str:
         return _short(self)
@@ -211,6 +211,10 @@ def quantity(value: Any, unit: str) -> Expr:
     --------
     >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
     """
+    if isinstance(value, str) or not isinstance(unit, str):
+        raise DeclarationError(
+            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
+        )
     return Expr(as_expr(value).sx, parse(unit))
 
 
@@ -232,6 +236,9 @@ def equation(lhs: Any, rhs: Any) -> Any:
             f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
             "Both need the same shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
+    for side in (a, b):
+        if side.sx.is_constant() and not side.sx.is_regular():
+            raise DeclarationError(f"a side of an equation is {_short(side)}; it must be finite")
     unit_rules.common(a, b, "joined by `==`")
     return Equation(a, b)
 

@@ -63,13 +63,15 @@ def _described(statement: Any, method: str) -> tuple[str, str]:
         mend = "Its `==` compares plain values or parts: one side must be a variable, self.x or self.part.x."
         return f"{statement}", mend
     if isinstance(statement, Condition):
-        mend = "What must hold is yielded in requirements(): require(a < b, \"...\"); what happens then: when(a < b, reinit(...))."
+        mend = 'What must hold is yielded in requirements(): require(a < b, "..."); what happens then: when(a < b, reinit(...)).'
         return "an inequality", mend
     if isinstance(statement, Reinit):
         return "reinit(...) alone", "Say when it happens: when(condition, reinit(variable, value))."
     if isinstance(statement, InitialValue):
         return "fixed(...) or guess(...)", "Here a start value is an equation, self.x == ..., in initial_equations()."
-    if isinstance(statement, Iterator) or (isinstance(statement, list | tuple) and all(isinstance(s, Equation) for s in statement)):
+    if isinstance(statement, Iterator) or (
+        isinstance(statement, list | tuple) and all(isinstance(s, Equation) for s in statement)
+    ):
         return "several at once", "Write `yield from` instead of `yield`."
     if isinstance(statement, tuple) and any(isinstance(s, Expr) for s in statement):
         return "values with a comma between them", "Each equation has its own `yield`."

@@ -60,7 +60,7 @@ def refuse_annotations(cls: Any) -> None:
             kind = inspect.get_annotations(base)[name]
             kind = kind if isinstance(kind, str) else kind.__name__
             raise refused(
-                f"{base.__name__}.{name} has a type, but is not declared: write `{name}: {kind} = variable(\"...\")`, or "
+                f'{base.__name__}.{name} has a type, but is not declared: write `{name}: {kind} = variable("...")`, or '
                 "parameter, input, output.",
                 base._line,
             )
@@ -77,7 +77,7 @@ def refuse_plain(cls: Any, name: str, value: Any) -> None:
         mend = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
     else:
         mend = (
-            f"it is {shown(value)}, not a field: write `{name}: {kind} = parameter(\"...\", default={shown(value)})`; a "
+            f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
             f"constant stands without the type, `{name} = {shown(value)}`"
         )
     raise refused(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
@@ -87,11 +87,15 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
     """Say why a name cannot stand for a value, "" if it can."""
     field = isinstance(value, f.Field | f.Template)
     if name == "__post_init__":
-        return "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
+        return (
+            "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
+        )
     if name == "time" and field:
         return "`time` is the time in all results and equations; give this another name."
     if field and name in cls._settings and name not in SETTABLE:
-        return f"`{name}` is what simulate(..., {name}=...) takes from a model; give this another name, such as `{name}_`."
+        return (
+            f"`{name}` is what simulate(..., {name}=...) takes from a model; give this another name, such as `{name}_`."
+        )
     if name not in engine or name.startswith("__"):
         return ""
     old = engine[name]
@@ -103,7 +107,9 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
     if not isinstance(value, FunctionType):
         marked = isinstance(value, property | staticmethod | classmethod)
         what = f"leave out @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
-        other = f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
+        other = (
+            f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
+        )
         return f"every component has a method of this name, {form}; {other}"
     return "" if _takes(value, old) else f"this method takes {'self alone' if written == 'self' else written}: {form}."
 
@@ -125,8 +131,13 @@ def _refuse_twice(cls: Any) -> None:
             first: dict[str, int] = {}
             for step in dis.get_instructions(code):
                 name, line = step.argval, step.positions.lineno if step.positions else None
-                if "JUMP" in step.opname or step.opname in ("FOR_ITER", "SETUP_ANNOTATIONS", "PUSH_EXC_INFO"):
-                    first.clear()
+                if (
+                    step.is_jump_target
+                    or "JUMP" in step.opname
+                    or "RETURN" in step.opname
+                    or step.opname == "PUSH_EXC_INFO"
+                ):
+                    first.clear()  # another branch
                 if step.opname == "LOAD_NAME":
                     first = {} if name == "overload" else {n: at for n, at in first.items() if n != name}
                 elif step.opname == "STORE_NAME" and name in first and name.strip("_"):
@@ -142,5 +153,7 @@ def _refuse_twice(cls: Any) -> None:
 def _twice(code: CodeType) -> bool:
     """Whether a name may be stored more than once; quick, as every class is looked at."""
     store = dis.opmap["STORE_NAME"]
-    stored = [place for operation, place in zip(code.co_code[::2], code.co_code[1::2], strict=True) if operation == store]
+    stored = [
+        place for operation, place in zip(code.co_code[::2], code.co_code[1::2], strict=True) if operation == store
+    ]
     return len(stored) > len(set(stored))

@@ -38,14 +38,20 @@ def _described(value: Any) -> tuple[str, str]:
     if value is None:
         return "None", "A part or value that does not exist here is left out; a method needs `return`."
     if isinstance(value, str):
-        return f"the text {value!r}", f"Write a number, or a variable as self.{value if value.isidentifier() else 'x'}, without quotes."
+        return (
+            f"the text {value!r}",
+            f"Write a number, or a variable as self.{value if value.isidentifier() else 'x'}, without quotes.",
+        )
     if hasattr(value, "fields") and hasattr(value, "_ports"):
         names = [n for n, field in value.fields.items() if type(field).__name__ in ("Variable", "Parameter")]
         return f"the part {value!r}", f"Name one of its values{f', such as .{names[0]}' if names else ''}."
     if getattr(value, "is_deferred", False):
         return "a field that belongs to no part", "Declare it in the class body, and use self.<name>."
     if isinstance(value, ModuleType):
-        return f"the module {value.__name__}", f"Import what is meant from acausal: from acausal import {value.__name__}."
+        return (
+            f"the module {value.__name__}",
+            f"Import what is meant from acausal: from acausal import {value.__name__}.",
+        )
     if isgenerator(value) or isinstance(value, Iterator):
         return "a generator", "Make a list of it: [... for ... in ...]."
     if isinstance(value, Callable):  # type: ignore[arg-type]

@@ -83,7 +83,9 @@ def codes_of_body(cls: Any) -> list[CodeType]:
     frame: Any = sys._getframe(1)
     while frame is not None and (frame.f_code.co_filename.startswith(PACKAGE) or frame.f_code.co_name == "<genexpr>"):
         frame = frame.f_back
-    found = [c for c in frame.f_code.co_consts if _is_body(c, cls)] if frame is not None else []
+    if frame is None:
+        return []
+    found = [c for c in frame.f_code.co_consts if _is_body(c, cls)]
     # Of several classes with one name, the last that begins before the statement that is being executed.
     begun = [code for code in found if code.co_firstlineno <= frame.f_lineno]
     return begun[-1:] or found[:1]

@@ -13,7 +13,9 @@ TWINS: dict[str, Callable[..., Any]] = {}
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan2", "exp", "log", "tanh", "sqrt", "sign", "dot", "cross")
 _TABLE = "a table as piecewise((y0 + (x - x0) * slope, x < x1), ..., otherwise), or as a polynomial"
-_STEPS = "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
+_STEPS = (
+    "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
+)
 _TUPLE = "a vector as a tuple of its entries, (a, b, c)"
 # What stands in place of numpy's functions that have no counterpart.
 INSTEAD = {
