@@ -16,7 +16,21 @@ class AcausalError(Exception):
     ----------
     message : str
         What is wrong, in the user's names; where; the likely cause; the remedy as code.
+
+    Attributes
+    ----------
+    line : str
+        File and line of the user's statement, where the message itself does not say it.
+    place : str
+        Component, file and line, once they are known.
     """
+
+    line = ""
+    place = ""
+
+    def __str__(self) -> str:
+        where = self.place or self.line
+        return f"{where}: {super().__str__()}" if where else super().__str__()
 
 
 class DeclarationError(AcausalError):
@@ -65,6 +79,15 @@ class ExportError(AcausalError):
 
 class AcausalWarning(UserWarning):
     """The result solves the equations but may not be what the user wants; or a setting has no effect."""
+
+
+def user_line() -> str:
+    """Return file and line of the innermost statement outside this package."""
+    frame = sys._getframe(1)
+    # By the name of the module: generated functions have no file.
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
+        frame = frame.f_back
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 
 
 def caution(text: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import Any
 
@@ -11,9 +11,11 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import AcausalError, DeclarationError
-from acausal.flatten.origin import Origin, line_of, with_place
+from acausal.flatten.origin import Origin, line_of, method_origin, with_place
 from acausal.flatten.tree import walk
+from acausal.language.arguments import refused
 from acausal.language.component import Component
+from acausal.language.homes import misplaced, returned
 from acausal.language.validity import Requirement
 from acausal.symbols import scalars, stacked
 
@@ -69,16 +71,17 @@ def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> l
     found: list[Stated] = []
     for component in walk(tree):
         if getattr(type(component), method) is not getattr(Component, method):
-            found += with_place(lambda c=component: list(_run(c, method, kind)), Origin.of(component, f"{method}()"))
+            found += with_place(lambda c=component: list(_run(c, method, kind)), method_origin(component, method))
     return found
 
 
 def _run(component: Component, method: str, kind: type | tuple[type, ...]) -> Iterator[Stated]:
     generator = getattr(component, method)()
+    if not isinstance(generator, Iterable):
+        raise DeclarationError(returned(generator, method))
     for statement in generator:
         if not isinstance(statement, kind):
-            word = "require(...)" if kind is Requirement else "expect(...) or apart(...)"
-            raise DeclarationError(f"{line_of(generator)}: yield {word} in {method}(), not {statement!r}")
+            raise refused(misplaced(statement, method), line_of(generator))
         yield statement, Origin.of(component)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,7 +13,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.origin import Origin, bounded, line_of, refuse_endless, with_place
+from acausal.flatten.origin import Origin, bounded, line_of, method_origin, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -21,6 +21,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
+from acausal.language.homes import misplaced, returned
 from acausal.symbols import dense, scalars, vec
 
 
@@ -61,7 +62,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.equations, found, most)
+        _run(component, "equations", found, most)
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
@@ -71,7 +72,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
                 )
                 PENDING.get().place(origin)
     for connector in graph.roots:
-        _run(connector, connector.root_equations, found, most)
+        _run(connector, "root_equations", found, most)
     for cut in graph.cuts:
         _close(cut, graph, found)
     for balance in graph.balances:
@@ -83,7 +84,7 @@ def collect_initial(components: list[Component], most: int) -> Equations:
     """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, component.initial_equations, found, most)
+        _run(component, "initial_equations", found, most)
     return found
 
 
@@ -121,25 +122,25 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
                 found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equations, most: int) -> None:
+def _run(component: Component, method: str, found: Equations, most: int) -> None:
     name = type(component).__name__
-    here = Origin(component._path, name, f"{type(component).__module__}.{name}")
-    said = with_place(generate, here)
+    here = method_origin(component, method)
+    said = with_place(getattr(component, method), here)
     if not isinstance(said, Iterable) or isinstance(said, Expr):
-        raise DeclarationError(f"{here}: {generate.__name__}() returns {_shown(said)}; write `yield`, not `return`.")
+        raise DeclarationError(f"{method_origin(component, method)}: {returned(said, method)}")
     generator = iter(said)
     for count in itertools.count():
         statement = with_place(lambda: next(generator, _END), here)
         if statement is _END:
             return
         origin = Origin(component._path, name, line_of(generator) or here.where)
-        refuse_endless(count, origin, f"{generate.__name__}()", most)
+        refuse_endless(count, origin, f"{method}()", most)
         PENDING.get().place(origin)
-        if isinstance(statement, When) and generate.__name__ == "equations":
+        if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))
             continue
         if not isinstance(statement, Equation):
-            raise DeclarationError(f"{origin}: yield equations such as `a == b`, not {_shown(statement)}.")
+            raise DeclarationError(f"{origin}: {misplaced(statement, method)}")
         residual = vec(statement.lhs.sx - statement.rhs.sx)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()
@@ -151,8 +152,3 @@ def _run(component: Component, generate: Callable[[], Iterator[Any]], found: Equ
 
 
 _END: Any = object()
-
-
-def _shown(value: Any) -> str:
-    kinds = {Equation: "an equation", When: "when(...), which belongs to equations()"}
-    return next((text for kind, text in kinds.items() if isinstance(value, kind)), f"{value!r}")

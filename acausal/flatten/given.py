@@ -149,7 +149,8 @@ class Given:
                 raise DeclarationError(
                     f"{where} follows from others, but not to a finite number: one that divides is 0."
                 )
-            unit_rules.common(Expr(given.sx, unit, where), given, "its value")
+            own = Expr(given.sx, unit, path)
+            with_place(lambda: unit_rules.common(own, given, "its value"), Origin.of(bound))
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:

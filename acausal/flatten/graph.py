@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.flatten.origin import Origin, line_of, refuse_endless, with_place
+from acausal.flatten.origin import Origin, line_of, method_origin, refuse_endless, with_place
 from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
+from acausal.language.homes import misplaced, returned
 
 
 @dataclass(frozen=True)
@@ -58,12 +59,13 @@ def build_graph(components: list[Component]) -> Graph:
             elif isinstance(statement, Root):
                 roots.append(statement)
             else:
-                raise ConnectError(
-                    f"{origin}: connections() yields {statement!r}; "
-                    "yield connect(...), chain(...), branch(...), root(...) or potential_root(...)."
-                )
+                raise ConnectError(f"{origin}: {misplaced(statement, 'connections')}")
     _refuse_doubles(connects)
-    cuts, chosen = spanning_tree(connectors, connects, branches, roots)
+    try:
+        cuts, chosen = spanning_tree(connectors, connects, branches, roots)
+    except ConnectError:
+        _refuse_elsewhere(components)
+        raise
     for cut in cuts:
         for part in cut.loop:
             part._in_loop = True
@@ -80,7 +82,9 @@ def build_graph(components: list[Component]) -> Graph:
 def _statements(component: Component) -> Iterator[tuple[Any, str]]:
     """Yield each statement with the line that it comes from."""
     here = Origin.of(component)
-    said = with_place(component.connections, here)
+    said = with_place(component.connections, method_origin(component, "connections"))
+    if said is None:
+        raise ConnectError(f"{method_origin(component, 'connections')}: {returned(said, 'connections')}")
     stack = [iter(said if isinstance(said, _SEVERAL) else (said,))]
     for count in itertools.count():
         where = line_of(stack[0]) or here.where
@@ -107,6 +111,18 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
             raise ConnectError(
                 f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Write the component that has "
                 "it in the class body, and connect the port of that."
+            )
+
+
+def _refuse_elsewhere(components: list[Component]) -> None:
+    """Where something is not connected: refuse connections that are stated in equations()."""
+    for component in components:
+        code = getattr(type(component).equations, "__code__", None)
+        word = next((w for w in ("connect", "chain") if code and w in code.co_names), None)
+        if word:
+            raise ConnectError(
+                f"{method_origin(component, 'equations')}: {word}(...) is called in equations(), and belongs to connections(): "
+                "write it there."
             )
 
 

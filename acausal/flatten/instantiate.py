@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import difflib
+import dis
+import traceback
 from collections.abc import Iterator, Mapping
-from itertools import islice
+from itertools import islice, pairwise
 from typing import Any
 
-from acausal.errors import DeclarationError
+from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.given import Given, owner_text
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
+from acausal.language.values import refuse_constructor, shown
 
 DEEPEST = 100  # parts inside parts; deeper, a component contains itself
 
@@ -53,6 +56,8 @@ class Instantiation:
     def _build(self, template: Component, path: str, owner: Component | None) -> Component:
         cls = type(template)
         here = Origin(path, cls.__name__, template._origin)
+        if not template._origin:
+            refuse_constructor(cls)
         if cls not in self._classes:
             refuse_late_fields(cls)
             self._classes.add(cls)
@@ -67,7 +72,7 @@ class Instantiation:
         }
         self.components.append(bound)
         self._given.fill(bound, owner)
-        with_place(bound.check, here)
+        with_place(lambda: _check(bound), here)
         for name, declared in cls.fields.items():
             if isinstance(declared, f.Part):
                 own[name] = self._part(bound, name, declared)
@@ -94,7 +99,9 @@ class Instantiation:
         if isinstance(made, list | tuple):
             return [self._member(bound, item, f"{path}[{k}]") for k, item in enumerate(made)]
         if declared.many:
-            raise DeclarationError(f"{place}: it must be a list of parts, not {made!r}.")
+            raise DeclarationError(f"{place}: @parts marks a method that returns a list of parts, not {shown(made)}.")
+        if made is None and declared.make is not None and not declared.is_port:
+            _refuse_lost(declared, place)
         return None if made is None else self._member(bound, made, path)
 
     def _made(self, bound: Component, declared: f.Part, place: Origin) -> Any:
@@ -105,6 +112,8 @@ class Instantiation:
 
         def call() -> Any:
             made = make() if isinstance(make, type) else make(bound)
+            if isinstance(make, type):
+                made.__dict__["_origin"] = declared.where
             return list(islice(made, MOST)) if isinstance(made, Iterator) else made
 
         made = with_place(call, place)
@@ -114,7 +123,9 @@ class Instantiation:
 
     def _member(self, bound: Component, template: Component, path: str) -> Component:
         if not isinstance(template, Component) or template._is_bound:
-            raise DeclarationError(f"{path} must be a component that is made for it, not {template!r}.")
+            raise DeclarationError(
+                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {_no_part(template)}."
+            )
         built = self._build(template, path, bound)
         if isinstance(built, Connector):
             built._owner = bound
@@ -134,6 +145,35 @@ class Instantiation:
                 )
                 raise DeclarationError(f"{owner_text(component)} needs the one {cls} of the model, but {what}.")
             vars(component)[name] = found[0]
+
+
+def _check(component: Component) -> None:
+    """Check a component; what it refuses itself is wrong where it is constructed."""
+    try:
+        component.check()
+    except AcausalError as error:
+        *_, last = traceback.extract_tb(error.__traceback__)
+        error.line = error.line if last.filename.startswith(PACKAGE) else component._origin
+        raise
+
+
+def _no_part(value: Any) -> str:
+    """Write what stands in place of a part."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}: it is made by {value.__name__}(...)"
+    if isinstance(value, Component):
+        return f"{value._path or 'a model'}, a part of another model"
+    return "a list in a list" if isinstance(value, list) else shown(value)
+
+
+def _refuse_lost(declared: f.Part, place: Origin) -> None:
+    """Refuse a method marked @part that makes something and returns nothing: None alone leaves the part out."""
+    code = getattr(declared.make, "__code__", None)
+    steps = list(dis.get_instructions(code)) if code else []
+    pairs = list(pairwise(steps))
+    lost = any(a.opname == "CALL" and b.opname == "POP_TOP" for a, b in pairs)
+    if lost and all((b if b.opname == "RETURN_CONST" else a).argval is None for a, b in pairs if "RETURN_" in b.opname):
+        raise DeclarationError(f"{place}: this method returns nothing; write `return` before the part.")
 
 
 def unknown_name(name: str, known: list[str]) -> str:

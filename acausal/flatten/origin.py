@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
-import re
+import inspect
 import traceback
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from acausal.errors import AcausalError, DeclarationError
+from acausal.flatten.raw_errors import in_words
 from acausal.language.component import Component
-from acausal.language.expression import Expr
 
 PACKAGE = str(Path(__file__).parents[1])
 MOST = 100_000  # statements of one generator; more are an endless loop
@@ -37,6 +36,13 @@ class Origin:
         return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
 
 
+def method_origin(component: Component, name: str) -> Origin:
+    """Where a method of a component is written."""
+    code = getattr(inspect.unwrap(getattr(type(component), name)), "__code__", None)
+    where = f"{code.co_filename}:{code.co_firstlineno}" if code else component._origin
+    return Origin(component._path, type(component).__name__, where)
+
+
 def line_of(generator: Any) -> str:
     """Return file and line of the current line of a generator, or of the one that it yields from; "" if unknown."""
     while (inner := getattr(generator, "gi_yieldfrom", None)) is not None and hasattr(inner, "gi_frame"):
@@ -50,11 +56,13 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
     try:
         return call()
     except AcausalError as error:
-        raise type(error)(f"{_place(error, origin)}: {error}") from None
+        if not error.place:
+            error.place = str(replace(origin, where=error.line, text="") if error.line else _place(error, origin))
+        raise
     except RecursionError as error:
         raise DeclarationError(f"{_place(error, origin)}: infinite recursion.") from None
     except Exception as error:
-        raise DeclarationError(f"{_place(error, origin)}: {_brief(error)}") from error
+        raise DeclarationError(f"{_place(error, origin)}: {in_words(error)}") from error
 
 
 def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> None:
@@ -75,35 +83,11 @@ def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[An
         yield item
 
 
-def _brief(error: Exception) -> str:
-    if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
-        names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
-        near = difflib.get_close_matches(error.name or "", names, 1)
-        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
-    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
-        return str(error)
-    if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
-        return (
-            f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
-        )
-    foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
-    if foreign:
-        return _of_casadi(foreign[1])
-    return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
-
-
-def _of_casadi(name: str) -> str:
-    """Return the remedy for a function of CasADi that was called with expressions of this package."""
-    what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
-    return (
-        f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "
-        "as piecewise((value, condition), ..., otherwise) or as a polynomial; a function of elementary operations takes "
-        "symbols: Expr(function(self.x.sx)), with Expr from acausal."
-    )
-
-
 def _place(error: BaseException, origin: Origin) -> Origin:
-    """Locate the innermost line outside this package."""
+    """Locate the innermost line outside this package; what a class lacks, at the class."""
+    if isinstance(error, NotImplementedError) and not str(error):
+        *_, (frame, _) = traceback.walk_tb(error.__traceback__)
+        return replace(origin, where=getattr(frame.f_locals.get("self"), "_line", origin.where))
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
             return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")

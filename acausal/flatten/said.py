@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.origin import Origin, bounded, with_place
+from acausal.flatten.origin import Origin, bounded, method_origin, with_place
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
 from acausal.language.component import Component
-from acausal.language.expression import Expr, as_expr
+from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import Observed
 from acausal.language.functions import PENDING, Pending
+from acausal.language.values import shown
 from acausal.symbols import scalars
 from acausal.units import parse
 
@@ -80,16 +82,31 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
 
 
 def _power(component: Component, name: str) -> Expr:
-    origin = Origin(component._path, type(component).__name__, f"{name}()")
-    value = as_expr(with_place(getattr(component, name), origin))
+    here = method_origin(component, name)
+    value = with_place(getattr(component, name), here)
+    if not isinstance(value, Expr | int | float | np.number) or isinstance(value, bool) or as_expr(value).shape:
+        raise DeclarationError(f"{here}: {_no_power(name, value)}")
+    value = as_expr(value)
+    if value.sx.is_constant() and not value.sx.is_regular():
+        raise DeclarationError(f"{here}: {name}() is {value.sx}; it must be finite.")
     declared = Expr(value.sx, ENERGIES[name], f"{name}()")
-    code = getattr(getattr(type(component), name), "__code__", None)
-    where = f"{code.co_filename}:{code.co_firstlineno}" if code else component._origin
-    here = Origin(origin.path, origin.kind, where)
     if value.unit != ENERGIES[name] / MASS:  # that of a unit mass
         with_place(lambda: unit_rules.common(declared, value, "its value"), here)
-    PENDING.get().place(origin)
+    PENDING.get().place(here)
     return Expr(value.sx)
+
+
+def _no_power(name: str, value: Any) -> str:
+    """Return the message for what a method of an energy or a power returns instead of a scalar."""
+    unit = f"one scalar in {'J' if name == 'stored_energy' else 'W'}"
+    if value is None:
+        return f"{name}() returns nothing; write `return` before {unit}."
+    if isinstance(value, Iterator):
+        return f"{name}() must return {unit}; write `return`, not `yield`."
+    if isinstance(value, Expr | np.ndarray | list | tuple):
+        return f"{name}() must return {unit}, not {len(value)} values; a sum over entries is dot(a, b) or sum(...)."
+    what = f"a method; call it, self.{value.__name__}()" if callable(value) else shown(value)
+    return f"{name}() must return {unit}, not {'an equation' if isinstance(value, Equation) else what}."
 
 
 def _look_at_observed(components: list[Component]) -> None:

@@ -7,12 +7,14 @@ from copy import copy
 from types import FunctionType, GeneratorType
 from typing import Any
 
-from acausal.errors import DeclarationError
+from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language import fields as f
-from acausal.language.refusals import refuse_slips, shown
-from acausal.language.slips import SETTABLE
+from acausal.language.checks import check_field
+from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
+from acausal.language.refusals import refuse_slips
+from acausal.language.slips import SETTABLE, body_line
 from acausal.language.types import shape_of_annotation
-from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class
+from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
 
 _ABSENT: Any = object()
 
@@ -38,18 +40,27 @@ def read_body(cls: Any) -> None:
             plain.update(vars(base))
     # The values of a base that is not a component count as if they were declared here.
     said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
+    refuse_names(cls, vars(cls))
     own: dict[str, f.Field] = {}
     new: dict[str, Any] = {}
     cls._own_fields, cls._own_values, cls.fields = own, new, fields
     for name, value in said.items():
         if not name.startswith("__"):
-            _read(cls, name, value, fields.get(name), own, new)
+            try:
+                _read(cls, name, value, fields.get(name), own, new)
+            except AcausalError as error:
+                error.line = body_line(cls, name)
+                raise
     refuse_slips(cls, {**plain, **vars(cls), **own}, fields)
+    for name in said.keys() & inspect.get_annotations(cls).keys() - fields.keys():
+        refuse_plain(cls, name, said[name])
     for name, field in own.items():
         if field.shape is None and not isinstance(field, f.Part | f.Outer):
             field.shape = shape_of_annotation(cls, name)
+        check_field(cls, name, field)
     cls.fields = {**fields, **own}
     cls._class_values = {**{n: v for n, v in settings.items() if n not in own}, **new}
+    cls._line = user_line()
     cls._as_read = {name: value for name, value in vars(cls).items() if not name.startswith("_")}
 
 
@@ -65,6 +76,7 @@ def refuse_late_fields(cls: Any) -> None:
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
                 )
         refuse_slips(base, late, base.fields)
+    refuse_annotations(cls)
 
 
 def _read(

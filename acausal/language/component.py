@@ -5,17 +5,18 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any, ClassVar, dataclass_transform
+from typing import Any, ClassVar, Self, dataclass_transform
 
-from acausal.errors import DeclarationError
+from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
+from acausal.language.arguments import refused, told
 from acausal.language.body import read_body
 from acausal.language.docstring import with_parameters
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.slips import SETTINGS
-from acausal.language.values import check_value
+from acausal.language.values import check_value, refuse_decorator, unnamed_text
 
 
 @dataclass_transform(
@@ -44,6 +45,7 @@ class Component(f.Template):
     _own_values: ClassVar[dict[str, Any]] = {}
     _class_values: ClassVar[dict[str, Any]] = {}
     _as_read: ClassVar[dict[str, Any]]
+    _line: ClassVar[str]
     _settings: ClassVar[tuple[str, ...]] = ()
     _values: Mapping[str, Any] = MappingProxyType({})
     _origin = ""
@@ -53,18 +55,27 @@ class Component(f.Template):
     _is_bound = False
     _in_loop = False
 
+    @told
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         read_body(cls)
         cls.__doc__ = with_parameters(cls)
 
-    def __init__(self, **values: Any) -> None:
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """Refuse classes whose constructor a decorator has written: it would not know the fields."""
+        refuse_decorator(cls)
+        return super().__new__(cls)
+
+    @told
+    def __init__(self, *unnamed: Any, **values: Any) -> None:
+        if unnamed:
+            raise DeclarationError(unnamed_text(type(self), unnamed, values))
         self._origin = _constructed_at(self)
         self._values = {name: check_value(type(self), name, value) for name, value in values.items()}
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self.fields:
-            raise DeclarationError(refuse_value(self, name, value))
+            raise refused(refuse_value(self, name, value))
         if name[0] != "_":
             refuse_attribute(self, name, value)
         object.__setattr__(self, name, value)
@@ -82,7 +93,9 @@ class Component(f.Template):
         if self._demand is not None and isinstance(member, f.Structural | f.Parameter):
             return self._demand(name)
         when = "equations() only" if isinstance(member, f.Variable) else "connections() and equations()"
-        raise AttributeError(f"{self!r} does not have its `{name}` yet: it exists in {when}")
+        raise AttributeError(
+            f"{self!r} does not have its `{name}` yet: it exists in {when}. What contains it belongs there."
+        )
 
     def __repr__(self) -> str:
         return f"{self._path or 'model'} ({type(self).__name__})" if self._is_bound else f"{type(self).__name__}()"
@@ -125,8 +138,11 @@ class Component(f.Template):
 
 def _constructed_at(component: Component) -> str:
     """Return file and line of the call of a constructor, also from a constructor of the user's own."""
-    frame: Any = sys._getframe(2)
-    while frame.f_code.co_name == "__init__" and any(v is component for v in frame.f_locals.values()):
+    frame: Any = sys._getframe(1)
+    while frame.f_back is not None and (
+        frame.f_code.co_filename.startswith(PACKAGE)
+        or (frame.f_code.co_name == "__init__" and any(v is component for v in frame.f_locals.values()))
+    ):
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 

@@ -37,8 +37,22 @@ class Condition:
     def __and__(self, other: Any) -> Condition:
         return Joined(self, other, every=True)
 
+    __rand__ = __and__
+
+    def _no_number(self, *_: Any) -> Any:
+        raise DeclarationError(
+            "an inequality is no number to calculate with: choose a value by it, piecewise((value, a < b), otherwise), where "
+            "1 or 0 is meant piecewise((1, a < b), 0)."
+        )
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _no_number
+    __neg__ = __float__ = __int__ = __lt__ = __le__ = __gt__ = __ge__ = __xor__ = __rxor__ = _no_number
+    __array_ufunc__ = None
+
     def __or__(self, other: Any) -> Condition:
         return Joined(self, other, every=False)
+
+    __ror__ = __or__
 
     def __invert__(self) -> Condition:
         return Condition(-self.excess, "<" if self.kind == "<=" else "<=")
@@ -65,7 +79,10 @@ class Joined(Condition):
 
     def __init__(self, a: Condition, b: Any, every: bool) -> None:
         if not isinstance(b, Condition):
-            raise DeclarationError(f"& and | join two conditions such as (x > 0) & (v < 0), not one and {b!r}")
+            raise DeclarationError(
+                f"& and | join two conditions, each in brackets, such as (x > 0) & (v < 0), not one and {b!r}. What is known "
+                "when the model is built is decided by Python's `if`."
+            )
         self.a, self.b, self.every = a, b, every
 
     @property
@@ -96,3 +113,43 @@ class Joined(Condition):
 
     def __invert__(self) -> Condition:
         return Joined(~self.a, ~self.b, not self.every)
+
+
+def refuse_cases(cases: tuple[Any, ...]) -> None:
+    """Raise DeclarationError for what is no piecewise: pairs (value, condition), and at last the value otherwise."""
+    form = "piecewise((value, condition), ..., otherwise)"
+    if not cases:
+        raise DeclarationError(f"piecewise() is empty: write {form}.")
+    if len(cases) == 1 and isinstance(cases[0], list):
+        raise DeclarationError(f"the cases of piecewise are given one by one, not as a list: {form}.")
+    for case in cases[:-1]:
+        if not isinstance(case, tuple | list) or len(case) != 2:
+            raise DeclarationError(f"a case of piecewise is a pair in brackets, {form}, and {_shown(case)} is none.")
+        value, condition = case
+        if isinstance(value, Condition):
+            raise DeclarationError(f"a case of piecewise is (value, condition), in this order: {form}.")
+        if isinstance(condition, bool):
+            raise DeclarationError(
+                f"a condition of piecewise is {condition}: it is decided when the model is built, without a variable. Write "
+                "Python's `a if condition else b`, or compare variables: time < 1."
+            )
+        if not isinstance(condition, Condition):
+            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "no condition"
+            raise DeclarationError(
+                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, such as "
+                "time < 1."
+            )
+        if getattr(condition.excess, "shape", ()) and not getattr(condition.excess, "is_deferred", False):
+            raise DeclarationError("a condition of piecewise compares two scalars; an entry of a vector is v[0].")
+    last = cases[-1]
+    if isinstance(last, Condition) or (isinstance(last, tuple | list) and any(isinstance(c, Condition) for c in last)):
+        raise DeclarationError(
+            f"piecewise lacks the value that it has where no condition holds, its last argument: {form}."
+        )
+
+
+def _shown(value: Any) -> str:
+    if type(value).__name__ == "Equation":
+        return f"`{value.lhs} == {value.rhs}`"
+    text = repr(value)
+    return text if len(text) <= 60 and " object at " not in text else f"this {type(value).__name__}"

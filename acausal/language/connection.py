@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 from acausal.errors import ConnectError
+from acausal.language.arguments import told
 from acausal.language.component import Component, Connector
 from acausal.language.fields import Field
+from acausal.language.functions import PENDING
 from acausal.language.path import Path
 
 
@@ -37,6 +38,7 @@ class Root:
     priority: int | None = None
 
 
+@told
 def connect(a: Any, b: Any) -> Connect:
     """Join two ports: potentials become equal, flows sum to zero.
 
@@ -56,7 +58,8 @@ def connect(a: Any, b: Any) -> Connect:
     return Connect(a, b)
 
 
-def chain(*items: Any) -> Iterator[Connect]:
+@told
+def chain(*items: Any) -> list[Connect]:
     """Join each part's second end to the next one's first end.
 
     Parameters
@@ -68,30 +71,34 @@ def chain(*items: Any) -> Iterator[Connect]:
         raise ConnectError("chain() joins at least two parts.")
     for place, item in enumerate(items, 1):
         _refuse_no_link(item, place)
-    # Eagerly, not when the iterator is consumed: an error then names the line of the call.
-    return iter([connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)])
+    return [connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)]
 
 
+@told
 def branch(a: Any, b: Any) -> Branch:
     """State that the component relates the over-determined records of two of its connectors."""
     return Branch(_port(a, "branch"), _port(b, "branch"))
 
 
+@told
 def root(connector: Any) -> Root:
     """State that the component defines the over-determined record of this connector."""
     return Root(_port(connector, "root"))
 
 
+@told
 def potential_root(connector: Any, priority: int = 0) -> Root:
     """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
     return Root(_port(connector, "potential_root"), priority)
 
 
+@told
 def is_root(connector: Any) -> bool:
     """Return, in equations(), whether the connector was chosen as a root."""
     return connector._is_root
 
 
+@told
 def rooted(a: Any, b: Any | None = None) -> bool:
     """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
     if b is not None:
@@ -99,6 +106,7 @@ def rooted(a: Any, b: Any | None = None) -> bool:
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
+@told
 def in_loop(component: Any) -> bool:
     """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop
@@ -115,6 +123,12 @@ def _port(item: Any, word: str) -> Connector:
 
 def _refuse_outsider(item: Any) -> None:
     """Raise ConnectError for a part, or a port of one, that belongs to no built model."""
+    loose = isinstance(item, Path | Field) or (isinstance(item, Component) and not item._is_bound)
+    if loose and PENDING.get(None) is None:
+        raise ConnectError(
+            "ports are joined in connections(), not in the class body: "
+            "`def connections(self): yield connect(self.a.frame_b, self.b.frame_a)`."
+        )
     if isinstance(item, Component) and not item._is_bound:
         name, kind = type(item).__name__.lower(), type(item).__name__
         raise ConnectError(

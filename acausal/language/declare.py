@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from acausal.errors import DeclarationError
+from acausal.language.arguments import told
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
@@ -19,6 +21,7 @@ from acausal.language.fields import (
 )
 
 
+@told
 def fixed(value: Any, *, nominal: Any = None) -> Any:
     """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
 
@@ -32,6 +35,7 @@ def fixed(value: Any, *, nominal: Any = None) -> Any:
     return InitialValue(value, True, nominal)
 
 
+@told
 def guess(value: Any, *, nominal: Any = None) -> Any:
     """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
 
@@ -45,6 +49,7 @@ def guess(value: Any, *, nominal: Any = None) -> Any:
     return InitialValue(value, False, nominal)
 
 
+@told
 def structural(
     description: str,
     *,
@@ -75,10 +80,11 @@ def structural(
     doc : str, optional
         More about it, for the docstring of the class alone.
     """
-    allowed = tuple(choices) if choices else None
+    allowed = _allowed(choices) if choices else None
     return Structural(description, None, shape, default, choices=allowed, minimum=minimum, refine=refine, doc=doc)
 
 
+@told
 def effect(
     description: str,
     *,
@@ -102,10 +108,11 @@ def effect(
     doc : str, optional
         More about it, for the docstring of the class alone.
     """
-    allowed, tried = tuple(choices), None if tries is None else tuple(tries)
+    allowed, tried = _allowed(choices), None if tries is None else _allowed(tries)
     return Structural(description, None, None, default, choices=allowed, effect=True, tries=tried, doc=doc)
 
 
+@told
 def parameter(
     description: str,
     *,
@@ -138,6 +145,7 @@ def parameter(
     return Parameter(description, unit, shape, default, minimum=minimum, positive=positive, doc=doc)
 
 
+@told
 def variable(
     description: str,
     *,
@@ -174,6 +182,7 @@ def variable(
     return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
 
 
+@told
 def discrete(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
     """Declare a discrete variable: constant except where `when` lets it jump by reinit(...).
 
@@ -191,21 +200,25 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
     return Variable(description, unit, shape, start=start, causality="discrete")
 
 
+@told
 def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0, doc: str = "") -> Any:
     """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
     return Variable(description, unit, shape, start=start, causality="input", doc=doc)
 
 
+@told
 def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = None) -> Any:
     """Declare an output; those of the model are the columns of its table of results."""
     return Variable(description, unit, shape, nominal=nominal, causality="output")
 
 
+@told
 def flow(description: str, *, unit: str | None = None, shape: Shape = None) -> Any:
     """Declare a flow variable of a connector: the flows into the components of a connection set sum to zero."""
     return Variable(description, unit, shape, flow=True)
 
 
+@told
 def port(connector: Any, description: str = "") -> Any:
     """Declare a port: `port(Frame)`, or as decorator of a method that returns a connector or None.
 
@@ -219,21 +232,33 @@ def port(connector: Any, description: str = "") -> Any:
     return Part(description or getattr(connector, "__doc__", None) or "", make=connector, is_port=True)
 
 
+@told
 def part(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a part from structural values; None leaves the part out."""
     return Part(make.__doc__ or "", make=make)
 
 
+@told
 def parts(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a list of parts from structural values."""
     return Part(make.__doc__ or "", make=make, many=True)
 
 
+@told
 def observed(compute: Callable[[Any], Any]) -> Any:
     """Decorate a method that returns an expression: readable in results like a variable, at no cost during the run."""
     return Observed(compute.__doc__ or "", compute=compute)
 
 
+@told
 def outer(cls: type) -> Any:
     """Declare a reference to the one component of class `cls` in the model, such as the World."""
+    if not isinstance(cls, type):
+        raise DeclarationError(f"outer() takes the class of the component, such as outer(World), not {cls!r}.")
     return Outer(f"the {cls.__name__} of the model", cls=cls)
+
+
+def _allowed(choices: Sequence[Any]) -> tuple[Any, ...]:
+    if isinstance(choices, str) or not isinstance(choices, Sequence):
+        raise DeclarationError(f'choices stand in brackets: choices=("dynamic", "none"), not choices={choices!r}.')
+    return tuple(choices)

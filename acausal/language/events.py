@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
+from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Equation, Expr, equation
 
@@ -27,6 +28,7 @@ class When:
     at_start: bool
 
 
+@told
 def reinit(variable: Any, value: Any) -> Reinit:
     """Let a variable jump, inside when().
 
@@ -37,10 +39,15 @@ def reinit(variable: Any, value: Any) -> Reinit:
     value : float or Expr
         What it becomes, computed from the values just before the instant.
     """
+    if not isinstance(variable, Expr) or not variable.name:
+        raise DeclarationError(
+            f"reinit needs a variable before its value, such as reinit(self.v, 0), not {variable!r}."
+        )
     same: Equation = equation(variable, value)
     return Reinit(same.lhs, same.rhs)
 
 
+@told
 def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
     """State what happens at each instant at which a condition becomes true; yield it in equations().
 
@@ -57,8 +64,16 @@ def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
     --------
     >>> yield when(self.h < 0, reinit(self.v, -self.e * self.v))  # doctest: +SKIP
     """
+    form = "when(self.h < 0, reinit(self.v, 0))"
     if not isinstance(condition, Condition) or condition.excess.shape:
-        raise DeclarationError("when needs a condition that compares two scalars, such as when(self.h < 0, ...)")
+        late = " At a fixed time it is time >= 2." if isinstance(condition, int | float | bool) else ""
+        order = " The condition comes first." if isinstance(condition, Reinit) else ""
+        raise DeclarationError(
+            f"when needs a condition that compares two scalars by <, <=, > or >=, such as {form}.{late}{order}"
+        )
     if not jumps or not all(isinstance(jump, Reinit) for jump in jumps):
-        raise DeclarationError("when(condition, ...) needs one or more reinit(variable, value) after the condition")
+        listed = " They stand without a list." if any(isinstance(jump, list | tuple) for jump in jumps) else ""
+        raise DeclarationError(
+            f"after its condition, when needs what happens, one or more reinit(variable, value), such as {form}.{listed}"
+        )
     return When(condition, jumps, at_start)

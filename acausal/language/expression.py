@@ -11,8 +11,10 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
+from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.entries import chosen
+from acausal.language.no_expression import no_expression, ragged
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.symbols import combined
@@ -60,7 +62,7 @@ class Expr(Symbolic):
         return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None)
 
     def __repr__(self) -> str:
-        return self.name or str(self.sx)
+        return self.name or str(ca.densify(self.sx))
 
     def _shown(self) -> str:
         return _short(self)
@@ -186,13 +188,15 @@ def as_expr(value: Any) -> Expr:
         return Expr(ca.SX(value))
     if isinstance(value, Sequence) and not isinstance(value, str):
         rows = [as_expr(item) for item in value]
+        if any(row.shape != rows[0].shape or len(row.shape) > 1 for row in rows):
+            raise DeclarationError(f"{ragged([row.shape for row in rows])}: {value!r}")
         matrix = any(len(row.shape) == 1 for row in rows)
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
         return Expr(sx, unit_rules.of_array(rows))
-    shown = getattr(value, "__name__", None) or repr(value)
-    raise DeclarationError(f"cannot use a {type(value).__name__} ({shown}) in an expression; give a number or a symbol")
+    raise DeclarationError(no_expression(value))
 
 
+@told
 def quantity(value: Any, unit: str) -> Expr:
     """Return a constant with a unit, where a number alone would be a pure number.
 
@@ -207,6 +211,10 @@ def quantity(value: Any, unit: str) -> Expr:
     --------
     >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
     """
+    if isinstance(value, str) or not isinstance(unit, str):
+        raise DeclarationError(
+            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
+        )
     return Expr(as_expr(value).sx, parse(unit))
 
 
@@ -228,6 +236,9 @@ def equation(lhs: Any, rhs: Any) -> Any:
             f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
             "Both need the same shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
+    for side in (a, b):
+        if side.sx.is_constant() and not side.sx.is_regular():
+            raise DeclarationError(f"a side of an equation is {_short(side)}; it must be finite")
     unit_rules.common(a, b, "joined by `==`")
     return Equation(a, b)
 

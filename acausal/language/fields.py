@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, user_line
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.symbolic import Symbolic
@@ -131,6 +131,10 @@ class Field(Deferrable):
     default: Any = MISSING
     name: str = ""
     doc: str = ""  # added to the description in the docstring of the class only
+    where: str = ""  # file and line
+
+    def __post_init__(self) -> None:
+        self.where = user_line()
 
     def __set_name__(self, owner: type, name: str) -> None:
         # Under a second name it is a reference to the first: `load = R.spare`.

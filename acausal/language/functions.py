@@ -12,7 +12,8 @@ import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
-from acausal.language.condition import Condition
+from acausal.language.arguments import told
+from acausal.language.condition import Condition, refuse_cases
 from acausal.language.events import When
 from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
@@ -107,7 +108,7 @@ def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
             return Deferred(call, arguments)
         return function(*arguments)
 
-    return call
+    return told(call)
 
 
 def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any], Any]:
@@ -195,6 +196,7 @@ def cross(a: Any, b: Any) -> Any:
     return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
 
+@told
 def der(x: Any) -> Any:
     """Time derivative of an expression.
 
@@ -218,6 +220,7 @@ def der(x: Any) -> Any:
     return Expr(placeholder, unit, f"der({x.name})" if x.name else "")
 
 
+@told
 def piecewise(*cases: Any, smooth: bool = False) -> Any:
     """Value of the first case whose condition holds.
 
@@ -240,20 +243,13 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     --------
     >>> torque = piecewise((0.01 * (1 - exp(-time / 0.167)), time <= 0.7), 0)  # doctest: +SKIP
     """
-    for case in cases[:-1]:
-        if not isinstance(case, tuple | list) or len(case) != 2 or not isinstance(case[1], Condition):
-            raise DeclarationError(
-                "a case of piecewise is a pair (value, condition), with a condition such as time < 1; the last argument is "
-                "the value otherwise. `a == b` with symbols is an equation, not a condition."
-            )
+    refuse_cases(cases)
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(partial(piecewise, smooth=smooth), cases)
     value = otherwise = as_expr(cases[-1])
     steps: list[tuple[Condition, ca.SX]] = []
     for choice, condition in reversed(cases[:-1]):
-        if condition.excess.shape:
-            raise DeclarationError("a condition of piecewise compares two scalars")
         choice = as_expr(choice)
         if choice.shape != value.shape:
             raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")

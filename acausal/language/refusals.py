@@ -9,10 +9,11 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
+from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.slips import at_home, slip_of
-from acausal.language.values import holds_parts, nearest_field
+from acausal.language.values import holds_parts, nearest_field, shown
 
 
 def refuse_value(component: Any, name: str, value: Any) -> str:
@@ -63,6 +64,7 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
     return f"`{path}` cannot be set on a model. {' '.join(ways)}"
 
 
+@told
 def refuse_attribute(component: Any, name: str, value: Any) -> None:
     """Raise DeclarationError for an attribute that is intended as a part or a field, or that nothing would read.
 
@@ -148,15 +150,3 @@ def _by_path(path: str, field: f.Field | None, value: Any, compiled: bool = Fals
 def _start(field: f.Field, value: Any) -> str:
     needs = isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue)
     return f"fixed({shown(value)})" if needs else shown(value)
-
-
-def shown(value: Any) -> str:
-    """Return a value as it is written in code, `...` where that is long."""
-    if isinstance(value, f.InitialValue):
-        return f"{'fixed' if value.fixed else 'guess'}({shown(value.value)})"
-    if isinstance(value, f.Template):
-        given = vars(value).get("_values", {}).items()
-        text = f"{type(value).__name__}({', '.join(f'{name}={shown(v)}' for name, v in given)})"
-    else:
-        text = repr(value)
-    return text if len(text) <= 60 and "<" not in text else "..."

@@ -70,7 +70,7 @@ def _reads(cls: Any, name: str) -> bool:
     """Whether the body of a class, or a function in it, reads a name."""
     inside = ("LOAD_ATTR", "LOAD_METHOD", "LOAD_SUPER_ATTR", "LOAD_CONST")  # a constant: getattr(self, "name")
     return any(_loads(code, name, inside) for code in _codes(cls)) or any(
-        _loads(code, name, ("LOAD_NAME",)) for code in _body(cls)
+        _loads(code, name, ("LOAD_NAME",)) for code in codes_of_body(cls)
     )
 
 
@@ -78,14 +78,30 @@ def _loads(code: CodeType, name: str, operations: tuple[str, ...]) -> bool:
     return any(i.argval == name and i.opname in operations for i in dis.get_instructions(code))
 
 
-def _body(cls: Any) -> Iterator[CodeType]:
-    """Code of the class body that was just executed, if this is a class statement."""
+def codes_of_body(cls: Any) -> list[CodeType]:
+    """Code of the class body that was just executed, none if this is no class statement."""
     frame: Any = sys._getframe(1)
     while frame is not None and (frame.f_code.co_filename.startswith(PACKAGE) or frame.f_code.co_name == "<genexpr>"):
         frame = frame.f_back
-    for const in frame.f_code.co_consts if frame is not None else ():
-        if isinstance(const, CodeType) and const.co_name == cls.__name__:
-            yield const
+    if frame is None:
+        return []
+    found = [c for c in frame.f_code.co_consts if _is_body(c, cls)]
+    # Of several classes with one name, the last that begins before the statement that is being executed.
+    begun = [code for code in found if code.co_firstlineno <= frame.f_lineno]
+    return begun[-1:] or found[:1]
+
+
+def _is_body(const: Any, cls: Any) -> bool:
+    return isinstance(const, CodeType) and const.co_name == cls.__name__ and const.co_qualname == cls.__qualname__
+
+
+def body_line(cls: Any, name: str) -> str:
+    """File and line where a name is written in the class body that was just executed, "" if there is none."""
+    for code in codes_of_body(cls):
+        for step in dis.get_instructions(code):
+            if step.opname == "STORE_NAME" and step.argval == name and step.positions:
+                return f"{code.co_filename}:{step.positions.lineno}"
+    return ""
 
 
 def _codes(cls: Any) -> Iterator[CodeType]:

@@ -11,6 +11,47 @@ from acausal.errors import DeclarationError
 TWINS: dict[str, Callable[..., Any]] = {}
 
 
+FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan2", "exp", "log", "tanh", "sqrt", "sign", "dot", "cross")
+_TABLE = "a table as piecewise((y0 + (x - x0) * slope, x < x1), ..., otherwise), or as a polynomial"
+_STEPS = (
+    "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
+)
+_TUPLE = "a vector as a tuple of its entries, (a, b, c)"
+# What stands in place of numpy's functions that have no counterpart.
+INSTEAD = {
+    "norm": "sqrt(dot(v, v)) for the length of v",
+    "hypot": "sqrt(a**2 + b**2)",
+    "where": "piecewise((a, condition), b)",
+    "select": "piecewise((a, condition), (b, other), otherwise)",
+    "clip": "piecewise((low, x < low), (high, x > high), x)",
+    "maximum": "piecewise((a, a > b), b) for the greater of two",
+    "minimum": "piecewise((a, a < b), b) for the lesser of two",
+    "heaviside": "piecewise((1, x > 0), 0)",
+    "interp": _TABLE,
+    "sum": "sum(v)",
+    "mean": "sum(v) / 3, with the number of entries",
+    "arctan": "atan2(x, 1)",
+    "sinh": "(exp(x) - exp(-x)) / 2",
+    "cosh": "(exp(x) + exp(-x)) / 2",
+    "log10": "log(x) / log(10)",
+    "log2": "log(x) / log(2)",
+    "deg2rad": "x * (pi / 180)",
+    "radians": "x * (pi / 180)",
+    "rad2deg": "x * (180 / pi)",
+    "degrees": "x * (180 / pi)",
+    "inv": "the unknowns as variables, and their equation: A @ x == b",
+    "solve": "the unknowns as variables, and their equation: A @ x == b",
+    "transpose": "A.T",
+    "inner": "dot(a, b)",
+    "vdot": "dot(a, b)",
+    "not_equal": "piecewise((a, x < y), (b, x > y), otherwise)",
+    "gradient": "der(x) for the derivative with respect to time",
+    "diff": "der(x) for the derivative with respect to time",
+    "trapz": "the integral as a state, der(s) == x",
+} | dict.fromkeys(("floor", "ceil", "rint", "trunc", "round", "around", "remainder", "fmod", "floor_divide"), _STEPS)
+INSTEAD |= dict.fromkeys(("hstack", "vstack", "stack", "concatenate", "append", "array"), _TUPLE)
+
+
 class Symbolic:
     """Base of expressions, and of fields in a class body."""
 
@@ -20,8 +61,8 @@ class Symbolic:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Use sin, sqrt, ... of acausal on it, or "
-            f"{self._instead}."
+            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Instead of math's functions use those of acausal: "
+            f"sin, sqrt, atan2, ...; or {self._instead}."
         )
 
     __float__ = __int__ = __index__ = __complex__ = _no_number
@@ -32,13 +73,23 @@ class Symbolic:
             "when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
         )
 
+    def _join(self, *_: Any) -> Any:
+        raise DeclarationError(
+            f"`&`, `|` and `^` with {self._shown()}: conditions are joined in brackets, (x > 0) & (x < 1), and a power is x**2."
+        )
+
+    __and__ = __rand__ = __or__ = __ror__ = __xor__ = __rxor__ = __invert__ = _join
+
+    def __format__(self, spec: str) -> str:
+        return repr(self) if not spec else self._no_number()
+
     __floordiv__ = __rfloordiv__ = _steps
     __mod__ = __rmod__ = __divmod__ = __rdivmod__ = __round__ = __floor__ = __ceil__ = __trunc__ = _steps
 
     def __array__(self, *_: Any, **__: Any) -> Any:
         raise DeclarationError(
             f"{self._shown()} {self._lacks}: numpy cannot make an array of it. A tuple or a list is a vector, "
-            "(self.x, 0, 0), and one of lists is a matrix."
+            "(self.x, 0, 0), one of lists is a matrix; dot, cross and @ take them."
         )
 
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **options: Any) -> Any:
@@ -54,11 +105,8 @@ class Symbolic:
         return twin(*arguments)  # type: ignore[misc]
 
     def _refuse_numpy(self, name: str) -> Any:
-        raise DeclarationError(
-            f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Use the functions of acausal: sin, sqrt, "
-            "dot, cross, ...; abs(x); sqrt(dot(v, v)) for a length, sum(v) for a sum, "
-            "piecewise((a, a > b), b) for the greater of two."
-        )
+        mend = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"
+        raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {mend}.")
 
     def _shown(self) -> str:
         return repr(self)

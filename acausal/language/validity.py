@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
+from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.symbols import vec
@@ -58,6 +59,7 @@ class Separation:
     text: str
 
 
+@told
 def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Requirement:
     """State what must hold; yield it in requirements().
 
@@ -83,6 +85,7 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Require
     return Requirement(subject, problem)
 
 
+@told
 def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
     """State that something neglected should stay small in a run; yield it in validity().
 
@@ -105,6 +108,7 @@ def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
     return Expectation(part, whole, share, text)
 
 
+@told
 def apart(offset: Any, rate: Any, effect: Any, text: str) -> Separation:
     """State that two points must not meet in a run while something acts along their line; yield it in validity().
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import difflib
-import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from acausal.errors import PACKAGE, DeclarationError
+from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
+from acausal.language.arguments import refused
 
 
 def check_value(cls: Any, name: str, value: Any) -> Any:
@@ -47,6 +47,41 @@ def nearest_field(cls: Any, name: str) -> str:
     return f"did you mean `{near[0]}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
 
+def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
+    """Return the message for values that are given to a constructor without their names."""
+    if len(unnamed) == 1 and isinstance(unnamed[0], dict):
+        return f"{cls.__name__} takes its values by name; from a dict, they are given by two stars: {cls.__name__}(**values)."
+    kinds = (f.Part,) if any(isinstance(value, f.Template) for value in unnamed) else (f.Parameter, f.Structural)
+    if any(isinstance(value, f.InitialValue) for value in unnamed):
+        kinds = (f.Variable,)
+    names = [n for kind in kinds for n, field in cls.fields.items() if isinstance(field, kind) and n not in values]
+    if not names:
+        return f"{cls.__name__} takes its values by name, and has none of this kind; {nearest_field(cls, '')}"
+    written = ", ".join(f"{name}={shown(value)}" for name, value in zip(names, unnamed, strict=False))
+    return f"{cls.__name__} takes its values by name, for instance {cls.__name__}({written})."
+
+
+def refuse_decorator(cls: Any) -> None:
+    """Raise DeclarationError for a class whose constructor was written by @dataclass or the like."""
+    if hasattr(cls, "__dataclass_fields__") or hasattr(cls, "__attrs_attrs__"):
+        raise refused(
+            f"{cls.__name__} is marked @dataclass, which replaces the constructor that knows its fields. Leave the decorator "
+            'out: a component class takes its fields as they stand, `k: Scalar = parameter("...", default=1)`.'
+        )
+
+
+def refuse_constructor(cls: Any) -> None:
+    """Raise DeclarationError for a class whose own constructor does not hand on what it is given."""
+    own = next((vars(base)["__init__"] for base in cls.__mro__ if "__init__" in vars(base)), None)
+    code = getattr(own, "__code__", None)
+    line = f"{code.co_filename}:{code.co_firstlineno}" if code else ""
+    raise refused(
+        f"the constructor of {cls.__name__} does not call super().__init__(), so that values given to it would be lost. Write "
+        "`super().__init__(**values)` in it, or leave it out: fields need no constructor.",
+        line,
+    )
+
+
 def is_part_class(value: Any) -> bool:
     """Whether a value is a component class, which stands for an instance made with no arguments."""
     return isinstance(value, type) and issubclass(value, f.Template)
@@ -82,14 +117,6 @@ def holds_parts(value: Any) -> bool:
     return isinstance(value, list | tuple | set | frozenset) and any(is_part_class(v) or holds_parts(v) for v in value)
 
 
-def user_line() -> str:
-    """Return file and line of the innermost frame outside this package."""
-    frame: Any = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
-        frame = frame.f_back
-    return f"{frame.f_code.co_filename}:{frame.f_lineno}"
-
-
 def _check_part(where: str, value: Any, field: f.Part) -> Any:
     if isinstance(value, list | tuple):
         return instances(value, where)
@@ -106,3 +133,15 @@ def _described(cls: Any, word: str) -> list[str]:
     """Fields whose description contains the word: `mass` for `m`."""
     values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
     return [name for name, field in values.items() if word in field.description.lower().split()]
+
+
+def shown(value: Any) -> str:
+    """Return a value as it is written in code, `...` where that is long."""
+    if isinstance(value, f.InitialValue):
+        return f"{'fixed' if value.fixed else 'guess'}({shown(value.value)})"
+    if isinstance(value, f.Template):
+        given = vars(value).get("_values", {}).items()
+        text = f"{type(value).__name__}({', '.join(f'{name}={shown(v)}' for name, v in given)})"
+    else:
+        text = repr(value)
+    return text if len(text) <= 60 and "<" not in text else "..."

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.flatten.tree import walk
 from acausal.language.component import Component, Connector
+from acausal.language.fields import InitialValue
 
 
 def missing_text(compiled: CompiledModel, free: list[int]) -> str:
@@ -39,7 +40,18 @@ def _line(compiled: CompiledModel, name: str) -> str:
         where = f"{type(compiled.tree).__name__}.initial_equations()"
         shape = getattr(_value(owner, variable), "shape", ())
         return f"{where}: yield self.{path} == {'(...)' if shape else '...'}"
+    if _holds(part, words):  # it is given: what it is measured in is open
+        others = [
+            w for w in type(owner).start_words.values() if w.partition("=")[0] in part.fields and not _holds(part, w)
+        ]
+        words = others[0] if others else words
     return f"{part._path or 'the model'}: {type(part).__name__}({words})"
+
+
+def _holds(part: Component, words: str) -> bool:
+    """Whether a part is given a value at the start already."""
+    given = part._values.get(words.partition("=")[0])
+    return given is True or (isinstance(given, InitialValue) and given.fixed)
 
 
 def _taker(compiled: CompiledModel, port: Connector, variable: str, field: str) -> Component | None:

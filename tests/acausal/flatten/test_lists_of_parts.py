@@ -247,5 +247,5 @@ class Shared(Model):
 
 
 def test_a_part_of_a_built_model_is_no_template():
-    with pytest.raises(DeclarationError, match=r"bodies\[0\] must be a component that is made for it"):
+    with pytest.raises(DeclarationError, match=r"bodies\[0\]` must be a part, .*a part of another model"):
         ac.compile(Shared())

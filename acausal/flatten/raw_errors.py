@@ -1,0 +1,95 @@
+"""Errors of Python, numpy and CasADi in the methods of a component, in the user's words."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import traceback
+from types import FunctionType, MethodType, NoneType
+
+from acausal.language.component import Component
+from acausal.language.expression import Expr
+
+PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
+MENDS = {
+    NoneType: "It is a part or port that does not exist here, or the value of a method without `return`: use it only where it "
+    "is not None.",
+    list: "One of its entries is named by its number: self.links[0], or all of them by a loop.",
+    FunctionType: "Call it, self.law(), or mark it @part if it makes a part.",
+    MethodType: "Call it, self.law(), or mark it @part if it makes a part.",
+}
+RAW = (
+    (
+        r"setting an array element with a sequence",
+        "an array of numpy holds numbers only. A vector with variables is a tuple, (self.x, 0, 0).",
+    ),
+    (
+        r"'Expr' object is not callable",
+        "a variable or `time` is followed by brackets as if it were a function: write x, not x(t).",
+    ),
+    (
+        r"does not support the context manager protocol",
+        "a statement such as when(...) is yielded, `yield when(condition, reinit(...))`, and not used by `with`.",
+    ),
+    (
+        r"list index out of range",
+        "a list of parts or values has no entry of this number; the first is [0], the last is [-1].",
+    ),
+)
+
+
+def in_words(error: Exception) -> str:
+    """Return what is wrong, and where it can be said, the remedy.
+
+    Parameters
+    ----------
+    error : Exception
+        Raised by Python, numpy or CasADi in a method of the user's.
+    """
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
+        names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
+        near = difflib.get_close_matches(error.name or "", names, 1)
+        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
+    if isinstance(error, AttributeError) and isinstance(error.obj, Component):
+        return str(error)
+    if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
+        return (
+            f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
+        )
+    if isinstance(error, AttributeError) and type(error.obj) in PARTS:
+        return f"{PARTS[type(error.obj)]} has no `{error.name}`. {MENDS[type(error.obj)]}"
+    if isinstance(error, NotImplementedError) and not str(error):
+        return _not_implemented(error)
+    if isinstance(error, AssertionError):
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        return f"`{last.line}` does not hold{f': {error}' if str(error) else '.'}"
+    for pattern, mend in RAW:
+        if re.search(pattern, str(error)):
+            return mend
+    foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
+    if foreign:
+        return _of_casadi(foreign[1])
+    return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+
+
+def _of_casadi(name: str) -> str:
+    """Return the remedy for a function of CasADi that was called with expressions of this package."""
+    what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
+    return (
+        f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "
+        "as piecewise((value, condition), ..., otherwise) or as a polynomial; a function of elementary operations takes "
+        "symbols: Expr(function(self.x.sx)), with Expr from acausal."
+    )
+
+
+def _not_implemented(error: NotImplementedError) -> str:
+    """Name the method that a class leaves to those derived from it."""
+    frames = list(traceback.walk_tb(error.__traceback__))
+    frame = frames[-1][0]
+    owner = frame.f_locals.get("self")
+    name = frame.f_code.co_name
+    if not isinstance(owner, Component):
+        return f"`{name}` is not written yet."
+    what = " ".join((getattr(type(owner), name).__doc__ or "").split())
+    what = f" ({what.rstrip('.')})" if what else ""
+    return f"{type(owner).__name__} lacks the method `{name}`{what}: add `def {name}(self): ...`."

@@ -1,0 +1,76 @@
+"""Wrong arguments of the functions that a model is written with, in the user's words and with the line of the call."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from inspect import Parameter
+from typing import Any, TypeVar
+
+from acausal.errors import AcausalError, DeclarationError, user_line
+
+F = TypeVar("F", bound=Callable[..., Any])
+# What users of other tools call an argument.
+MEANT = {
+    "default": ("start", "value"),
+    "value": ("default", "start"),
+    "start": ("default", "value"),
+    "init": ("start", "default"),
+    "min": ("minimum",),
+    "size": ("shape",),
+    "max": (),
+    "maximum": (),
+}
+
+
+def refused(text: str, line: str = "") -> DeclarationError:
+    """Return an error with the line that it is about, that of the statement being executed if none is given."""
+    error = DeclarationError(text)
+    error.line = line or user_line()
+    return error
+
+
+def told(function: F) -> F:
+    """Decorate a public function: an error names the line of the call, and wrong arguments are an error of ours."""
+
+    @wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        try:
+            return function(*given, **named)
+        except AcausalError as error:
+            error.line = error.line or user_line()
+            raise
+        except TypeError:
+            wrong = _misfit(function, given, named)
+            if not wrong:
+                raise
+            raise refused(wrong) from None
+
+    return call  # type: ignore[return-value]
+
+
+def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> str:
+    """Say what is wrong with the arguments of a call, "" if nothing is."""
+    parameters = inspect.signature(function).parameters
+    name = function.__name__
+    kinds = [p.kind for p in parameters.values()]
+    places = [
+        n for n, p in parameters.items() if p.kind in (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
+    ]
+    needed = [n for n in places if parameters[n].default is Parameter.empty]
+    other = [n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY]
+    several = [f"*{n}" for n, p in parameters.items() if p.kind is Parameter.VAR_POSITIONAL]
+    form = f"`{name}({', '.join([*needed, *several])})`"
+    unknown = next((n for n in named if n not in parameters), None)
+    if unknown is not None and Parameter.VAR_KEYWORD not in kinds:
+        near = [n for n in MEANT.get(unknown, ()) if n in parameters]
+        near = near if unknown in MEANT else difflib.get_close_matches(unknown, [*places, *other], 1)
+        known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
+        return f"{name}() has no argument `{unknown}`; {f'did you mean `{near[0]}`?' if near else known}"
+    if len(given) > len(places) and Parameter.VAR_POSITIONAL not in kinds:
+        only = f"{name}() takes {len(places)} argument{'s' * (len(places) != 1)} without a name, not {len(given)}"
+        return f"{only}; write {form}." if not other else f"{only}; the others are given by name: {', '.join(other)}."
+    missing = [n for n in needed[len(given) :] if n not in named]
+    return f"{name}() lacks its argument `{missing[0]}`; write {form}." if missing else ""

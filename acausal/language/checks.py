@@ -1,0 +1,156 @@
+"""What a field is declared with, looked at when its class is made."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import AcausalError
+from acausal.language import fields as f
+from acausal.language.arguments import refused
+from acausal.language.types import shape_of_annotation
+from acausal.language.values import shown
+from acausal.units import parse
+
+NUMBERS = (int, float, np.number, np.ndarray)
+
+
+def check_field(cls: Any, name: str, field: f.Field) -> None:
+    """Raise DeclarationError, with the line of the field, for what cannot be meant by its arguments.
+
+    Parameters
+    ----------
+    cls : Component class
+        The class.
+    name : str
+        Name of the field.
+    field : Field
+        As it is declared.
+    """
+    try:
+        wrong = _wrong(cls, name, field)
+    except AcausalError as error:
+        wrong = str(error)
+    if wrong:
+        raise refused(f"{cls.__name__}.{name}: {wrong}", field.where)
+
+
+def _wrong(cls: Any, name: str, field: f.Field) -> str:
+    """Say what is wrong with a field, "" if nothing is."""
+    if not isinstance(field.description, str):
+        return f'the first argument describes the field in words, "...", and is {shown(field.description)}.'
+    if isinstance(field, f.Part):
+        return _wrong_part(field)
+    if isinstance(field, f.Observed):
+        takes = callable(field.compute) and _takes_self(field.compute)
+        return "" if takes else f"@observed marks a method, `def {name}(self): return ...`."
+    wrong = _wrong_shape(cls, name, field) or _wrong_unit(field)
+    if wrong or isinstance(field, f.Outer):
+        return wrong
+    if isinstance(field, f.Variable):
+        return _wrong_variable(cls, field)
+    return _wrong_value(field)
+
+
+def _wrong_unit(field: f.Field) -> str:
+    unit = field.unit
+    if unit is None or callable(unit):
+        return ""
+    if isinstance(unit, str):
+        parse(unit)
+        return ""
+    if not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
+        return f'unit={shown(unit)} is not a unit: write unit="m/s", one for each entry in brackets, unit=("m", "rad"), or none.'
+    for entry in unit:
+        parse(entry)
+    size = field.shape[0] if isinstance(field.shape, tuple) and field.shape else None
+    if isinstance(field.shape, tuple) and len(unit) != size:
+        what = f"{size} rows" if size else "one value"
+        return f"it has {len(unit)} units, and {what}: give one unit for all, or one for each row."
+    return ""
+
+
+def _wrong_shape(cls: Any, name: str, field: f.Field) -> str:
+    shape = field.shape
+    if shape is None or inspect.isfunction(shape):
+        return ""
+    if isinstance(shape, int):
+        return f"a shape stands in brackets: shape=({shape},)."
+    if isinstance(shape, tuple) and any(isinstance(n, f.Deferrable) for n in shape):
+        return "the shape depends on another field: write a function, shape=lambda s: (s.n,)."
+    whole = isinstance(shape, tuple) and all(isinstance(n, int) and not isinstance(n, bool) and n >= 0 for n in shape)
+    if not whole or not isinstance(shape, tuple) or len(shape) > 2:
+        return f"shape={shown(shape)} is no shape: a vector has shape=(3,), a matrix shape=(3, 3)."
+    said = shape_of_annotation(cls, name)
+    if said is not None and said != shape:
+        return f"its type says shape {said}, its argument shape={shape}: leave out one of the two, `{name} = ...`."
+    return ""
+
+
+def _wrong_variable(cls: Any, field: f.Variable) -> str:
+    if isinstance(field.start, f.InitialValue):
+        start = f"start={shown(field.start.value)}"
+        held = ", fixed=True" if field.start.fixed else ""
+        return f"write {start}{held}; fixed(...) and guess(...) are for a part: {cls.__name__}(...)."
+    if not isinstance(field.fixed, bool):
+        return f"fixed is True or False; the value is the start: start={shown(field.fixed)}, fixed=True."
+    if field.select not in (f.NEVER, f.AVOID, f.DEFAULT, f.PREFER, f.ALWAYS):
+        return f"select={shown(field.select)} is not one of NEVER, AVOID, DEFAULT, PREFER and ALWAYS of acausal."
+    for word, value in (("start", field.start), ("nominal", field.nominal)):
+        if isinstance(value, str | bool | dict | set | f.Template) or (value is None and word == "start"):
+            return f"{word}={shown(value)} must be a number, or an array of its shape."
+    if inspect.isfunction(field.start):
+        return "start is a value, or an expression of parameters of the class, such as start=2 * r; not a function."
+    if isinstance(field.nominal, NUMBERS) and not np.all(np.asarray(field.nominal) > 0):
+        return f"nominal={shown(field.nominal)} must be positive: it is the typical size."
+    if field.flow and not cls._is_port and not _is_record(cls):
+        return "a flow variable belongs to a connector, `class Plug(Connector)`; in a component it is a variable."
+    return ""
+
+
+def _is_record(cls: Any) -> bool:
+    return any(base.__name__ == "Record" for base in cls.__mro__)
+
+
+def _wrong_value(field: f.Field) -> str:
+    """What is wrong with the default and the bounds of a parameter."""
+    default, least = field.default, getattr(field, "minimum", None)
+    if isinstance(default, f.InitialValue):
+        return f"a parameter has no start: write default={shown(default.value)}."
+    if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
+        return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
+    if inspect.isfunction(default) and not _takes_self(default):
+        return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
+    if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
+        mend = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
+        return f"default={shown(default)} must be a number.{mend}"
+    choices = field.choices if isinstance(field, f.Structural) else None
+    plain = isinstance(default, str | bool | int | float | None)
+    if choices is not None and plain and default is not f.MISSING and default not in choices:
+        return f"default={shown(default)} is not one of its choices, {', '.join(map(repr, choices))}."
+    return ""
+
+
+def _wrong_part(field: f.Part) -> str:
+    make = field.make
+    if isinstance(make, type):
+        fits = issubclass(make, f.Template) and (make._is_port or not field.is_port)
+    else:
+        fits = make is None or isinstance(make, f.Template | list) or callable(make)
+    if not fits:
+        what = getattr(make, "__name__", None) or shown(make)
+        return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
+    if inspect.isfunction(make) and not _takes_self(make):
+        return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
+    return ""
+
+
+def _takes_self(method: Any) -> bool:
+    try:
+        inspect.signature(method).bind(None)
+    except (TypeError, ValueError):
+        return False
+    return True

@@ -1,0 +1,90 @@
+"""Which statement is yielded in which method, and what a wrong one is called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from acausal.language.component import Component
+from acausal.language.condition import Condition
+from acausal.language.connection import Branch, Connect, Root
+from acausal.language.events import Reinit, When
+from acausal.language.expression import Equation, Expr
+from acausal.language.fields import InitialValue
+from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.language.values import shown
+
+# Class of a statement, what it is called, and where it is yielded.
+HOMES: dict[type, tuple[str, str]] = {
+    Equation: ("an equation", "equations()"),
+    When: ("when(...)", "equations()"),
+    Connect: ("connect(...)", "connections()"),
+    Branch: ("branch(...)", "connections()"),
+    Root: ("root(...)", "connections()"),
+    Requirement: ("require(...)", "requirements()"),
+    Expectation: ("expect(...)", "validity()"),
+    Separation: ("apart(...)", "validity()"),
+}
+TAKES = {
+    "equations": "equations such as `a == b`",
+    "initial_equations": "equations such as `a == b`",
+    "root_equations": "equations such as `a == b`",
+    "connections": "connect(...), chain(...), branch(...), root(...) or potential_root(...)",
+    "requirements": "require(...)",
+    "validity": "expect(...) or apart(...)",
+}
+
+
+def misplaced(statement: Any, method: str) -> str:
+    """Return the message for what a method yields and should not.
+
+    Parameters
+    ----------
+    statement : object
+        What is yielded.
+    method : str
+        Name of the method.
+    """
+    takes = TAKES.get(method, TAKES["equations"])
+    several = isinstance(statement, list | tuple) and bool(statement)
+    first = statement[0] if several and isinstance(statement[0], Connect | Equation) else statement
+    for kind, (word, home) in HOMES.items():
+        if isinstance(first, kind) and home != f"{method}()" and not (kind is Equation and "equations" in method):
+            return f"{method}() yields {word}, which belongs to {home}: write it there. Here, yield {takes}."
+    what, mend = _described(statement, method)
+    return f"{method}() yields {what}; yield {takes}.{f' {mend}' if mend else ''}"
+
+
+def _described(statement: Any, method: str) -> tuple[str, str]:
+    """What a statement is called, and how it could be right."""
+    if isinstance(statement, bool):
+        if method == "connections":
+            return f"{statement}", "Ports are joined by connect(a, b), not by `==`."
+        mend = "Its `==` compares plain values or parts: one side must be a variable, self.x or self.part.x."
+        return f"{statement}", mend
+    if isinstance(statement, Condition):
+        mend = 'What must hold is yielded in requirements(): require(a < b, "..."); what happens then: when(a < b, reinit(...)).'
+        return "an inequality", mend
+    if isinstance(statement, Reinit):
+        return "reinit(...) alone", "Say when it happens: when(condition, reinit(variable, value))."
+    if isinstance(statement, InitialValue):
+        return "fixed(...) or guess(...)", "Here a start value is an equation, self.x == ..., in initial_equations()."
+    if isinstance(statement, Iterator) or (
+        isinstance(statement, list | tuple) and all(isinstance(s, Equation) for s in statement)
+    ):
+        return "several at once", "Write `yield from` instead of `yield`."
+    if isinstance(statement, tuple) and any(isinstance(s, Expr) for s in statement):
+        return "values with a comma between them", "Each equation has its own `yield`."
+    if statement is None:
+        return "nothing", ""
+    if isinstance(statement, Component | Expr):
+        return repr(statement) if isinstance(statement, Component) else statement._shown(), ""
+    return shown(statement), ""
+
+
+def returned(value: Any, method: str) -> str:
+    """Return the message for a method that returns instead of yielding."""
+    if value is None:
+        return f"{method}() yields nothing: write `yield` before each statement, or leave the method out."
+    word = next((word for kind, (word, _) in HOMES.items() if isinstance(value, kind)), shown(value))
+    return f"{method}() returns {word}; write `yield`, not `return`."

@@ -1,0 +1,159 @@
+"""Names in a class body that cannot mean what they seem to: those that the engine reads, and those written twice."""
+
+from __future__ import annotations
+
+import dis
+import inspect
+from collections.abc import Mapping
+from types import CodeType, FunctionType
+from typing import Any
+
+from acausal.language import fields as f
+from acausal.language.arguments import refused
+from acausal.language.dropped import refuse_dropped
+from acausal.language.slips import SETTABLE, body_line, codes_of_body
+from acausal.language.types import shape_of_annotation
+from acausal.language.values import shown
+
+ENGINE = "acausal.language.component"
+PLAIN = ("ends", "start_words")  # read by the engine, and no methods
+EXAMPLES = {
+    "connections": "yield connect(self.a, self.b)",
+    "equations": "yield self.x == ...",
+    "initial_equations": "yield self.x == ...",
+    "check": "...",
+    "requirements": "yield require(...)",
+    "validity": "yield expect(...)",
+}
+
+
+def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
+    """Raise DeclarationError for a name of the engine that stands for something else, or a name that is written twice.
+
+    Parameters
+    ----------
+    cls : Component class
+        A class whose body was executed.
+    said : mapping of str to object
+        What the body contains.
+    """
+    if cls.__module__ == ENGINE:
+        return
+    engine: dict[str, Any] = {}
+    for base in cls.__mro__[:0:-1]:
+        if base.__module__ in (ENGINE, f.__name__):
+            engine |= vars(base)
+    for name, value in said.items():
+        wrong = _reserved(cls, name, value, engine)
+        if wrong:
+            raise refused(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
+    _refuse_twice(cls)
+    refuse_dropped(cls.__name__, [*codes_of_body(cls), *(v for v in said.values() if isinstance(v, FunctionType))])
+
+
+def refuse_annotations(cls: Any) -> None:
+    """Raise DeclarationError for an annotation that looks like a field, but declares none."""
+    for base in cls.__mro__:
+        for name in inspect.get_annotations(base) if "_own_fields" in vars(base) else ():
+            if name in cls.fields or hasattr(cls, name) or shape_of_annotation(base, name) is None:
+                continue
+            kind = inspect.get_annotations(base)[name]
+            kind = kind if isinstance(kind, str) else kind.__name__
+            raise refused(
+                f'{base.__name__}.{name} has a type, but is not declared: write `{name}: {kind} = variable("...")`, or '
+                "parameter, input, output.",
+                base._line,
+            )
+
+
+def refuse_plain(cls: Any, name: str, value: Any) -> None:
+    """Raise DeclarationError for a value that is annotated as a field, or a field that stands as an annotation."""
+    annotation = inspect.get_annotations(cls).get(name)
+    if isinstance(value, f.Field) or shape_of_annotation(cls, name) is None or isinstance(value, property):
+        return
+    kind = annotation if isinstance(annotation, str) else annotation.__name__  # type: ignore[union-attr]
+    if inspect.isfunction(value):
+        word = value.__name__
+        mend = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
+    else:
+        mend = (
+            f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
+            f"constant stands without the type, `{name} = {shown(value)}`"
+        )
+    raise refused(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
+
+
+def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str:
+    """Say why a name cannot stand for a value, "" if it can."""
+    field = isinstance(value, f.Field | f.Template)
+    if name == "__post_init__":
+        return (
+            "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
+        )
+    if name == "time" and field:
+        return "`time` is the time in all results and equations; give this another name."
+    if field and name in cls._settings and name not in SETTABLE:
+        return (
+            f"`{name}` is what simulate(..., {name}=...) takes from a model; give this another name, such as `{name}_`."
+        )
+    if name not in engine or name.startswith("__"):
+        return ""
+    old = engine[name]
+    if not inspect.isfunction(old) or name[0] == "_":
+        plain = name in PLAIN and not field and not callable(value)
+        return "" if plain else "this name is used by the engine; give it another one."
+    written = ", ".join(list(inspect.signature(old).parameters))
+    form = f"`def {name}({written}): {EXAMPLES.get(name, 'return ...')}`"
+    if not isinstance(value, FunctionType):
+        marked = isinstance(value, property | staticmethod | classmethod)
+        what = f"leave out @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
+        other = (
+            f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
+        )
+        return f"every component has a method of this name, {form}; {other}"
+    return "" if _takes(value, old) else f"this method takes {'self alone' if written == 'self' else written}: {form}."
+
+
+def _takes(method: FunctionType, old: FunctionType) -> bool:
+    """Whether a method can be called like the one that it overrides."""
+    given = list(inspect.signature(old).parameters)
+    try:
+        inspect.signature(method).bind(*given)
+    except TypeError:
+        return False
+    return True
+
+
+def _refuse_twice(cls: Any) -> None:
+    """Refuse a name that is written again without being read: what stood there first would be lost."""
+    for code in codes_of_body(cls):
+        if _twice(code):
+            first: dict[str, int] = {}
+            for step in dis.get_instructions(code):
+                name, line = step.argval, step.positions.lineno if step.positions else None
+                if (
+                    step.is_jump_target
+                    or "JUMP" in step.opname
+                    or "RETURN" in step.opname
+                    or step.opname == "PUSH_EXC_INFO"
+                ):
+                    first.clear()  # another branch
+                if step.opname == "LOAD_NAME":
+                    first = {} if name == "overload" else {n: at for n, at in first.items() if n != name}
+                elif step.opname == "STORE_NAME" and name in first and name.strip("_"):
+                    raise refused(
+                        f"{cls.__name__}.{name} is written twice in the class body, so that only the last is kept: the first "
+                        f"is in line {first[name]}. Give one of them another name, or remove it.",
+                        f"{code.co_filename}:{line}",
+                    )
+                elif step.opname == "STORE_NAME":
+                    first[name] = line or 0
+
+
+def _twice(code: CodeType) -> bool:
+    """Whether a name may be stored more than once; quick, as every class is looked at."""
+    store = dis.opmap["STORE_NAME"]
+    stored = [
+        place for operation, place in zip(code.co_code[::2], code.co_code[1::2], strict=True) if operation == store
+    ]
+    return len(stored) > len(set(stored))

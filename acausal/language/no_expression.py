@@ -1,0 +1,63 @@
+"""What stands in an expression and is none: what it is called, and what could be meant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from inspect import isgenerator
+from types import ModuleType
+from typing import Any
+
+# By the name of the class, as these are made of expressions.
+WORDS = {
+    "Equation": ("an equation", "State it alone: yield a == b."),
+    "Condition": ("an inequality", "A condition chooses a value: piecewise((value, a < b), otherwise)."),
+    "Joined": ("a condition", "A condition chooses a value: piecewise((value, (a < b) & (c < d)), otherwise)."),
+    "InitialValue": ("fixed(...) or guess(...)", "It is given alone: to a variable of a part, phi=fixed(0.1)."),
+    "Reinit": ("reinit(...)", "Yield it in when(condition, reinit(variable, value))."),
+    "When": ("when(...)", "Yield it alone in equations()."),
+    "Path": ("a name in a model that is not built", "Write the part in the class body, and use self.part."),
+}
+
+
+def no_expression(value: Any) -> str:
+    """Return the message for a value that has no place in an expression."""
+    what, mend = _described(value)
+    return f"{what} cannot stand in an expression. {mend}"
+
+
+def ragged(shapes: Sequence[tuple[int, ...]]) -> str:
+    """Return the message for entries of different shapes."""
+    seen = " and ".join(dict.fromkeys(str(shape) for shape in shapes))
+    return f"the entries of a vector are scalars, and the rows of a matrix have one length; these have shapes {seen}"
+
+
+def _described(value: Any) -> tuple[str, str]:
+    kind = type(value).__name__
+    if kind in WORDS:
+        return WORDS[kind]
+    if value is None:
+        return "None", "A part or value that does not exist here is left out; a method needs `return`."
+    if isinstance(value, str):
+        return (
+            f"the text {value!r}",
+            f"Write a number, or a variable as self.{value if value.isidentifier() else 'x'}, without quotes.",
+        )
+    if hasattr(value, "fields") and hasattr(value, "_ports"):
+        names = [n for n, field in value.fields.items() if type(field).__name__ in ("Variable", "Parameter")]
+        return f"the part {value!r}", f"Name one of its values{f', such as .{names[0]}' if names else ''}."
+    if getattr(value, "is_deferred", False):
+        return "a field that belongs to no part", "Declare it in the class body, and use self.<name>."
+    if isinstance(value, ModuleType):
+        return (
+            f"the module {value.__name__}",
+            f"Import what is meant from acausal: from acausal import {value.__name__}.",
+        )
+    if isgenerator(value) or isinstance(value, Iterator):
+        return "a generator", "Make a list of it: [... for ... in ...]."
+    if isinstance(value, Callable):  # type: ignore[arg-type]
+        return f"the function {getattr(value, '__name__', kind)}", f"Call it: {getattr(value, '__name__', 'f')}(...)."
+    if isinstance(value, complex):
+        return f"the complex number {value}", "Write real and imaginary part as two equations."
+    if isinstance(value, set | dict):
+        return f"a {kind}", "A vector has an order: (a, b, c)."
+    return f"a {kind}, {value!r:.60},", "Give a number, or a variable or parameter of a part."
