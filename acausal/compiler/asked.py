@@ -51,6 +51,9 @@ def model_of(given: Any, compiled: bool = False) -> Any:
             f"{given!r} is a text; give a model, such as SpinUp(), imported from where its class is defined "
             "(scenes are run by name on the command line: acausal simulate spin-up)."
         )
+    kind = type(given).__name__
+    if any(hasattr(type(given), name) for name in ("equations", "connections")):
+        raise DeclarationError(f"{kind} is no model: derive its class from Model, class {kind}(Model).")
     raise DeclarationError(f"a model is an instance such as SpinUp(), not {_shown(given)}.")
 
 
@@ -84,4 +87,4 @@ def values_of(given: Any) -> dict[str, Any]:
 
 def _shown(value: Any) -> str:
     text = repr(value)
-    return text if len(text) <= MOST and "\n" not in text else f"a {type(value).__name__}"
+    return text if len(text) <= MOST and "\n" not in text and "<" not in text else f"a {type(value).__name__}"

@@ -38,11 +38,26 @@ def refuse_foreign(raw: Said) -> None:
             "condition), ..., otherwise), or as a polynomial; a function of elementary operations is written out where it "
             "is called with SX."
         )
+    _refuse_variables_in_starts(raw)
     known = _known(raw)
     strangers = [s for s in symbols if s.element_hash() not in known]
     if strangers:
         place = _place(raw, stated, others, lambda e: ca.depends_on(e, strangers[0]))
         raise DeclarationError(place + _undeclared(strangers[0]))
+
+
+def _refuse_variables_in_starts(raw: Said) -> None:
+    """Raise DeclarationError if a start value depends on a variable."""
+    variables = {s.element_hash() for a in raw.arrays for s in scalars(a.expr.sx)}
+    for array in raw.arrays:
+        found = [s for s in ca.symvar(array.start.sx) if s.element_hash() in variables]
+        if found:
+            declared = array.declared.name
+            raise DeclarationError(
+                f"{Origin.of(array.owner, declared)}: the start value depends on the variable "
+                f"`{found[0].name()}`; it takes numbers and parameters. State it in initial_equations(): "
+                f"yield self.{declared} == ...."
+            )
 
 
 def refuse_undeclared(expression: ca.SX, known: Iterable[ca.SX], place: str = "") -> None:

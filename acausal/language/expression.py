@@ -179,11 +179,13 @@ def as_expr(value: Any) -> Expr:
     """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
     if isinstance(value, Expr):
         return value
-    if isinstance(value, int | float | np.number):
-        return Expr(ca.SX(float(value)) if value else ca.SX(1, 1))
-    if isinstance(value, np.ndarray):
+    if isinstance(value, int | float | np.integer | np.floating | np.bool_):
+        return Expr(ca.SX(_number(value)) if value else ca.SX(1, 1))
+    if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))))
+    if isinstance(value, np.ndarray):
+        return as_expr(value.tolist())
     if isinstance(value, ca.DM | ca.SX):
         return Expr(ca.SX(value))
     if isinstance(value, Sequence) and not isinstance(value, str):
@@ -194,6 +196,15 @@ def as_expr(value: Any) -> Expr:
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
         return Expr(sx, unit_rules.of_array(rows))
     raise DeclarationError(no_expression(value))
+
+
+def _number(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise DeclarationError(
+            f"a number of {len(str(abs(value)))} digits is too large; numbers reach to 1.8e308."
+        ) from None
 
 
 @told

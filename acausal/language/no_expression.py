@@ -7,6 +7,8 @@ from inspect import isgenerator
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 # By the name of the class, as these are made of expressions.
 WORDS = {
     "Equation": ("an equation", "State it alone: yield a == b."),
@@ -56,7 +58,7 @@ def _described(value: Any) -> tuple[str, str]:
         return "a generator", "Make a list of it: [... for ... in ...]."
     if isinstance(value, Callable):  # type: ignore[arg-type]
         return f"the function {getattr(value, '__name__', kind)}", f"Call it: {getattr(value, '__name__', 'f')}(...)."
-    if isinstance(value, complex):
+    if isinstance(value, complex | np.complexfloating):
         return f"the complex number {value}", "Write real and imaginary part as two equations."
     if isinstance(value, set | dict):
         return f"a {kind}", "A vector has an order: (a, b, c)."
