@@ -14,7 +14,7 @@ from acausal.language import unit_rules
 from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.entries import chosen
-from acausal.language.no_expression import no_expression, ragged
+from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.symbols import combined
@@ -180,7 +180,7 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
-        return Expr(ca.SX(_number(value)) if value else ca.SX(1, 1))
+        return Expr(ca.SX(number_of(value)) if value else ca.SX(1, 1))
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))))
@@ -196,15 +196,6 @@ def as_expr(value: Any) -> Expr:
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
         return Expr(sx, unit_rules.of_array(rows))
     raise DeclarationError(no_expression(value))
-
-
-def _number(value: Any) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        raise DeclarationError(
-            f"a number of {len(str(abs(value)))} digits is too large; numbers reach to 1.8e308."
-        ) from None
 
 
 @told

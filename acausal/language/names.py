@@ -11,7 +11,7 @@ from typing import Any
 from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.dropped import refuse_dropped
-from acausal.language.slips import SETTABLE, body_line, codes_of_body
+from acausal.language.slips import body_line, codes_of_body
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown
 
@@ -89,12 +89,6 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
     if name == "__post_init__":
         return (
             "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
-        )
-    if name == "time" and field:
-        return "`time` is the time in all results and equations; give this another name."
-    if field and name in cls._settings and name not in SETTABLE:
-        return (
-            f"`{name}` is what simulate(..., {name}=...) takes from a model; give this another name, such as `{name}_`."
         )
     if name not in engine or name.startswith("__"):
         return ""

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from acausal.errors import DeclarationError
+
 # By the name of the class, as these are made of expressions.
 WORDS = {
     "Equation": ("an equation", "State it alone: yield a == b."),
@@ -25,6 +27,15 @@ def no_expression(value: Any) -> str:
     """Return the message for a value that has no place in an expression."""
     what, mend = _described(value)
     return f"{what} cannot stand in an expression. {mend}"
+
+
+def number_of(value: Any) -> float:
+    """Return a value as a number of double precision."""
+    try:
+        return float(value)
+    except OverflowError:
+        digits = len(str(abs(value)))
+        raise DeclarationError(f"a number of {digits} digits is too large; numbers reach to 1.8e308.") from None
 
 
 def ragged(shapes: Sequence[tuple[int, ...]]) -> str:

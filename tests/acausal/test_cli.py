@@ -162,7 +162,7 @@ def test_failed_simulation_keeps_what_it_found(run, tmp_path):
     files = ("--csv", "a.csv", "--plot", "a.png", "--json", "a.json")
     done = run("simulate", "mine.py:Root", "--stop-time", 2, "--intervals", 20, *files)
     assert done.exit_code == 1
-    assert "Error: the simulation failed: the integration stopped at t = 1 s after" in done.stderr
+    assert "Error: the simulation failed: the run stopped at t = 1 s" in done.stderr
     assert "Traceback" not in done.stderr
     table = pd.read_csv(tmp_path / "a.csv")
     assert len(table) == 11

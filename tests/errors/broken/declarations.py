@@ -113,26 +113,6 @@ def check_as_a_name(repaired):
     ac.compile(M())
 
 
-def time_as_a_name(repaired):
-    class M(Decay):
-        if repaired:
-            duration: Scalar = parameter("duration", default=1)
-        else:
-            time: Scalar = parameter("duration", default=1)
-
-    ac.compile(M())
-
-
-def tolerance_as_a_name(repaired):
-    class M(Decay):
-        if repaired:
-            fit: Scalar = parameter("tolerance of the fit", default=1)
-        else:
-            tolerance: Scalar = parameter("tolerance of the fit", default=1)
-
-    ac.compile(M())
-
-
 def private_name_of_the_engine(repaired):
     built(**{"_way" if repaired else "_path": 3})
 

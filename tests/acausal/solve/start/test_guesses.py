@@ -127,10 +127,17 @@ class Welded(Model):
         yield connect(self.far.frame_b, self.second.frame_a)
 
 
-@pytest.mark.parametrize("model", [Hinged, HingedBox, Welded])
+@pytest.mark.parametrize("model", [Hinged, HingedBox])
 def test_fixed_angles_of_a_body_that_is_held_are_refused(model: type[Model]) -> None:
     with pytest.raises(ac.DeclarationError, match=r"angles_fixed=True has no effect.*joint"):
         ac.compile(model())
+
+
+def test_of_bodies_that_move_together_the_one_with_fixed_angles_tells_them():
+    second = Body(m=1, angles_fixed=True, angles_start=(0.3, 0, 0))
+    result = ac.simulate(Welded(second=second), stop_time=0.1, initial="guesses")
+    turned = [[1, 0, 0], [0, np.cos(0.3), np.sin(0.3)], [0, -np.sin(0.3), np.cos(0.3)]]
+    np.testing.assert_allclose(result["first.frame_a.R.T"][0], turned, atol=1e-12)
 
 
 class Weighted(Model):

@@ -65,7 +65,7 @@ class Ends(Model):
 
 def test_a_failing_run_tells_when():
     found = measure(Job(pack(Ends()), Case(), 2.0))
-    assert "the integration stopped at t = 1 s" in found.error
+    assert "the run stopped at t = 1 s" in found.error
     assert not found.values
 
 
