@@ -122,7 +122,7 @@ class Given:
                 f"{where} is structural: it cannot depend on the parameter {value!r}, which may change after compiling. "
                 "Declare that one structural(...) as well."
             )
-        if declared.choices is not None and not any(value is c or value == c for c in declared.choices):
+        if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
             raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
         if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
             raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
@@ -148,6 +148,10 @@ class Given:
             if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
                 raise DeclarationError(
                     f"{where} follows from others, but not to a finite number: one that divides is 0."
+                )
+            if ca.depends_on(given.sx, time.sx):
+                raise DeclarationError(
+                    f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
             own = Expr(given.sx, unit, path)
             with_place(lambda: unit_rules.common(own, given, "its value"), Origin.of(bound))
@@ -180,6 +184,11 @@ class Given:
             entries.append(symbol)
         sx = ca.vertcat(*entries)
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
+
+
+def _is(value: Any, choice: Any) -> bool:
+    """Whether a value is a choice; arrays are none."""
+    return value is choice or (np.ndim(value) == 0 and bool(value == choice))
 
 
 def unit_of(declared: f.Field, owner: Component) -> Any:

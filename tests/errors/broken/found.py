@@ -6,7 +6,7 @@ import numpy as np
 
 import acausal as ac
 from acausal import Scalar, der, fixed, sin, time, variable
-from components import Body, Revolute, Spring
+from components import Body, Revolute, Spring, World
 from tests.errors.broken.models import Decay, Pendulum
 
 
@@ -60,3 +60,17 @@ def free_end_without_start(repaired):
             yield ac.chain(self.bar, self.spring, self.tip)
 
     ac.simulate(M(), stop_time=0.01)
+
+
+def parameter_that_changes(repaired):
+    class M(Pendulum):
+        mass = Body(m=2 if repaired else 2 + time)
+
+    ac.compile(M())
+
+
+def choice_of_an_array(repaired):
+    class M(Pendulum):
+        world = World(gravity=None if repaired else np.eye(3))
+
+    ac.compile(M())
