@@ -17,6 +17,7 @@ from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
+from acausal.language.functions import time
 from acausal.symbols import scalars
 from acausal.units import parse
 
