@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import difflib
-import dis
 import traceback
 from collections.abc import Iterator, Mapping
-from itertools import islice, pairwise
+from itertools import islice
 from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
@@ -16,6 +15,7 @@ from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
+from acausal.language.source import refuse_dropped, returns_nothing
 from acausal.language.values import refuse_constructor, shown
 
 DEEPEST = 100  # parts inside parts; deeper, a component contains itself
@@ -59,6 +59,7 @@ class Instantiation:
         if not template._origin:
             refuse_constructor(cls)
         if cls not in self._classes:
+            refuse_dropped(cls)
             refuse_late_fields(cls)
             self._classes.add(cls)
         if path.count(".") >= DEEPEST:
@@ -168,11 +169,7 @@ def _no_part(value: Any) -> str:
 
 def _refuse_lost(declared: f.Part, place: Origin) -> None:
     """Refuse a method marked @part that makes something and returns nothing: None alone leaves the part out."""
-    code = getattr(declared.make, "__code__", None)
-    steps = list(dis.get_instructions(code)) if code else []
-    pairs = list(pairwise(steps))
-    lost = any(a.opname == "CALL" and b.opname == "POP_TOP" for a, b in pairs)
-    if lost and all((b if b.opname == "RETURN_CONST" else a).argval is None for a, b in pairs if "RETURN_" in b.opname):
+    if returns_nothing(declared.make):
         raise DeclarationError(f"{place}: this method returns nothing; write `return` before the part.")
 
 

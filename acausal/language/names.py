@@ -1,21 +1,19 @@
-"""Names in a class body that cannot mean what they seem to: those that the engine reads, and those written twice."""
+"""Names in a class body that cannot mean what they seem to: those that the engine reads."""
 
 from __future__ import annotations
 
-import dis
 import inspect
 from collections.abc import Mapping
-from types import CodeType, FunctionType
+from types import FunctionType
 from typing import Any
 
 from acausal.language import fields as f
 from acausal.language.arguments import refused
-from acausal.language.dropped import refuse_dropped
-from acausal.language.slips import body_line, codes_of_body
+from acausal.language.slips import body_line
+from acausal.language.source import ENGINE
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown
 
-ENGINE = "acausal.language.component"
 PLAIN = ("ends", "start_words")  # read by the engine, and no methods
 EXAMPLES = {
     "connections": "yield connect(self.a, self.b)",
@@ -28,7 +26,7 @@ EXAMPLES = {
 
 
 def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
-    """Raise DeclarationError for a name of the engine that stands for something else, or a name that is written twice.
+    """Raise DeclarationError for a name of the engine that stands for something else.
 
     Parameters
     ----------
@@ -47,8 +45,6 @@ def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
         wrong = _reserved(cls, name, value, engine)
         if wrong:
             raise refused(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
-    _refuse_twice(cls)
-    refuse_dropped(cls.__name__, [*codes_of_body(cls), *(v for v in said.values() if isinstance(v, FunctionType))])
 
 
 def refuse_annotations(cls: Any) -> None:
@@ -116,38 +112,3 @@ def _takes(method: FunctionType, old: FunctionType) -> bool:
     except TypeError:
         return False
     return True
-
-
-def _refuse_twice(cls: Any) -> None:
-    """Refuse a name that is written again without being read: what stood there first would be lost."""
-    for code in codes_of_body(cls):
-        if _twice(code):
-            first: dict[str, int] = {}
-            for step in dis.get_instructions(code):
-                name, line = step.argval, step.positions.lineno if step.positions else None
-                if (
-                    step.is_jump_target
-                    or "JUMP" in step.opname
-                    or "RETURN" in step.opname
-                    or step.opname == "PUSH_EXC_INFO"
-                ):
-                    first.clear()  # another branch
-                if step.opname == "LOAD_NAME":
-                    first = {} if name == "overload" else {n: at for n, at in first.items() if n != name}
-                elif step.opname == "STORE_NAME" and name in first and name.strip("_"):
-                    raise refused(
-                        f"{cls.__name__}.{name} is written twice in the class body, so that only the last is kept: the first "
-                        f"is in line {first[name]}. Give one of them another name, or remove it.",
-                        f"{code.co_filename}:{line}",
-                    )
-                elif step.opname == "STORE_NAME":
-                    first[name] = line or 0
-
-
-def _twice(code: CodeType) -> bool:
-    """Whether a name may be stored more than once; quick, as every class is looked at."""
-    store = dis.opmap["STORE_NAME"]
-    stored = [
-        place for operation, place in zip(code.co_code[::2], code.co_code[1::2], strict=True) if operation == store
-    ]
-    return len(stored) > len(set(stored))

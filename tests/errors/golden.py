@@ -43,6 +43,8 @@ def told(case: Case) -> str:
         return f"line {line:+d}" if line > 0 else "a shared line"
 
     text = re.sub(re.escape(case.__code__.co_filename) + r":(\d+)", shift, text)
+    inside = range(first, first + len(inspect.getsourcelines(case)[0]))
+    text = re.sub(r"\bline (\d+)", lambda found: shift(found) if int(found[1]) in inside else found[0], text)
     text = re.sub(re.escape(str(models.__file__)) + r":\d+", "a shared line", text)
     return re.sub(r"/\S*/(\w+/\w+\.py):\d+", r"\1:*", text)
 

@@ -1,0 +1,189 @@
+"""Slips that only the text of a class shows: what is formed and dropped, written twice, or made and not returned."""
+
+from __future__ import annotations
+
+import ast
+import gc
+import linecache
+import warnings
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from types import FunctionType
+from typing import Any, NamedTuple
+from weakref import WeakSet
+
+from acausal.language.arguments import refused
+
+ENGINE = "acausal.language.component"
+STATEMENTS = {"connect", "chain", "branch", "root", "potential_root", "when", "require", "expect", "apart"}
+DEFINITIONS = ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+COMPOUND = (ast.If, ast.For, ast.While, ast.With, ast.Try, ast.TryStar, ast.Match)
+_SOUND: WeakSet[type] = WeakSet()
+
+
+class Slips(NamedTuple):
+    """Slips of one class or function.
+
+    Parameters
+    ----------
+    dropped : list of (str, int)
+        What is formed and not yielded, and the line.
+    twice : list of (str, int, int)
+        Name that is bound again without being read, its first and its second line.
+    lost : bool
+        Whether something is made, and nothing is returned.
+    """
+
+    dropped: list[tuple[str, int]]
+    twice: list[tuple[str, int, int]]
+    lost: bool
+
+
+def refuse_dropped(cls: Any) -> None:
+    """Raise DeclarationError for what a class, or a base of it, drops: a name written twice, a statement not yielded.
+
+    Parameters
+    ----------
+    cls : Component class
+        Where its text is not to be had, nothing is refused.
+    """
+    for base in cls.__mro__:
+        if "_line" in vars(base) and base.__module__ != ENGINE and base not in _SOUND:
+            _refuse(base)
+            _SOUND.add(base)
+
+
+def returns_nothing(function: Any) -> bool:
+    """Whether a function makes something and returns None alone; False for what is no function, or has no text."""
+    code = getattr(function, "__code__", None)
+    slips = _slips_in(code.co_filename).get((code.co_name, code.co_firstlineno)) if code else None
+    return slips is not None and slips.lost
+
+
+def _refuse(cls: Any) -> None:
+    name, (file, _, line) = cls.__name__, cls._line.rpartition(":")
+    codes = [value.__code__ for value in vars(cls).values() if isinstance(value, FunctionType)]
+    texts = {path: _slips_in(path) for path in {file, *(code.co_filename for code in codes)}}
+    body = texts[file].get((name, int(line)))
+    for again, first, second in body.twice if body else ():
+        raise refused(
+            f"{name}.{again} is written twice in the class body, so that only the last is kept: the first is in line "
+            f"{first}. Give one of them another name, or remove it.",
+            f"{file}:{second}",
+        )
+    methods = [(code.co_filename, texts[code.co_filename].get((code.co_name, code.co_firstlineno))) for code in codes]
+    for path, slips in [(file, body), *methods]:
+        for what, at in slips.dropped if slips else ():
+            mend = "Yield it in equations()." if slips is body else "Write `yield` before it."
+            raise refused(f"{name}: {what} has no effect, as it is not yielded. {mend}", f"{path}:{at}")
+
+
+def _slips_in(file: str) -> Mapping[tuple[str, int], Slips]:
+    """Slips by name and first line of all classes and functions in a file."""
+    linecache.checkcache(file)
+    return _slips_of("".join(linecache.getlines(file)))
+
+
+@lru_cache(maxsize=256)
+def _slips_of(text: str) -> Mapping[tuple[str, int], Slips]:
+    collects = gc.isenabled()
+    gc.disable()  # a tree is many objects and no garbage: half of the time would go into looking through them
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Python has told its own when it compiled the text
+            return _slips_by_place(ast.parse(text))
+    except (SyntaxError, ValueError):
+        return {}
+    finally:
+        if collects:
+            gc.enable()
+
+
+def _slips_by_place(tree: ast.Module) -> dict[tuple[str, int], Slips]:
+    found: dict[tuple[str, int], Slips] = {}
+    waiting: list[ast.stmt] = list(_statements(tree.body))
+    for node in waiting:
+        if isinstance(node, DEFINITIONS):
+            inside = list(_statements(node.body))
+            waiting += inside
+            is_class = isinstance(node, ast.ClassDef)
+            slips = Slips(
+                [(what, part.lineno) for part in inside if (what := _dropped(part))],
+                list(_twice(node.body)) if is_class else [],
+                not is_class and _loses(inside),
+            )
+            # Python counts a function from its first decorator, a class from either.
+            for first in (*node.decorator_list, node):
+                found[node.name, first.lineno] = slips
+    return found
+
+
+def _statements(block: list[ast.stmt]) -> Iterator[ast.stmt]:
+    """Yield the statements of a block and of the blocks in it, without those of the definitions in it."""
+    for node in block:
+        yield node
+        for inner in _blocks(node):
+            yield from _statements(inner)
+
+
+def _blocks(node: Any) -> list[list[ast.stmt]]:
+    """Return the blocks of a compound statement, none for a definition or a simple statement."""
+    if not isinstance(node, COMPOUND):
+        return []
+    cases = [*getattr(node, "handlers", []), *getattr(node, "cases", [])]
+    own = [getattr(node, name, []) for name in ("body", "orelse", "finalbody")]
+    return [*own, *(case.body for case in cases)]
+
+
+def _dropped(node: ast.stmt) -> str:
+    """Return what a statement forms in vain, "" if nothing."""
+    made = node.value if isinstance(node, ast.Expr) else None
+    if isinstance(made, ast.Compare) and any(isinstance(op, ast.Eq) for op in made.ops):
+        return "this equation, `... == ...`,"
+    if isinstance(made, ast.Call):
+        name = ast.unparse(made.func).removeprefix("acausal.").removeprefix("ac.")
+        return f"{name}(...)" if name in STATEMENTS else ""
+    return ""
+
+
+def _loses(inside: list[ast.stmt]) -> bool:
+    """Whether a function makes something and returns nothing but None."""
+    returned = [node.value for node in inside if isinstance(node, ast.Return) and node.value]
+    made = any(isinstance(node, ast.Expr | ast.Assign) and isinstance(node.value, ast.Call) for node in inside)
+    return made and all(isinstance(value, ast.Constant) and value.value is None for value in returned)
+
+
+def _twice(block: list[ast.stmt]) -> Iterator[tuple[str, int, int]]:
+    """Yield the names that a block of a class body binds again without reading them; another block is another case."""
+    bound: dict[str, ast.stmt] = {}
+    for node in block:
+        blocks = _blocks(node)
+        for inner in blocks:
+            yield from _twice(inner)
+        if blocks:
+            bound.clear()
+        for name in _bound(node):
+            first = bound.get(name)
+            if first and name.strip("_") and not _reads(block[block.index(first) + 1 : block.index(node) + 1], name):
+                yield name, first.lineno, node.lineno
+            bound[name] = node
+
+
+def _bound(node: ast.stmt) -> list[str]:
+    """Names that a simple statement or a definition binds."""
+    if isinstance(node, DEFINITIONS):
+        return [] if any(ast.unparse(mark).endswith("overload") for mark in node.decorator_list) else [node.name]
+    targets = node.targets if isinstance(node, ast.Assign) else []
+    if isinstance(node, ast.AnnAssign) and node.value:
+        targets = [node.target]
+    return [n.id for t in targets for n in ast.walk(t) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+
+
+def _reads(block: list[ast.stmt], name: str) -> bool:
+    """Whether statements of a class body read a name; what stands inside a definition does not see it."""
+    roots: list[ast.AST] = []
+    for node in block:
+        is_definition = isinstance(node, DEFINITIONS)
+        roots += [n for n in ast.iter_child_nodes(node) if not isinstance(n, ast.stmt)] if is_definition else [node]
+    names = [n for root in roots for n in ast.walk(root) if isinstance(n, ast.Name) and n.id == name]
+    return any(not isinstance(n.ctx, ast.Store) for n in names)
