@@ -36,7 +36,7 @@ class Dimension:
         known = cls._interned.get(exponents)
         if known is None:
             if len(exponents) != len(BASES):
-                raise DeclarationError(f"a Dimension has {len(BASES)} exponents ({', '.join(BASES)}): got {exponents}")
+                raise DeclarationError(f"a Dimension has {len(BASES)} exponents ({', '.join(BASES)}): got {exponents}.")
             new = super().__new__(cls)
             object.__setattr__(new, "exponents", exponents)
             known = cls._interned.setdefault(exponents, new)
@@ -153,10 +153,12 @@ def parse(text: str) -> Dimension:
         if divisor.startswith("(") and divisor.endswith(")"):
             divisor = divisor[1:-1]
         elif len(_PRODUCT.split(divisor)) > 1:
-            raise DeclarationError(f'unit "{text}" is ambiguous after "/": write "/({divisor})" to divide by all of it')
+            raise DeclarationError(
+                f'unit "{text}" is ambiguous after "/": write "/({divisor})" to divide by all of it.'
+            )
         dimension = dimension / _parse_product(divisor, text)
     if below and not above:
-        raise DeclarationError(f'unit "{text}" has nothing before "/": write "1{text.strip()}"')
+        raise DeclarationError(f'unit "{text}" has nothing before "/": write "1{text.strip()}".')
     return dimension
 
 
@@ -167,7 +169,7 @@ def _parse_product(product: str, text: str) -> Dimension:
             continue
         match = _FACTOR.fullmatch(factor)
         if match is None:
-            raise DeclarationError(f'cannot read "{factor}" in unit "{text}": write units as "kg.m2/s2" or "J/(kg.K)"')
+            raise DeclarationError(f'cannot read "{factor}" in unit "{text}": write units as "kg.m2/s2" or "J/(kg.K)".')
         symbol, integer, fraction = match.groups()
         if symbol not in _SYMBOLS:
             raise _unknown(symbol, text)
@@ -180,7 +182,7 @@ def _unknown(symbol: str, text: str) -> DeclarationError:
     """Say why a symbol is refused, and which unit to write instead."""
     where = "" if symbol == text else f' (in "{text}")'
     if symbol == "degC":
-        return DeclarationError(f'unit "degC"{where} has an offset: give the value in SI, value + 273.15 in "K"')
+        return DeclarationError(f'unit "degC"{where} has an offset: give the value in SI, value + 273.15 in "K".')
     if symbol in _OTHERS:
         name, factor = _OTHERS[symbol]
     elif symbol[0] in _PREFIXES and symbol[1:] in (*_SYMBOLS, "g"):
@@ -191,10 +193,10 @@ def _unknown(symbol: str, text: str) -> DeclarationError:
         name, factor = _nearest(symbol), ""
     if factor:
         return DeclarationError(
-            f'unit "{symbol}"{where} is not coherent SI: give values in SI, in "{name}" (1 {symbol} = {factor} {name})'
+            f'unit "{symbol}"{where} is not coherent SI: give values in SI, in "{name}" (1 {symbol} = {factor} {name}).'
         )
     hint = f'did you mean "{name}"?' if name else f"known are {', '.join(_SYMBOLS)}."
-    return DeclarationError(f'unit "{symbol}"{where} is unknown: {hint} Give values in SI')
+    return DeclarationError(f'unit "{symbol}"{where} is unknown: {hint} Give values in SI.')
 
 
 def _nearest(symbol: str) -> str:

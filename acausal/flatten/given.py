@@ -123,7 +123,7 @@ class Given:
                 "Declare that one structural(...) as well."
             )
         if declared.choices is not None and not any(value is c or value == c for c in declared.choices):
-            raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
+            raise DeclarationError(f"{where} is {value!r}; it must be {one_of(declared.choices)}.")
         if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
             raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
         whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
@@ -150,7 +150,7 @@ class Given:
                     f"{where} follows from others, but not to a finite number: one that divides is 0."
                 )
             own = Expr(given.sx, unit, path)
-            with_place(lambda: unit_rules.common(own, given, "its value"), Origin.of(bound))
+            with_place(lambda: unit_rules.check_value(own, given), Origin.of(bound))
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
@@ -188,6 +188,13 @@ def unit_of(declared: f.Field, owner: Component) -> Any:
     if unit is None or isinstance(unit, str):
         return None if unit is None else parse(unit)
     return tuple(parse(u) for u in unit)
+
+
+def one_of(choices: tuple[Any, ...]) -> str:
+    """Write choices for a message."""
+    if choices and all(isinstance(c, bool) for c in choices):
+        return " or ".join(map(repr, choices))
+    return f"one of {', '.join(map(repr, choices))}"
 
 
 def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:

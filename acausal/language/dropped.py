@@ -7,9 +7,11 @@ import re
 from collections.abc import Iterable, Iterator
 from types import CodeType, FunctionType
 
+from acausal.errors import ConnectError, DeclarationError
 from acausal.language.arguments import refused
 
-STATEMENTS = ("connect", "chain", "branch", "root", "potential_root", "when", "require", "expect", "apart")
+CONNECTIONS = ("connect", "chain", "branch", "root", "potential_root")
+STATEMENTS = (*CONNECTIONS, "when", "require", "expect", "apart")
 _COMPARED, _CALLED = (
     re.compile(
         b"(?s)" + re.escape(bytes([dis.opmap[name]])) + b".(?:\x00.)*" + re.escape(bytes([dis.opmap["POP_TOP"]]))
@@ -32,7 +34,9 @@ def refuse_dropped(kind: str, methods: Iterable[FunctionType | CodeType]) -> Non
         code = method.__code__ if isinstance(method, FunctionType) else method
         for what, line in _dropped(code):
             inside = "Yield it in equations()." if code.co_name == kind else "Write `yield` before it."
-            raise refused(f"{kind}: {what} has no effect, as it is not yielded. {inside}", f"{code.co_filename}:{line}")
+            text = f"{kind}: {what} has no effect, as it is not yielded. {inside}"
+            error = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
+            raise refused(text, f"{code.co_filename}:{line}", error)
 
 
 def _dropped(code: CodeType) -> Iterator[tuple[str, int]]:

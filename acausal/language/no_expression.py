@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from acausal.language.written import cut, kind_of
+
 # By the name of the class, as these are made of expressions.
 WORDS = {
     "Equation": ("an equation", "State it alone: yield a == b."),
@@ -27,10 +29,10 @@ def no_expression(value: Any) -> str:
     return f"{what} cannot stand in an expression. {mend}"
 
 
-def ragged(shapes: Sequence[tuple[int, ...]]) -> str:
+def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     """Return the message for entries of different shapes."""
-    seen = " and ".join(dict.fromkeys(str(shape) for shape in shapes))
-    return f"the entries of a vector are scalars, and the rows of a matrix have one length; these have shapes {seen}"
+    seen = " and ".join(dict.fromkeys(map(kind_of, shapes)))
+    return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {cut(repr(value))}."
 
 
 def _described(value: Any) -> tuple[str, str]:
@@ -38,7 +40,7 @@ def _described(value: Any) -> tuple[str, str]:
     if kind in WORDS:
         return WORDS[kind]
     if value is None:
-        return "None", "A part or value that does not exist here is left out; a method needs `return`."
+        return "None", "Either a method lacks its `return`, or an optional part does not exist here."
     if isinstance(value, str):
         return (
             f"the text {value!r}",
