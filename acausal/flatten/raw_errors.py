@@ -62,7 +62,7 @@ def in_words(error: Exception) -> str:
         )
     if isinstance(error, AttributeError) and type(error.obj) in PARTS:
         return f"{PARTS[type(error.obj)]} has no `{error.name}`. {MENDS[type(error.obj)]}"
-    if isinstance(error, NotImplementedError) and not str(error):
+    if isinstance(error, NotImplementedError) and len(error.args) != 1:
         return _not_implemented(error)
     if isinstance(error, AssertionError):
         last = traceback.extract_tb(error.__traceback__)[-1]
@@ -111,6 +111,6 @@ def _not_implemented(error: NotImplementedError) -> str:
     name = frame.f_code.co_name
     if not isinstance(owner, Component):
         return f"`{name}` is not written yet."
-    what = " ".join((getattr(type(owner), name).__doc__ or "").split())
-    what = f" ({what.rstrip('.')})" if what else ""
-    return f"{type(owner).__name__} lacks the method `{name}`{what}: add `def {name}(self): ...`."
+    if len(error.args) == 2:  # what it does, and how it is written
+        return f"{type(owner).__name__} needs a method that {error.args[0]}: def {name}(self): {error.args[1]}"
+    return f"{type(owner).__name__} lacks the method `{name}`: def {name}(self): ..."

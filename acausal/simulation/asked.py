@@ -88,7 +88,7 @@ def check_intervals(intervals: Any) -> None:
         mend = f": {int(intervals)}" if whole else ""
         raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{mend}.")
     if intervals > MOST:
-        raise DeclarationError(f"intervals is {intervals}; more than {MOST} points do not fit into the memory.")
+        raise DeclarationError(f"intervals is {intervals}; at most {MOST} points are allowed.")
 
 
 def _check(task: Task, accuracy: float | None) -> None:
@@ -117,5 +117,5 @@ def _check(task: Task, accuracy: float | None) -> None:
         raise DeclarationError(f"energy is {task.energy!r}; it must be True or False.")
     if task.progress is not None and not callable(task.progress):
         raise DeclarationError(
-            f"progress is {task.progress!r}; it must be a function that takes the part that is done and the number of steps."
+            f"progress is {task.progress!r}; it must be a function of the fraction done (0 to 1) and the number of steps."
         )

@@ -74,7 +74,8 @@ class Grid:
         if len(set(names)) < len(names):
             raise DeclarationError(f"formulations need names of their own, not {', '.join(names)}.")
         for path, values in self.switches.items():
-            if not items(f'switches["{path}"]', values, "[1, 2]"):
+            example = "[True, False]" if isinstance(values, bool) else "[1, 2]"
+            if not items(f'switches["{path}"]', values, example):
                 raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
 
     def cases(self, given: Mapping[str, Any]) -> list[Case]:
