@@ -18,7 +18,7 @@ from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.symbols import scalars
-from acausal.units import parse
+from acausal.units import in_si, parse
 
 
 @dataclass
@@ -205,7 +205,9 @@ def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         wanted = f"an array of numbers of shape {shape}" if shape else "a number"
-        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}.") from None
+        si = in_si(value) if isinstance(value, str) and not shape else None
+        mend = "" if si is None else f", in SI units without the unit: {si:.12g}"
+        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}{mend}.") from None
     except OverflowError:
         raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if array.shape != shape:
