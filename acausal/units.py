@@ -9,6 +9,7 @@ import difflib
 import re
 from fractions import Fraction
 from functools import cache
+from math import pi, prod
 from typing import ClassVar
 
 from acausal.errors import DeclarationError
@@ -36,7 +37,7 @@ class Dimension:
         known = cls._interned.get(exponents)
         if known is None:
             if len(exponents) != len(BASES):
-                raise DeclarationError(f"a Dimension has {len(BASES)} exponents ({', '.join(BASES)}): got {exponents}")
+                raise DeclarationError(f"a Dimension has {len(BASES)} exponents ({', '.join(BASES)}): got {exponents}.")
             new = super().__new__(cls)
             object.__setattr__(new, "exponents", exponents)
             known = cls._interned.setdefault(exponents, new)
@@ -153,10 +154,12 @@ def parse(text: str) -> Dimension:
         if divisor.startswith("(") and divisor.endswith(")"):
             divisor = divisor[1:-1]
         elif len(_PRODUCT.split(divisor)) > 1:
-            raise DeclarationError(f'unit "{text}" is ambiguous after "/": write "/({divisor})" to divide by all of it')
+            raise DeclarationError(
+                f'unit "{text}" is ambiguous after "/": write "/({divisor})" to divide by all of it.'
+            )
         dimension = dimension / _parse_product(divisor, text)
     if below and not above:
-        raise DeclarationError(f'unit "{text}" has nothing before "/": write "1{text.strip()}"')
+        raise DeclarationError(f'unit "{text}" has nothing before "/": write "1{text.strip()}".')
     return dimension
 
 
@@ -167,7 +170,7 @@ def _parse_product(product: str, text: str) -> Dimension:
             continue
         match = _FACTOR.fullmatch(factor)
         if match is None:
-            raise DeclarationError(f'cannot read "{factor}" in unit "{text}": write units as "kg.m2/s2" or "J/(kg.K)"')
+            raise DeclarationError(f'cannot read "{factor}" in unit "{text}": write units as "kg.m2/s2" or "J/(kg.K)".')
         symbol, integer, fraction = match.groups()
         if symbol not in _SYMBOLS:
             raise _unknown(symbol, text)
@@ -176,25 +179,53 @@ def _parse_product(product: str, text: str) -> Dimension:
     return dimension
 
 
+def in_si(text: str) -> float | None:
+    """Return a number with a unit in SI, as 0.001 for "1 mm"; None if it is none, or of an unknown unit."""
+    found = re.fullmatch(r"\s*([-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)\s*([^\W\d].*?)\s*", text)
+    if not found:
+        return None
+    number, unit = found.groups()
+    scale = _scale(unit)
+    if scale:
+        return float(number) * scale[1]
+    try:
+        parse(unit)
+    except DeclarationError:
+        return None
+    return float(number)
+
+
+def _scale(symbol: str) -> tuple[str, float] | None:
+    """The SI unit of a single unit of another scale, and that scale; None for what is none."""
+    known = _other_scale(symbol)
+    if known is None:
+        return None
+    factors = [f.split("/") for f in known[1].replace("pi", repr(pi)).split("*")]
+    return known[0], prod(float(above) / prod(map(float, below)) for above, *below in factors)
+
+
+def _other_scale(symbol: str) -> tuple[str, str] | None:
+    """The SI unit of a single unit of another scale, and that scale as it is written."""
+    if symbol in _OTHERS:
+        return _OTHERS[symbol]
+    if symbol not in _SYMBOLS and symbol[0] in _PREFIXES and symbol[1:] in (*_SYMBOLS, "g"):
+        scale = _PREFIXES[symbol[0]]
+        return ("kg", f"{scale}*1e-3") if symbol[1:] == "g" else (symbol[1:], scale)
+    return None
+
+
 def _unknown(symbol: str, text: str) -> DeclarationError:
     """Say why a symbol is refused, and which unit to write instead."""
     where = "" if symbol == text else f' (in "{text}")'
     if symbol == "degC":
-        return DeclarationError(f'unit "degC"{where} has an offset: give the value in SI, value + 273.15 in "K"')
-    if symbol in _OTHERS:
-        name, factor = _OTHERS[symbol]
-    elif symbol[0] in _PREFIXES and symbol[1:] in (*_SYMBOLS, "g"):
-        name, factor = symbol[1:], _PREFIXES[symbol[0]]
-        if name == "g":
-            name, factor = "kg", f"{factor}*1e-3"
-    else:
-        name, factor = _nearest(symbol), ""
+        return DeclarationError(f'unit "degC"{where} has an offset: give the value in SI, value + 273.15 in "K".')
+    name, factor = _other_scale(symbol) or (_nearest(symbol), "")
     if factor:
         return DeclarationError(
-            f'unit "{symbol}"{where} is not coherent SI: give values in SI, in "{name}" (1 {symbol} = {factor} {name})'
+            f'unit "{symbol}"{where} is not coherent SI: give values in SI, in "{name}" (1 {symbol} = {factor} {name}).'
         )
     hint = f'did you mean "{name}"?' if name else f"known are {', '.join(_SYMBOLS)}."
-    return DeclarationError(f'unit "{symbol}"{where} is unknown: {hint} Give values in SI')
+    return DeclarationError(f'unit "{symbol}"{where} is unknown: {hint} Give values in SI.')
 
 
 def _nearest(symbol: str) -> str:

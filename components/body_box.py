@@ -86,9 +86,7 @@ class BodyBox(TwoFrameBody):
         """Directions of length, width and height, resolved in frame_a."""
         zero = [entry.sx.is_zero() for entry in self.r]
         if all(zero):
-            raise DeclarationError(
-                f"`r` of {self._path} (BodyBox) has length 0; give the axis of the box, r=(1, 0, 0)."
-            )
+            raise DeclarationError("`r` has length 0; give the axis of the box, r=(1, 0, 0).")
         given, along = self._direction(), self.r / self.length
         across = as_expr(given) - dot(given, along) * along
         across = across / sqrt(dot(across, across))

@@ -48,7 +48,7 @@ class BodyCylinder(TwoFrameBody):
     def cylinder_mass(self) -> Any:
         """Mass in kg."""
         if all(entry.sx.is_zero() for entry in self.r):
-            raise DeclarationError(f"`r` of {self._path} (BodyCylinder) has length 0; give its axis, r=(1, 0, 0).")
+            raise DeclarationError("`r` has length 0; give its axis, r=(1, 0, 0).")
         section = np.pi / 4 * (self.diameter**2 - self.inner_diameter**2)
         return self.density * section * sqrt(dot(self.r, self.r))
 

@@ -65,4 +65,4 @@ class LineForce(TwoFrames):
 
     def law(self) -> Any:
         """Yield the equation of f."""
-        raise NotImplementedError
+        raise NotImplementedError("states its force f", "yield self.f == ...")

@@ -73,5 +73,4 @@ class World(Component):
 def require_direction(component: Any, vector: Any, name: str) -> None:
     """Refuse a vector of length 0 where a direction is needed."""
     if not np.any(vector):
-        where = f"{component._path} ({type(component).__name__})"
-        raise DeclarationError(f"`{name}` of {where} has length 0; give a direction, for instance {name}=(0, 0, 1).")
+        raise DeclarationError(f"`{name}` has length 0; give a direction, for instance {name}=(0, 0, 1).")

@@ -91,15 +91,15 @@ def instance(cls: type[Model]) -> Model:
 
 def _no_scene(name: str, known: list[str]) -> str:
     if not name.strip():
-        return f"the name of the scene is empty. Scenes: {', '.join(known)}; {FORM}"
+        return f"the name of the scene is empty. Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
     shown, path = shown_name(name), name.partition(":")[0]
     if os.path.isfile(f"{path}.py"):
         return f"there is no scene `{shown}`, but a file {path}.py: name its class, as in {path}.py:ClassName."
     if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
         return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
     near = difflib.get_close_matches(name.lower().replace("_", "-"), known, 1, 0.5)
-    mend = f"did you mean `{near[0]}`? " if near else ""
-    return f"there is no scene `{shown}`; {mend}Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
+    mend = f"; did you mean `{near[0]}`?" if near else "."
+    return f"there is no scene `{shown}`{mend} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 
 
 def _of_file(path: Path, name: str) -> type[Model]:
@@ -114,9 +114,11 @@ def _of_file(path: Path, name: str) -> type[Model]:
     found = getattr(module, name, None) if name else None
     if _is_model(found) and found is not Model:
         return found
-    choice = ", ".join(f"{path}:{n}" for n in known) or "none; derive a class from Model"
+    choice = ", ".join(f"{path}:{n}" for n in known)
     if found is not None:
         raise DeclarationError(f"{name} in {shown} {_other(name, found)}")
+    if not known:
+        raise DeclarationError(f"{shown} has no model: derive a class from Model.")
     what = f"{shown} has no class `{shown_name(name)}`" if name else f"{shown} needs the name of a class"
     raise DeclarationError(f"{what}; its models: {choice}.")
 

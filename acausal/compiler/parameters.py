@@ -52,7 +52,9 @@ class Settable:
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
         if isinstance(value, Expr):
-            raise DeclarationError(f"`{path}` is {value!r}, an expression; a compiled model takes plain numbers in SI.")
+            what = f"{value!r}, an expression; a compiled model takes numbers"
+            mend = f"a quantity; give the number alone, in SI units: {{{path!r}: {value!r}}}"
+            raise DeclarationError(f"`{path}` is {mend if value.sx.is_constant() else what}.")
         if isinstance(value, Mapping):
             inner = next(iter(value), "m")
             raise DeclarationError(
@@ -72,7 +74,7 @@ class Settable:
                     f"`{path}` follows {own.bound[path]}; change that, or compile with its own value."
                 )
             if path in self._structural_names:
-                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. Compile again with it.")
+                raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
             known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
             raise DeclarationError(not_settable(path, self.tree, known))
         for name in entries:
@@ -86,16 +88,13 @@ class Settable:
                 raise DeclarationError(f"`{path}` has {shape}; a value of shape {array.shape} does not fit.")
             entry = float(array[at])
             if name in own.weighing and entry != values[index[name]]:
-                raise DeclarationError(
-                    f"`{name}` sets nominal values, which are fixed when compiled. "
-                    f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
-                )
+                raise DeclarationError(f"`{name}` sets nominal values, which are fixed when compiled. {_again(path)}")
             if name in index:
                 values[index[name]] = entry
             elif entry != 0:
                 raise DeclarationError(
                     f"`{name}` was exactly 0 when compiled and is no longer in the equations (a structural zero). "
-                    f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."
+                    f"{_again(path)}"
                 )
 
     @cached_property
@@ -125,3 +124,7 @@ class Settable:
         least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
         positive = np.array([d.positive for _, _, d in own.limits])[owners]
         return Call(ca.Function("limits", [own.symbols], [column])), owners, least, positive
+
+
+def _again(path: str) -> str:
+    return f"Compile again with it: ac.compile(model, parameters={{{path!r}: ...}})."

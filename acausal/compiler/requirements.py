@@ -15,7 +15,7 @@ from acausal.flatten.origin import Origin, line_of, method_origin, with_place
 from acausal.flatten.tree import walk
 from acausal.language.arguments import refused
 from acausal.language.component import Component
-from acausal.language.homes import misplaced, returned
+from acausal.language.homes import error_of, misplaced, returned
 from acausal.language.validity import Requirement
 from acausal.symbols import scalars, stacked
 
@@ -81,7 +81,7 @@ def _run(component: Component, method: str, kind: type | tuple[type, ...]) -> It
         raise DeclarationError(returned(generator, method))
     for statement in generator:
         if not isinstance(statement, kind):
-            raise refused(misplaced(statement, method), line_of(generator))
+            raise refused(misplaced(statement, method), line_of(generator), error_of(statement))
         yield statement, Origin.of(component)
 
 

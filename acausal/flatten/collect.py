@@ -21,7 +21,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
-from acausal.language.homes import misplaced, returned
+from acausal.language.homes import error_of, misplaced, returned
 from acausal.symbols import dense, scalars, vec
 
 
@@ -140,7 +140,7 @@ def _run(component: Component, method: str, found: Equations, most: int) -> None
             PENDING.get().whens.append((statement, origin))
             continue
         if not isinstance(statement, Equation):
-            raise DeclarationError(f"{origin}: {misplaced(statement, method)}")
+            raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
         residual = vec(statement.lhs.sx - statement.rhs.sx)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()

@@ -19,7 +19,7 @@ from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
 from acausal.symbols import scalars
-from acausal.units import parse
+from acausal.units import in_si, parse
 
 
 @dataclass
@@ -124,7 +124,7 @@ class Given:
                 "Declare that one structural(...) as well."
             )
         if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
-            raise DeclarationError(f"{where} is {value!r}; it must be one of {', '.join(map(repr, declared.choices))}.")
+            raise DeclarationError(f"{where} is {value!r}; it must be {one_of(declared.choices)}.")
         if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
             raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
         whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
@@ -155,7 +155,7 @@ class Given:
                     f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
             own = Expr(given.sx, unit, path)
-            with_place(lambda: unit_rules.common(own, given, "its value"), Origin.of(bound))
+            with_place(lambda: unit_rules.check_value(own, given), Origin.of(bound))
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
@@ -200,6 +200,13 @@ def unit_of(declared: f.Field, owner: Component) -> Any:
     return tuple(parse(u) for u in unit)
 
 
+def one_of(choices: tuple[Any, ...]) -> str:
+    """Write choices for a message."""
+    if choices and all(isinstance(c, bool) for c in choices):
+        return " or ".join(map(repr, choices))
+    return f"one of {', '.join(map(repr, choices))}"
+
+
 def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
     """Return the value as an array of finite numbers of the given shape, or raise DeclarationError."""
     try:
@@ -208,7 +215,9 @@ def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         wanted = f"an array of numbers of shape {shape}" if shape else "a number"
-        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}.") from None
+        si = in_si(value) if isinstance(value, str) and not shape else None
+        mend = "" if si is None else f", in SI units without the unit: {si:.12g}"
+        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}{mend}.") from None
     except OverflowError:
         raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if array.shape != shape:

@@ -121,8 +121,8 @@ def _refuse_elsewhere(components: list[Component]) -> None:
         word = next((w for w in ("connect", "chain") if code and w in code.co_names), None)
         if word:
             raise ConnectError(
-                f"{method_origin(component, 'equations')}: {word}(...) is called in equations(), and belongs to connections(): "
-                "write it there."
+                f"{method_origin(component, 'equations')}: equations() yields {word}(...), which belongs to "
+                "connections(): write it there."
             )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import traceback
 from collections.abc import Iterator, Mapping
 from itertools import islice
@@ -15,6 +14,7 @@ from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
+from acausal.language.nearest import missing
 from acausal.language.source import refuse_dropped, returns_nothing
 from acausal.language.values import refuse_constructor, shown
 
@@ -173,12 +173,9 @@ def _refuse_lost(declared: f.Part, place: Origin) -> None:
         raise DeclarationError(f"{place}: this method returns nothing; write `return` before the part.")
 
 
-def unknown_name(name: str, known: list[str]) -> str:
+def unknown_name(name: str, known: list[str], kind: str = "") -> str:
     """Return the message for a name that does not exist, with the nearest that do."""
-    near = difflib.get_close_matches(name, known, 3, 0.5)
-    return f"there is no `{name}` in the model" + (
-        f"; did you mean {', '.join(f'`{n}`' for n in near)}?" if near else "."
-    )
+    return f"there is no `{name}` in the model{missing(name, known, kind)}"
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:
@@ -188,4 +185,6 @@ def not_settable(name: str, root: Component, known: list[str]) -> str:
             if isinstance(declared, f.Variable) and name == join(component._path, own):
                 make = f"{type(component).__name__}({own}=fixed(...))"
                 return f"`{name}` is a variable, not a parameter; its start value is given in the model: {make}."
-    return unknown_name(name, known)
+    owner = name.rpartition(".")[0]
+    kind = next((type(c).__name__ for c in walk(root) if c._path == owner), "") if owner else ""
+    return unknown_name(name, known, kind)

@@ -85,7 +85,7 @@ def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[An
 
 def _place(error: BaseException, origin: Origin) -> Origin:
     """Locate the innermost line outside this package; what a class lacks, at the class."""
-    if isinstance(error, NotImplementedError) and not str(error):
+    if isinstance(error, NotImplementedError) and len(error.args) != 1:
         *_, (frame, _) = traceback.walk_tb(error.__traceback__)
         return replace(origin, where=getattr(frame.f_locals.get("self"), "_line", origin.where))
     for frame in reversed(traceback.extract_tb(error.__traceback__)):

@@ -7,8 +7,12 @@ import re
 import traceback
 from types import FunctionType, MethodType, NoneType
 
+import casadi as ca
+
+from acausal.errors import PACKAGE
 from acausal.language.component import Component
 from acausal.language.expression import Expr
+from acausal.language.symbolic import FUNCTIONS
 
 PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
 MENDS = {
@@ -51,14 +55,14 @@ def in_words(error: Exception) -> str:
         near = difflib.get_close_matches(error.name or "", names, 1)
         return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
     if isinstance(error, AttributeError) and isinstance(error.obj, Component):
-        return str(error)
+        return _too_early(error)
     if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
         return (
             f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
         )
     if isinstance(error, AttributeError) and type(error.obj) in PARTS:
         return f"{PARTS[type(error.obj)]} has no `{error.name}`. {MENDS[type(error.obj)]}"
-    if isinstance(error, NotImplementedError) and not str(error):
+    if isinstance(error, NotImplementedError) and len(error.args) != 1:
         return _not_implemented(error)
     if isinstance(error, AssertionError):
         last = traceback.extract_tb(error.__traceback__)[-1]
@@ -68,17 +72,34 @@ def in_words(error: Exception) -> str:
             return mend
     foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
     if foreign:
-        return _of_casadi(foreign[1])
+        return _of_casadi(foreign[1], error)
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
 
 
-def _of_casadi(name: str) -> str:
+def _too_early(error: AttributeError) -> str:
+    """Tell of a variable that is read in connections(): most likely in an equation."""
+    ours = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith(PACKAGE)]
+    if ours and ours[-1].name == "connections" and re.search(r"yield\b.*==", ours[-1].line or ""):
+        return "connections() yields an equation, which belongs to equations(): write it there."
+    return str(error)
+
+
+def _of_casadi(name: str, error: Exception) -> str:
     """Return the remedy for a function of CasADi that was called with expressions of this package."""
-    what = "a function or an interpolant" if name == "Function_call" else f"`{name.strip('_')}`"
+    plain = name.strip("_")
+    if plain in FUNCTIONS:
+        return f"`{plain}` is CasADi's; use acausal's: from acausal import {plain}."
+    if name != "Function_call":
+        return f"`{plain}` is CasADi's and cannot take an expression of acausal; use sin, sqrt, abs, piecewise, ... of acausal."
+    called = [frame.f_locals.get("self") for frame, _ in traceback.walk_tb(error.__traceback__)]
+    if any(isinstance(f, ca.Function) and (f.is_a("SXFunction") or f.is_a("MXFunction")) for f in called):
+        return (
+            "a function of CasADi takes symbols of CasADi, not an expression of acausal: Expr(function(self.x.sx)), with Expr "
+            "from acausal."
+        )
     return (
-        f"{what} of CasADi is called with an expression of acausal. Use sin, sqrt, abs, piecewise, ... of acausal; write a table "
-        "as piecewise((value, condition), ..., otherwise) or as a polynomial; a function of elementary operations takes "
-        "symbols: Expr(function(self.x.sx)), with Expr from acausal."
+        "CasADi's table cannot take an expression of acausal. Write it as piecewise((y0 + (x - x0) * slope, x < x1), ..., "
+        "otherwise), or as a polynomial."
     )
 
 
@@ -90,6 +111,6 @@ def _not_implemented(error: NotImplementedError) -> str:
     name = frame.f_code.co_name
     if not isinstance(owner, Component):
         return f"`{name}` is not written yet."
-    what = " ".join((getattr(type(owner), name).__doc__ or "").split())
-    what = f" ({what.rstrip('.')})" if what else ""
-    return f"{type(owner).__name__} lacks the method `{name}`{what}: add `def {name}(self): ...`."
+    if len(error.args) == 2:  # what it does, and how it is written
+        return f"{type(owner).__name__} needs a method that {error.args[0]}: def {name}(self): {error.args[1]}"
+    return f"{type(owner).__name__} lacks the method `{name}`: def {name}(self): ..."

@@ -10,6 +10,7 @@ from inspect import Parameter
 from typing import Any, TypeVar
 
 from acausal.errors import AcausalError, DeclarationError, user_line
+from acausal.language.written import short
 
 F = TypeVar("F", bound=Callable[..., Any])
 # What users of other tools call an argument.
@@ -25,9 +26,9 @@ MEANT = {
 }
 
 
-def refused(text: str, line: str = "") -> DeclarationError:
+def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:
     """Return an error with the line that it is about, that of the statement being executed if none is given."""
-    error = DeclarationError(text)
+    error = kind(text)
     error.line = line or user_line()
     return error
 
@@ -69,6 +70,9 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
         near = near if unknown in MEANT else difflib.get_close_matches(unknown, [*places, *other], 1)
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
         return f"{name}() has no argument `{unknown}`; {f'did you mean `{near[0]}`?' if near else known}"
+    if name == "der" and len(given) > 1:
+        order = "the second derivative is" if given[1] == 2 else "a further derivative is a der() around it, as"
+        return f"der({', '.join(map(short, given))}): {order} der(der({short(given[0])}))."
     if len(given) > len(places) and Parameter.VAR_POSITIONAL not in kinds:
         only = f"{name}() takes {len(places)} argument{'s' * (len(places) != 1)} without a name, not {len(given)}"
         return f"{only}; write {form}." if not other else f"{only}; the others are given by name: {', '.join(other)}."

@@ -8,6 +8,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
+from acausal.language.written import cut
 
 
 class Condition:
@@ -19,11 +20,14 @@ class Condition:
         A scalar.
     kind : "<" or "<="
         The relation.
+    sides : (left, sign, right)
+        What is compared, for messages; () where that is not known.
     """
 
-    def __init__(self, excess: Any, kind: str) -> None:
+    def __init__(self, excess: Any, kind: str, sides: tuple[Any, ...] = ()) -> None:
         self.excess = excess
         self.kind = kind
+        self._sides = sides
 
     @property
     def comparisons(self) -> list[Condition]:
@@ -41,8 +45,7 @@ class Condition:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            "an inequality is no number to calculate with: choose a value by it, piecewise((value, a < b), otherwise), where "
-            "1 or 0 is meant piecewise((1, a < b), 0)."
+            "an inequality cannot be used as a number. For 1 where it holds and 0 elsewhere write piecewise((1, a < b), 0)."
         )
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _no_number
@@ -58,12 +61,13 @@ class Condition:
         return Condition(-self.excess, "<" if self.kind == "<=" else "<=")
 
     def __bool__(self) -> bool:
-        raise DeclarationError(
-            "a comparison of symbolic expressions has no truth value while the model is built. "
-            "Use piecewise((value, condition), ..., otherwise), as piecewise((a, a > b), b) for max(a, b), or "
-            "when(condition, ...), join conditions by & and |, "
-            "or declare the field structural(...) if the equations themselves depend on it."
-        )
+        raise DeclarationError(undecided(self._said()))
+
+    def _said(self) -> str:
+        if not self._sides:
+            return "a comparison"
+        left, sign, right = self._sides
+        return f"{cut(repr(left))} {sign} {cut(repr(right))}"
 
 
 class Joined(Condition):
@@ -83,7 +87,7 @@ class Joined(Condition):
                 f"& and | join two conditions, each in brackets, such as (x > 0) & (v < 0), not one and {b!r}. What is known "
                 "when the model is built is decided by Python's `if`."
             )
-        self.a, self.b, self.every = a, b, every
+        self.a, self.b, self.every, self._sides = a, b, every, ()
 
     @property
     def excess(self) -> Any:  # type: ignore[override]
@@ -113,6 +117,15 @@ class Joined(Condition):
 
     def __invert__(self) -> Condition:
         return Joined(~self.a, ~self.b, not self.every)
+
+
+def undecided(what: str) -> str:
+    """Return the message for a value that Python should decide on while the model is built."""
+    return (
+        f"{what} is not known while the model is built, so `if`, `and`, `or`, max() and min() cannot use it. Write "
+        "piecewise((value, condition), ..., otherwise) or when(condition, ...), join conditions by & and |; where a parameter "
+        "decides which equations there are, declare it structural(...)."
+    )
 
 
 def refuse_cases(cases: tuple[Any, ...]) -> None:

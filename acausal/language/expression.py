@@ -12,11 +12,12 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.arguments import told
-from acausal.language.condition import Condition
+from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
 from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
+from acausal.language.written import kind_of, short, written
 from acausal.symbols import combined
 from acausal.units import Dimension, parse
 
@@ -62,10 +63,10 @@ class Expr(Symbolic):
         return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None)
 
     def __repr__(self) -> str:
-        return self.name or str(ca.densify(self.sx))
+        return self.name or written(self.sx)
 
     def _shown(self) -> str:
-        return _short(self)
+        return short(self)
 
     def __len__(self) -> int:
         return self.sx.shape[0]
@@ -84,7 +85,7 @@ class Expr(Symbolic):
 
     def __setitem__(self, index: Any, value: Any) -> None:
         raise DeclarationError(
-            f"entries of {_short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, or build "
+            f"entries of {short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, or build "
             "a new vector, (a, b, c)."
         )
 
@@ -142,23 +143,19 @@ class Expr(Symbolic):
     __hash__ = object.__hash__
 
     def __lt__(self, other: Any) -> Condition:
-        return Condition(self - other, "<")
+        return Condition(self - other, "<", (self, "<", other))
 
     def __le__(self, other: Any) -> Condition:
-        return Condition(self - other, "<=")
+        return Condition(self - other, "<=", (self, "<=", other))
 
     def __gt__(self, other: Any) -> Condition:
-        return Condition(other - self, "<")
+        return Condition(other - self, "<", (self, ">", other))
 
     def __ge__(self, other: Any) -> Condition:
-        return Condition(other - self, "<=")
+        return Condition(other - self, "<=", (self, ">=", other))
 
     def __bool__(self) -> bool:
-        raise DeclarationError(
-            f"{self!r} is symbolic: Python cannot decide on it with `if`, `and`, `or` or `in`. "
-            "Use piecewise((value, condition), ..., otherwise) for a switch, "
-            "or declare the field structural(...) if the equations themselves depend on it."
-        )
+        raise DeclarationError(undecided(self._shown()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,7 +188,7 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, Sequence) and not isinstance(value, str):
         rows = [as_expr(item) for item in value]
         if any(row.shape != rows[0].shape or len(row.shape) > 1 for row in rows):
-            raise DeclarationError(f"{ragged([row.shape for row in rows])}: {value!r}")
+            raise DeclarationError(ragged([row.shape for row in rows], value))
         matrix = any(len(row.shape) == 1 for row in rows)
         sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
         return Expr(sx, unit_rules.of_array(rows))
@@ -231,16 +228,16 @@ def equation(lhs: Any, rhs: Any) -> Any:
         If the units certainly differ.
     """
     if is_deferred(lhs, rhs):
-        raise DeclarationError("an equation is stated inside equations(), with self.<name>, not in the class body")
+        raise DeclarationError("an equation is stated inside equations(), with self.<name>, not in the class body.")
     a, b = as_expr(lhs), as_expr(rhs)
     if a.shape != b.shape:
         raise DeclarationError(
-            f"the sides of an equation have shapes {a.shape} and {b.shape}: {_short(a)} == {_short(b)}. "
+            f"the sides of an equation are {kind_of(a.shape)} and {kind_of(b.shape)}: {short(a)} == {short(b)}. "
             "Both need the same shape: (0, 0, 0) is a vector of zeros, v[0] an entry of v."
         )
     for side in (a, b):
         if side.sx.is_constant() and not side.sx.is_regular():
-            raise DeclarationError(f"a side of an equation is {_short(side)}; it must be finite")
+            raise DeclarationError(f"a side of an equation is {short(side)}; it must be finite.")
     unit_rules.common(a, b, "joined by `==`")
     return Equation(a, b)
 
@@ -250,9 +247,8 @@ def is_deferred(*values: Any) -> bool:
     return any(getattr(value, "is_deferred", False) for value in values)
 
 
-def _short(value: Expr) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+def _misfit(a: Expr, symbol: str, b: Expr) -> str:
+    return f"{kind_of(a.shape)} and {kind_of(b.shape)} do not fit: {short(a)} {symbol} {short(b)}."
 
 
 def _sum(left: Any, right: Any, symbol: str) -> Any:
@@ -260,7 +256,7 @@ def _sum(left: Any, right: Any, symbol: str) -> Any:
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if a.shape != b.shape:
-        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} {symbol} {_short(b)}")
+        raise DeclarationError(_misfit(a, symbol, b))
     return Expr(combined(a.sx, symbol, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"))
 
 
@@ -269,9 +265,7 @@ def _product(left: Any, right: Any) -> Any:
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if a.shape and b.shape and a.shape != b.shape:
-        raise DeclarationError(
-            f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} * {_short(b)}; use @ for matrices"
-        )
+        raise DeclarationError(f"{_misfit(a, '*', b)} Use @ for matrices.")
     return Expr(combined(a.sx, "*", b.sx), unit_rules.of_product(a, b))
 
 
@@ -280,7 +274,7 @@ def _matrix_product(left: Any, right: Any) -> Any:
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if not a.shape or not b.shape or a.shape[-1] != b.shape[0]:
-        raise DeclarationError(f"shapes {a.shape} and {b.shape} do not fit: {_short(a)} @ {_short(b)}")
+        raise DeclarationError(_misfit(a, "@", b))
     unit = unit_rules.of_inner_product(a, b)
     if len(a.shape) == len(b.shape) == 1:
         return Expr(ca.dot(a.sx, b.sx), unit)
@@ -292,5 +286,5 @@ def _quotient(left: Any, right: Any) -> Any:
         return NotImplemented
     a, b = as_expr(left), as_expr(right)
     if b.shape:
-        raise DeclarationError(f"cannot divide by an array of shape {b.shape}: {_short(b)}")
+        raise DeclarationError(f"cannot divide by {kind_of(b.shape)}: {short(b)}.")
     return Expr(combined(a.sx, "/", b.sx), unit_rules.of_quotient(a, b))

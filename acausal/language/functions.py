@@ -17,6 +17,7 @@ from acausal.language.condition import Condition, refuse_cases
 from acausal.language.events import When
 from acausal.language.expression import Expr, as_expr, is_deferred
 from acausal.language.fields import Deferred
+from acausal.language.written import kind_of
 from acausal.symbols import scalars, vec
 from acausal.units import DIMENSIONLESS, Dimension, parse
 
@@ -98,7 +99,7 @@ def _pending(what: str) -> Pending:
     try:
         return PENDING.get()
     except LookupError:
-        raise DeclarationError(f"{what} can be used inside equations() only") from None
+        raise DeclarationError(f"{what} can be used inside equations() only.") from None
 
 
 def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -115,7 +116,7 @@ def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any],
     def function(x: Any) -> Expr:
         x = as_expr(x)
         if isinstance(x.unit, Dimension) and x.unit != DIMENSIONLESS:
-            raise UnitsError(f"{name} needs a number or an angle, but {x!r} is in [{x.unit}]")
+            raise UnitsError(f"{name} needs a number or an angle, but {x!r} is in [{x.unit}].")
         return Expr(operate(x.sx), DIMENSIONLESS if x.unit is not None else None)
 
     function.__name__ = function.__qualname__ = name
@@ -191,7 +192,7 @@ def cross(a: Any, b: Any) -> Any:
     """Vector product of two vectors of length 3, both resolved in the same frame."""
     a, b = as_expr(a), as_expr(b)
     if a.shape != (3,) or b.shape != (3,):
-        raise DeclarationError(f"cross needs two vectors of length 3, not shapes {a.shape} and {b.shape}")
+        raise DeclarationError(f"cross needs two vectors of length 3, not {kind_of(a.shape)} and {kind_of(b.shape)}.")
     one = isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None)
     return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
@@ -252,7 +253,9 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     for choice, condition in reversed(cases[:-1]):
         choice = as_expr(choice)
         if choice.shape != value.shape:
-            raise DeclarationError(f"the cases of piecewise have different shapes: {choice.shape} and {value.shape}")
+            raise DeclarationError(
+                f"the cases of piecewise differ in shape: {kind_of(choice.shape)} and {kind_of(value.shape)}."
+            )
         unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
         steps.insert(0, (condition, choice.sx - value.sx))
         holds = _truth(condition) if smooth else _pending("piecewise").switch(condition)

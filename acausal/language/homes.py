@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from acausal.errors import AcausalError, ConnectError, DeclarationError
 from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.connection import Branch, Connect, Root
@@ -33,6 +34,10 @@ TAKES = {
     "requirements": "require(...)",
     "validity": "expect(...) or apart(...)",
 }
+BARE = {
+    "requirements": 'yield require(a < b, "what is wrong otherwise")',
+    "validity": 'yield expect(a < b, "what is neglected otherwise")',
+}
 
 
 def misplaced(statement: Any, method: str) -> str:
@@ -50,9 +55,17 @@ def misplaced(statement: Any, method: str) -> str:
     first = statement[0] if several and isinstance(statement[0], Connect | Equation) else statement
     for kind, (word, home) in HOMES.items():
         if isinstance(first, kind) and home != f"{method}()" and not (kind is Equation and "equations" in method):
-            return f"{method}() yields {word}, which belongs to {home}: write it there. Here, yield {takes}."
+            return f"{method}() yields {word}, which belongs to {home}: write it there."
+    if isinstance(first, Condition) and method in BARE:
+        return f"{method}() yields a bare inequality; write {BARE[method]}."
     what, mend = _described(statement, method)
     return f"{method}() yields {what}; yield {takes}.{f' {mend}' if mend else ''}"
+
+
+def error_of(statement: Any) -> type[AcausalError]:
+    """Return the kind of error for a misplaced statement."""
+    first = statement[0] if isinstance(statement, list | tuple) and statement else statement
+    return ConnectError if isinstance(first, Connect | Branch | Root) else DeclarationError
 
 
 def _described(statement: Any, method: str) -> tuple[str, str]:

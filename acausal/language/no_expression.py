@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.language.written import cut, kind_of
 
 # By the name of the class, as these are made of expressions.
 WORDS = {
@@ -38,10 +39,10 @@ def number_of(value: Any) -> float:
         raise DeclarationError(f"a number of {digits} digits is too large; numbers reach to 1.8e308.") from None
 
 
-def ragged(shapes: Sequence[tuple[int, ...]]) -> str:
+def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     """Return the message for entries of different shapes."""
-    seen = " and ".join(dict.fromkeys(str(shape) for shape in shapes))
-    return f"the entries of a vector are scalars, and the rows of a matrix have one length; these have shapes {seen}"
+    seen = " and ".join(dict.fromkeys(map(kind_of, shapes)))
+    return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {cut(repr(value))}."
 
 
 def _described(value: Any) -> tuple[str, str]:
@@ -49,7 +50,7 @@ def _described(value: Any) -> tuple[str, str]:
     if kind in WORDS:
         return WORDS[kind]
     if value is None:
-        return "None", "A part or value that does not exist here is left out; a method needs `return`."
+        return "None", "Either a method lacks its `return`, or an optional part does not exist here."
     if isinstance(value, str):
         return (
             f"the text {value!r}",

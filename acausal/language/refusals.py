@@ -34,7 +34,8 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
         return f"`{path}` cannot be set on a built model. {_by_path(path, field, value, compiled=True)}"
     given = f"{name}={_start(field, value)}"
     if at_home(component, constructor=True):
-        return f"`{name}` of {cls.__name__} goes to the constructor above: `super().__init__({given})`."
+        given = f"{name}={name}" if name in inspect.signature(cls.__init__).parameters else given
+        return f"{cls.__name__}.__init__ must not set self.{name}; pass it on: super().__init__({given})."
     by_path = f" {_by_path(name, field, value)}" if isinstance(field, f.Structural | f.Parameter) else ""
     return f"`{name}` of {cls.__name__} cannot be set on an instance: it belongs in `{cls.__name__}({given})`.{by_path}"
 

@@ -12,10 +12,12 @@ from types import FunctionType
 from typing import Any, NamedTuple
 from weakref import WeakSet
 
+from acausal.errors import ConnectError, DeclarationError
 from acausal.language.arguments import refused
 
 ENGINE = "acausal.language.component"
-STATEMENTS = {"connect", "chain", "branch", "root", "potential_root", "when", "require", "expect", "apart"}
+CONNECTIONS = {"connect", "chain", "branch", "root", "potential_root"}
+STATEMENTS = {*CONNECTIONS, "when", "require", "expect", "apart"}
 DEFINITIONS = ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 COMPOUND = (ast.If, ast.For, ast.While, ast.With, ast.Try, ast.TryStar, ast.Match)
 _SOUND: WeakSet[type] = WeakSet()
@@ -75,7 +77,8 @@ def _refuse(cls: Any) -> None:
     for path, slips in [(file, body), *methods]:
         for what, at in slips.dropped if slips else ():
             mend = "Yield it in equations()." if slips is body else "Write `yield` before it."
-            raise refused(f"{name}: {what} has no effect, as it is not yielded. {mend}", f"{path}:{at}")
+            kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
+            raise refused(f"{name}: {what} has no effect, as it is not yielded. {mend}", f"{path}:{at}", kind)
 
 
 def _slips_in(file: str) -> Mapping[tuple[str, int], Slips]:

@@ -75,10 +75,14 @@ class Symbolic:
 
     def _join(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`&`, `|` and `^` with {self._shown()}: conditions are joined in brackets, (x > 0) & (x < 1), and a power is x**2."
+            f"`&` and `|` join conditions, not {self._shown()}: put each condition in brackets: (x > 0) & (x < 1)."
         )
 
-    __and__ = __rand__ = __or__ = __ror__ = __xor__ = __rxor__ = __invert__ = _join
+    def _caret(self, *_: Any) -> Any:
+        raise DeclarationError("a power is written x**2, not x ^ 2.")
+
+    __and__ = __rand__ = __or__ = __ror__ = __invert__ = _join
+    __xor__ = __rxor__ = _caret
 
     def __format__(self, spec: str) -> str:
         return repr(self) if not spec else self._no_number()

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 import casadi as ca
 
 from acausal.errors import UnitsError
+from acausal.language.written import short
 from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension
 
@@ -55,8 +56,18 @@ def common(a: Measured, b: Measured, where: str) -> Unit:
         return b.unit if a.unit is None else a.unit
     pairs = list(zip(_entries(a), _entries(b), strict=True))
     if any(u is not None and v is not None and u != v for u, v in pairs):
-        raise UnitsError(f"units differ: {_shown(a)} is in [{_text(a)}], {_shown(b)} in [{_text(b)}], {where}")
+        raise UnitsError(f"units differ: {short(a)} is in [{_text(a)}], {short(b)} in [{_text(b)}], {where}.")
     return _merged([v if u is None else u for u, v in pairs])
+
+
+def check_value(own: Measured, value: Measured) -> None:
+    """Raise UnitsError if the value of a parameter certainly has another unit than it."""
+    try:
+        common(own, value, "its value")
+    except UnitsError:
+        given = short(value)
+        given = f'quantity({given}, "{_text(value)}")' if value.sx.is_constant() else f"{given}, in {_text(value)}"
+        raise UnitsError(f"the unit of `{own!r}` is {_text(own)}, but it is given as {given}.") from None
 
 
 def of_product(a: Measured, b: Measured) -> Unit:
@@ -167,8 +178,3 @@ def _text(value: Measured) -> str:
     if isinstance(value.unit, tuple):
         return ", ".join("?" if u is None else str(u) for u in value.unit)
     return str(value.unit)
-
-
-def _shown(value: Measured) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -141,7 +141,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
-        raise ValueError(f"it has `{next(name for name in found if names.count(name) > 1)}` more than once")
+        raise ValueError(f"has `{next(name for name in found if names.count(name) > 1)}` more than once")
     return found
 
 
@@ -151,7 +151,7 @@ def _no_number(text: str) -> NoReturn:
 
 def _integer(text: str) -> int:
     if len(text) > DIGITS:
-        raise ValueError(f"it has a number of {len(text)} digits")
+        raise ValueError(f"has a number of {len(text)} digits")
     return int(text)
 
 

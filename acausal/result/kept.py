@@ -13,7 +13,8 @@ from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Expr
-from acausal.result.lookup import Key, Quantity, choose, find, names, no_path, not_readable, parse, unknown
+from acausal.result.lookup import Key, Quantity, choose, find, names, no_path, not_readable, parse
+from acausal.result.unknown import unknown
 
 # Entries whose values are computed at once.
 AT_ONCE = 2000

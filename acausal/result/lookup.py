@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -19,13 +18,11 @@ from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
 from acausal.language.refusals import shown
-from acausal.result.files import shown_name
+from acausal.result.unknown import unknown
 from acausal.symbols import vec
 
 Key = str | Path | Expr
 READABLE = (f.Variable, f.Parameter, f.Observed)
-FILES = (".png", ".svg", ".pdf", ".csv")
-LONG = 200  # characters of a path
 _SEGMENT = re.compile(r"([^\W\d]\w*)((?:\[[^\]]*\])*)")
 _INDEX = re.compile(r"\[\(?\s*(-?\d{1,9}(?:\s*,\s*-?\d{1,9})*)\s*,?\s*\)?\]")
 
@@ -147,7 +144,7 @@ def find(tree: Tree, key: Key) -> Quantity:
     try:
         return _walk(tree, str(key))
     except LookupError:
-        raise DeclarationError(unknown(str(key), names(tree))) from None
+        raise DeclarationError(unknown(str(key), names(tree), tree)) from None
 
 
 def _of_expression(tree: Component, expr: Expr) -> Quantity:
@@ -254,22 +251,6 @@ def _example(parts: list[Component]) -> str:
     return inside[0].removeprefix(f"{parts[0]._path}.") if inside else "..."
 
 
-def unknown(path: str, known: list[str]) -> str:
-    """Return the message for a path that does not exist."""
-    if not path.strip():
-        return "the name of a variable is empty; give its path, such as 'beam.frame_b.r_0'."
-    derivative, plain = re.fullmatch(r"der\((.+)\)", path), re.sub(r"[\[(].*", "", path)
-    if derivative and derivative[1] in known:
-        name = derivative[1]
-        return f"`{path}` is not a variable of the model; declare one, here v, and give it by an equation, v == der({name})."
-    mend = f"; did you mean {', '.join(f'`{name}`' for name in _near(path, known))}?" if _near(path, known) else "."
-    if plain in known and plain != path and "]." not in path:
-        mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
-    if path.endswith(FILES):
-        mend = "; the name of a file is given by path=..."
-    return f"there is no `{shown_name(path)}` in the model{mend}"
-
-
 def no_path(key: object) -> str:
     """Return the message for what is no path."""
     text = shown(key)
@@ -277,11 +258,3 @@ def no_path(key: object) -> str:
         text = word if isinstance(key, kind) else text
     mend = "; give several one by one." if isinstance(key, list | tuple | set) else "."
     return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{mend}"
-
-
-def _near(path: str, known: list[str]) -> list[str]:
-    """Return the names that may have been meant, the likeliest first."""
-    near = [name for name in known if name.endswith(f".{path}") or path in (f"self.{name}", f"model.{name}")]
-    near += [name for name in known if name.casefold() == path.casefold()]
-    near += [name for name in difflib.get_close_matches(path[:LONG], known, 3, 0.5) if name not in near]
-    return near[:3]

@@ -150,8 +150,8 @@ def read_csv(path: str | Path, what: str) -> Columns:
     for line, row in rows:
         if len(row) != len(head):
             raise DeclarationError(
-                f"{title} needs an entry in line {line} for each of its columns ({column_names(head)}), but has {len(row)}. "
-                "Entries are separated by commas, and decimals by points."
+                f"line {line} of {title} has {len(row)} {'entry' if len(row) == 1 else 'entries'}, its head {len(head)} "
+                f"({column_names(head)}). Separate entries by commas and write decimals with points."
             )
     return Columns(what, str(path), head, rows)
 

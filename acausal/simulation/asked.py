@@ -88,7 +88,7 @@ def check_intervals(intervals: Any) -> None:
         mend = f": {int(intervals)}" if whole else ""
         raise DeclarationError(f"intervals is {intervals!r}; it must be a whole number of at least 1{mend}.")
     if intervals > MOST:
-        raise DeclarationError(f"intervals is {intervals}; more than {MOST} points do not fit into the memory.")
+        raise DeclarationError(f"intervals is {intervals}; at most {MOST} points are allowed.")
 
 
 def _check(task: Task, accuracy: float | None) -> None:
@@ -104,18 +104,15 @@ def _check(task: Task, accuracy: float | None) -> None:
             f"start_time = {start:g} s and stop_time = {stop:g} s are too near each other for {task.intervals} outputs between "
             "them: numbers of this size cannot tell them apart. Count time from 0, or take fewer intervals."
         )
-    for name, value, example in (("tolerance", task.tolerance, "1e-6"), ("accuracy", accuracy, "1e-3")):
-        if value is not None and not 0 < value < 1:
-            raise DeclarationError(f"{name} is {value:g}; it must lie between 0 and 1, for instance {example}.")
-    if task.tolerance < POLICY.defaults.rounding:
-        raise DeclarationError(
-            f"tolerance is {task.tolerance:g}, less than rounding errors of the numbers; give a larger one, for instance 1e-9."
-        )
+    limits = (("tolerance", task.tolerance, POLICY.defaults.rounding, "1e-6"), ("accuracy", accuracy, 0, "1e-3"))
+    for name, value, least, example in limits:
+        if value is not None and not (least <= value < 1 and value > 0):
+            raise DeclarationError(f"{name} is {value:g}; it must lie between {least:g} and 1, for instance {example}.")
     if task.max_order is not None and (isinstance(task.max_order, bool) or task.max_order not in range(1, 6)):
         raise DeclarationError(f"max_order is {task.max_order!r}; it must be a whole number from 1 to 5.")
     if not isinstance(task.energy, bool | np.bool_):
         raise DeclarationError(f"energy is {task.energy!r}; it must be True or False.")
     if task.progress is not None and not callable(task.progress):
         raise DeclarationError(
-            f"progress is {task.progress!r}; it must be a function that takes the part that is done and the number of steps."
+            f"progress is {task.progress!r}; it must be a function of the fraction done (0 to 1) and the number of steps."
         )

@@ -95,7 +95,10 @@ def check_number(name: str, value: Any) -> None:
         What is given for it.
     """
     if isinstance(value, Expr):
-        raise DeclarationError(f"{name} is {value!r}, an expression; give a plain number, in s if it is a time.")
+        if not (value.sx.is_constant() and not value.shape):
+            raise DeclarationError(f"{name} is {value!r}, an expression; give a number.")
+        unit = ", in s" if "time" in name else ""
+        raise DeclarationError(f"{name} is a quantity; give the number alone{unit}: {name}={value!r}.")
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
         raise DeclarationError(f"{name} is {value!r}; it must be a number.")
     if not np.isfinite(value):

@@ -24,4 +24,4 @@ class Compliant(TwoFlanges):
 
     def law(self) -> Any:
         """Yield the equation of tau."""
-        raise NotImplementedError
+        raise NotImplementedError("states its torque tau", "yield self.tau == ...")

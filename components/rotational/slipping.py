@@ -30,11 +30,11 @@ class Slipping(Compliant):
 
     def holding(self) -> Expr:
         """Greatest torque at which it sticks."""
-        raise NotImplementedError
+        raise NotImplementedError("returns the greatest torque at which it sticks", "return ...")
 
     def dragging(self) -> Expr:
         """Torque against sliding."""
-        raise NotImplementedError
+        raise NotImplementedError("returns the torque against sliding", "return ...")
 
     def dissipated_power(self) -> Expr:
         """Power of the torque."""

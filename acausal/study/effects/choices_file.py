@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 from typing import Any
@@ -69,7 +70,8 @@ def _read(path: str | Path, scene: str) -> dict[str, Any]:
     try:
         found = document(text)
     except ValueError as error:
-        raise DeclarationError(f"{shown_name(path)} is not a JSON document: {error}.") from None
+        what = str(error) if str(error).startswith("has ") else f"is not a JSON document: {error}"
+        raise DeclarationError(f"{shown_name(path)} {what}.") from None
     choices = found.get("effects") if isinstance(found, dict) else None
     if not isinstance(choices, dict) or "scene" not in found:
         raise DeclarationError(
@@ -85,6 +87,12 @@ def _read(path: str | Path, scene: str) -> dict[str, Any]:
 
 
 def _check_names(model: Component, choices: Mapping[str, Any], path: str | Path) -> None:
+    for effect in effects_of(model):
+        if effect.path in choices and not any(choices[effect.path] == choice for choice in effect.choices):
+            value, allowed = json.dumps(choices[effect.path]), [json.dumps(choice) for choice in effect.choices]
+            must = " or ".join(allowed) if len(allowed) == 2 else f"one of {', '.join(allowed)}"
+            text = f"`{effect.path}` of {type(model).__name__} is {value}; it must be {must}."
+            raise DeclarationError(f"{shown_name(path)}: {text}")
     try:
         known = [effect.path for effect in effects_of(model, fitting(model, choices))]
     except DeclarationError as error:

@@ -51,7 +51,7 @@ class Journal:
         self.path = Path(path).expanduser()
         if self.path.exists() and not self.path.is_file():
             raise ExportError(f"a study cannot keep its cases in {self.path}: it is a device or a pipe; name a file.")
-        lines = read_text(self.path).splitlines() if self.path.exists() else []
+        lines = _lines(self.path) if self.path.exists() else []
         if lines:
             self._take(lines, dict(identity))
         else:
@@ -96,12 +96,12 @@ class Journal:
     def _take(self, lines: list[str], identity: dict[str, Any]) -> None:
         first = _read(lines[0])
         if not isinstance(first, dict) or not first.keys() & identity.keys():
-            raise DeclarationError(f"{self.path} is not the journal of a study; give the table another name.")
+            raise DeclarationError(_in_the_way(self.path))
         other = [name for name in identity if first.get(name) != json.loads(json.dumps(identity[name]))]
         if other:
             raise DeclarationError(
                 f"{self.path} holds cases of another study (other {', '.join(other)}). "
-                "Remove it to start again, or give the table another name."
+                "Remove it to start again, or give the CSV file another name."
             )
         found = [line for line in map(_read, lines[1:]) if _is_measurement(line)]
         self._found = {line[POINT]: line for line in found}
@@ -120,6 +120,20 @@ class Journal:
                 os.fsync(file.fileno())
         except OSError as error:
             raise ExportError(f"cannot write {self.path}: {error.strerror or error}.") from None
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return read_text(path).splitlines()
+    except DeclarationError as error:
+        raise DeclarationError(_in_the_way(path) if "UTF-8" in str(error) else str(error)) from None
+
+
+def _in_the_way(path: Path | None) -> str:
+    return (
+        f"{path} is in the way: a study keeps its finished cases in a file of this name, and this one is something else. "
+        "Move it, or give the CSV file another name."
+    )
 
 
 def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:

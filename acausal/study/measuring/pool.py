@@ -60,7 +60,11 @@ def executor_of(executor: Executor | str | None, workers: int | None) -> Abstrac
     if isinstance(executor, str):
         return cluster(executor, workers)
     if not callable(getattr(executor, "submit", None)):
-        raise DeclarationError(f"executor is {executor!r}; it must be one of concurrent.futures, or an address.")
+        many = isinstance(executor, int) and not isinstance(executor, bool)
+        count = f"for {executor} processes write workers={executor}. Otherwise " if many else ""
+        raise DeclarationError(
+            f"executor is {executor!r}; {count}it must be an executor of concurrent.futures, or the address of a Dask scheduler."
+        )
     return nullcontext(executor)
 
 

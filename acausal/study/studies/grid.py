@@ -57,7 +57,7 @@ class Grid:
                 raise DeclarationError(f"{name} is empty; give at least one.")
         for value in self.tolerances:
             if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-12 <= value < 1:
-                raise DeclarationError(f"a tolerance is {value!r}; it must lie between 1e-12 and 1, for instance 1e-6.")
+                raise DeclarationError(f"tolerances has {value!r}; it must lie between 1e-12 and 1, for instance 1e-6.")
         for value in self.max_orders:
             if value is not None and (isinstance(value, bool) or value not in range(1, 6)):
                 raise DeclarationError(f"a limit of the order is {value!r}; it must be a whole number from 1 to 5.")
@@ -74,7 +74,8 @@ class Grid:
         if len(set(names)) < len(names):
             raise DeclarationError(f"formulations need names of their own, not {', '.join(names)}.")
         for path, values in self.switches.items():
-            if not items(f'switches["{path}"]', values, "[1, 2]"):
+            example = "[True, False]" if isinstance(values, bool) else "[1, 2]"
+            if not items(f'switches["{path}"]', values, example):
                 raise DeclarationError(f"the switch `{path}` has no values; give those that are to be tried.")
 
     def cases(self, given: Mapping[str, Any]) -> list[Case]:

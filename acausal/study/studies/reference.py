@@ -120,6 +120,11 @@ def matching(table: Columns, outputs: Sequence[str], times: np.ndarray) -> Refer
         Of the study, in s.
     """
     missing = [name for name in ("time", *outputs) if name not in table.head]
+    if missing and all(map(_is_number, table.head)):
+        wanted = ", ".join(("time", *outputs))
+        raise DeclarationError(
+            f"the first line of {table} must name its columns ({wanted}); it is {column_names(table.head)}."
+        )
     if missing:
         raise DeclarationError(
             f"{table} has no column {', '.join(f'`{n}`' for n in missing)}; its columns: {column_names(table.head)}. "
@@ -243,3 +248,11 @@ def _at(case: Case, form: Formulation, step: int) -> Case:
 def _failed(now: Sequence[Measurement]) -> str:
     failed = next(m for m in now if m.error)
     return f"{failed.case}: {failed.error}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
