@@ -44,8 +44,8 @@ def told(case: Case) -> str:
 
     text = re.sub(re.escape(case.__code__.co_filename) + r":(\d+)", shift, text)
     text = re.sub(re.escape(str(models.__file__)) + r":\d+", "a shared line", text)
-    text = text.replace(str(Path.cwd()), "HERE")
-    return re.sub(r"/\S*/(\w+/\w+\.py):\d+", r"\1:*", text)
+    text = re.sub(r"/\S*/(\w+/\w+\.py):\d+", r"\1:*", text)
+    return text.replace(str(Path.cwd()), "HERE")
 
 
 def golden(name: str) -> dict[str, str]:
