@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
@@ -81,7 +82,11 @@ class Kept:
         try:
             return self._walk(str(key))
         except LookupError:
-            raise DeclarationError(unknown(str(key), self.names)) from None
+            raise DeclarationError(unknown(str(key), self.names, kind=self._kind(str(key)))) from None
+
+    def _kind(self, path: str) -> str:
+        told = re.search(r" is a part \((\w+)\)", self.refused.get(path.rpartition(".")[0], ""))
+        return told[1] if told else ""
 
     def _walk(self, path: str) -> Quantity:
         if path == "time" and path not in self.quantities:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 
-from acausal.flatten.tree import join, walk
+from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
-from acausal.language.fields import Variable
 from acausal.language.functions import PENDING, Pending
 from acausal.language.nearest import missing
 from acausal.result.files import shown_name
@@ -16,7 +15,7 @@ FILES = (".png", ".svg", ".pdf", ".csv")
 MOST = 10_000  # statements of one component that are read
 
 
-def unknown(path: str, known: list[str], tree: Component | None = None) -> str:
+def unknown(path: str, known: list[str], tree: Component | None = None, kind: str = "") -> str:
     """Return the message for a path that does not exist.
 
     Parameters
@@ -27,6 +26,8 @@ def unknown(path: str, known: list[str], tree: Component | None = None) -> str:
         What there is.
     tree : Component, optional
         The bound model, if there is one.
+    kind : str
+        Without one, the class of the part that the path names, "" if it is not known.
     """
     if not path.strip():
         return "the name of a variable is empty; give its path, such as 'beam.frame_b.r_0'."
@@ -34,22 +35,17 @@ def unknown(path: str, known: list[str], tree: Component | None = None) -> str:
     if derivative and derivative[1] in known:
         return f"`{path}` is not a variable of the model. {_of_derivative(derivative[1], known, tree)}"
     part = path.rpartition(".")[0]
-    kind = next((type(c).__name__ for c in walk(tree) if part and c._path == part), "") if tree else ""
-    mend = missing(path, _variables_first(known, part, tree), kind)
+    kind = (
+        next((type(c).__name__ for c in walk(tree) if part and "[" not in part and c._path == part), "")
+        if tree
+        else kind
+    )
+    mend = missing(path, known, kind)
     if plain in known and plain != path and "]." not in path:
         mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
     if path.endswith(FILES):
         mend = "; the name of a file is given by path=..."
     return f"there is no `{shown_name(path)}` in the model{mend}"
-
-
-def _variables_first(known: list[str], part: str, tree: Component | None) -> list[str]:
-    """The names, the variables of a part before its parameters."""
-    owner = next((c for c in walk(tree) if c._path == part), None) if tree else None
-    if owner is None:
-        return known
-    own = {join(part, name) for name, declared in owner.fields.items() if isinstance(declared, Variable)}
-    return sorted(known, key=lambda name: name not in own)
 
 
 def _of_derivative(name: str, known: list[str], tree: Component | None) -> str:

@@ -210,7 +210,7 @@ def test_interrupt(run, monkeypatch, tmp_path):
         (["mine.py:Oscillator", "--intervals", "0"], "intervals is 0; it must be a whole number of at least 1."),
         (
             ["mine.py:Oscillator", "--tolerance", "1"],
-            "tolerance is 1; it must lie between 0 and 1, for instance 1e-6.",
+            "tolerance is 1; it must lie between 1e-15 and 1, for instance 1e-6.",
         ),
         (
             ["mine.py:Oscillator", "--csv", "none/a.csv"],
@@ -246,7 +246,7 @@ def test_missing_start_value_tells_the_option(run):
             "file.",
         ),
         ("x = 1\n1 / 0\n", "{path}:2: ZeroDivisionError: division by zero"),
-        ("x = 1\n", "{name} has no class `A`; its models: none; derive a class from Model."),
+        ("x = 1\n", "{name} has no model: derive a class from Model."),
     ],
 )
 def test_broken_file(run, tmp_path, text, message):

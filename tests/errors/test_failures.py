@@ -76,7 +76,7 @@ def test_status_and_table_of_a_failure(file, tmp_path):
         (["spin-up", "--set", "volumes=0"], "it must be a number of at least 1"),
         (["spin-up", "--set", "E=-1"], "it must be greater than 0"),
         (["spin-up", "--stop-time", "-1"], "it must come after start_time"),
-        (["spin-up", "--tolerance", "2"], "it must lie between 0 and 1"),
+        (["spin-up", "--tolerance", "2"], "it must lie between 1e-15 and 1"),
         (["spin-up", "--intervals", "0"], "it must be a whole number of at least 1"),
         (["spin-up", "--max-order", "9"], "it must be a whole number from 1 to 5"),
         (["spin-up", "--method", "rk4"], "it must be one of auto, idas, rosenbrock, resolve"),

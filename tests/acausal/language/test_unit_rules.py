@@ -184,7 +184,7 @@ def test_values_of_parameters(wrong):
         inner = Inner(size=(Started.h0, Started.T if wrong else Started.h0, Started.T))
 
     if wrong:
-        with pytest.raises(UnitsError, match="its value"):
+        with pytest.raises(UnitsError, match="it is given as"):
             ac.compile(Outer())
     else:
         ac.compile(Outer())
