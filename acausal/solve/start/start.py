@@ -70,7 +70,7 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     try:
         begun = initialize(problem, time, head, initial)
     except Lost as lost:
-        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES) or str(lost)) from None
+        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, mend="") or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
         raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
     return begun
