@@ -145,9 +145,7 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
         )
     k = int(there.whole.solved[_heavy(right)[0]])
     here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
-    return (
-        f"this equation {here}:\n{lines}\n{another_guess(problem, k)}; if none helps, the equation may have no solution."
-    )
+    return f"this equation {here}:\n{lines}\n{another_guess(problem, k)}; if none helps, the equation may have no solution."
 
 
 def _same(there: _There) -> bool:

@@ -44,6 +44,7 @@ def told(case: Case) -> str:
 
     text = re.sub(re.escape(case.__code__.co_filename) + r":(\d+)", shift, text)
     text = re.sub(re.escape(str(models.__file__)) + r":\d+", "a shared line", text)
+    text = text.replace(f"directory {Path.cwd()}", "directory /here")
     return re.sub(r"/\S*/(\w+/\w+\.py):\d+", r"\1:*", text)
 
 
