@@ -134,7 +134,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
     value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
-    lines, positions = list[str](), False
+    lines = list[str]()
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
@@ -144,15 +144,13 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
         for text, open_ in zip(how, wide, strict=True):
             if open_:
                 through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
-                positions |= text is how[0]
                 lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
         if k not in c.closures and np.max(gap[list(rows)]) > LOOPS.closed:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
-    rates = {rate for _, rate in problem.rates} if positions else set()
-    given = [compiled.states[k] for k in np.intersect1d(held, c.states) if k not in rates]
+    given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if lines and np.max(gap) > LOOPS.closed:
         raise InitializationError("\n".join([_open_head(at.time, len(lines), bool(given)), *lines, _open_mend(given)]))
 
