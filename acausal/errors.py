@@ -62,11 +62,21 @@ class SimulationError(AcausalError):
         Time of the failure, the worst residuals by component, and the remedy.
     result : Result, optional
         The part of the simulation before the failure.
+
+    Attributes
+    ----------
+    begun : bool
+        Whether a step was taken.
     """
+
+    begun = True
 
     def __init__(self, message: str, result: object | None = None) -> None:
         super().__init__(message)
         self.result = result
+
+
+KEPT = "The result up to there is in error.result."
 
 
 class UnitsError(AcausalError):

@@ -21,6 +21,7 @@ from acausal.cli.common import (
     compile_scene,
     make_scene,
     running,
+    said,
     stop_time_of,
 )
 from acausal.cli.output import Files, Progress, check_outputs, modes_table, progress_bar, summary, write_json
@@ -214,5 +215,5 @@ def _rescue(compute: Callable[[Progress], Result], files: Files, patterns: list[
     except (SimulationError, KeyboardInterrupt) as stop:
         part = getattr(stop, "result", None)
         if isinstance(part, Result):
-            files.write(part, _chosen(part, patterns), error=str(stop) or "interrupted")
+            files.write(part, _chosen(part, patterns), error=said(stop) or "interrupted")
         raise

@@ -80,13 +80,18 @@ def running(json: str | None = None, quiet: bool = False) -> Iterator[IO[str]]:
     except MemoryError:
         _stop("there is not enough memory; take fewer intervals, elements or variables.", FAILED)
     except SimulationError as error:
-        _stop(f"the simulation failed: {error}", FAILED)
+        _stop(f"the simulation failed: {said(error)}", FAILED)
     except AcausalError as error:
         _stop(str(error), WRONG)
     except Terminated:
         _stop("terminated.", TERMINATED)
     except KeyboardInterrupt:
         _stop("interrupted.", INTERRUPTED)
+
+
+def said(error: BaseException) -> str:
+    """Return the message of an error as the command line says it: what was computed is written, not an attribute."""
+    return str(error).replace(" in error.result.", " kept.")
 
 
 class Terminated(KeyboardInterrupt):

@@ -241,10 +241,10 @@ class Guards:
         states = J.sparsity().get_triplet()[1]
         slopes: list[Any] = J.nonzeros()
         if len(states) != 1 or states[0] >= x.numel() or not slopes[0].is_constant():
-            names = ", ".join(f"`{self.reduced.names[s]}`" for s in self.reduced.plan.states) or "none"
+            names = ", ".join(f"`{self.reduced.names[s]}`" for s in self.reduced.plan.states) or "there is none"
             raise DeclarationError(
-                f"{guard.origin}: reinit({jump.target}, ...) needs a state or a discrete variable; the states are {names}. "
-                "Let one of these jump, or declare the variable with select=ALWAYS."
+                f"{guard.origin}: reinit({jump.target}, ...): {jump.target} cannot jump, because it follows from an equation. "
+                f"Let a state jump, here {names}, or a discrete variable."
             )
         k = states[0]
         return (True, k), x[k] + (value - target) / slopes[0]

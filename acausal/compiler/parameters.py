@@ -13,7 +13,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.given import numeric
+from acausal.flatten.given import numeric, owner_text
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -113,7 +113,11 @@ class Settable:
             if path in own.bound:
                 self.requirements.check(values)  # they know the cause, such as a wrong diameter
             bound = "greater than 0" if declared.positive else f"at least {declared.minimum:g}"
-            raise DeclarationError(f"`{path}` ({declared.description}) is {found[wrong[0]]:g}; it must be {bound}.")
+            owner = next((c for c in walk(self.tree) if c._path == path.rpartition(".")[0]), self.tree)
+            where = f" of {owner_text(owner)}" if owner._path else ""
+            raise DeclarationError(
+                f"`{path}` ({declared.description}){where} is {found[wrong[0]]:g}; it must be {bound}."
+            )
 
     @cached_property
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:

@@ -60,9 +60,13 @@ class Whole:
 
     def jacobian(self, *values: Any) -> np.ndarray:
         """Return the Jacobian of the equations by the unknowns that are solved for."""
+        return self.sensitivities(*values)[:, self.solved].toarray()
+
+    def sensitivities(self, *values: Any) -> scipy.sparse.csc_matrix:
+        """Return the Jacobian of the equations by all unknowns."""
         pattern = self.slopes.function.sparsity_out(0)
         entries = self.slopes(*values)[0].copy(), np.array(pattern.row()), np.array(pattern.colind())
-        return scipy.sparse.csc_matrix(entries, shape=pattern.shape)[:, self.solved].toarray()
+        return scipy.sparse.csc_matrix(entries, shape=pattern.shape)
 
 
 @once

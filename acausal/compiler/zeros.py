@@ -38,7 +38,11 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     def completes(*tried: str) -> bool | None:
         """Whether the model has as many equations as it needs, None where it rejects the values."""
         try:
-            plan_of(flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}}))
+            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}})
+        except AcausalError:
+            return None
+        try:
+            plan_of(tried_flat)
         except (UnbalancedModelError, StructurallySingularError):
             return False
         except AcausalError:

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.errors import DeclarationError
+from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, weighing
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.discontinuities import guards, promises
@@ -26,6 +26,7 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
 from acausal.flatten.tape import Linear, Tape, expression
+from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, scalars, stacked, vec
 
@@ -277,18 +278,6 @@ class Assembly:
 
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:
-            lines = [
-                f"  {self.origins[row]}: its sides differ by {value:.6g}" for row, value in done.contradictions[:5]
-            ]
-            others = dict.fromkeys(f"  {o}" for row, _ in done.contradictions[:5] for o in self._givers(row, done))
-            raise DeclarationError(
-                "\n".join(
-                    [
-                        "these equations contradict others, whatever the motion:",
-                        *lines,
-                        "The others:",
-                        *list(others)[:5],
-                    ]
-                )
-                + "\nA length, position or value is given twice with different values; remove one or make them agree."
-            )
+            wrong = [(self.origins[row], value) for row, value in done.contradictions]
+            others = dict.fromkeys(o for row, _ in done.contradictions[:5] for o in self._givers(row, done))
+            raise UnbalancedModelError(contradiction_text(self.raw.build.root, wrong, others))

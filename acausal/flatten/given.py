@@ -148,7 +148,8 @@ class Given:
                 raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
             if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
                 raise DeclarationError(
-                    f"{where} follows from others, but not to a finite number: one that divides is 0."
+                    f"{Origin.of(bound)}: {where} follows from others, but not to a finite number: one that divides is 0"
+                    f"{_zeros_of(bound)}. Give it another value."
                 )
             if ca.depends_on(given.sx, time.sx):
                 raise DeclarationError(
@@ -225,6 +226,13 @@ def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
     if not all(math.isfinite(x) for x in array.flat):
         raise DeclarationError(f"{where} is {value!r}; it must be finite.")
     return array
+
+
+def _zeros_of(bound: Component) -> str:
+    """Name the parameters of a component that are 0."""
+    known = [(n, vars(bound).get(n)) for n, d in bound.fields.items() if isinstance(d, f.Parameter)]
+    names = [f"`{n}`" for n, value in known if isinstance(value, Expr) and value.sx.is_zero()]
+    return f", here {' or '.join(names)}" if names else ""
 
 
 def _has_no_number(value: Any) -> bool:

@@ -13,6 +13,10 @@ from acausal.language.fields import Field
 from acausal.language.functions import PENDING
 from acausal.language.path import Path
 
+NOTHING = (
+    "A port that an option adds is None without it: give the part that option, such as Revolute(use_axis_flange=True)."
+)
+
 
 @dataclass(frozen=True, eq=False)
 class Connect:
@@ -117,7 +121,10 @@ def _port(item: Any, word: str) -> Connector:
     _refuse_outsider(item)
     if not isinstance(item, Connector):
         what = {"connect": "joins two ports", "branch": "relates two ports"}.get(word, "takes a port")
-        raise ConnectError(f"{word}() {what}, but {_describe(item)} is not a port. {_ports_of(item)}")
+        raise ConnectError(
+            f"{word}() {what}, but {'None is given' if item is None else f'{_describe(item)} is not a port'}. "
+            f"{_ports_of(item)}"
+        )
     return item
 
 
@@ -162,8 +169,8 @@ def _refuse_no_link(item: Any, place: int) -> None:
         )
     if item is None:
         raise ConnectError(
-            f"chain() joins parts and ports, but argument {place} is None. {_ports_of(None)} Leave a part that "
-            "is None out of the chain: `if self.part is not None: yield chain(...)`."
+            f"chain() joins parts and ports, but argument {place} is None. {NOTHING} Leave what is None out of the "
+            "chain: `if self.part is not None: yield chain(...)`."
         )
     if not isinstance(item, Component):
         raise ConnectError(f"chain() joins parts and ports, but argument {place}, {item!r}, is neither.")
@@ -186,6 +193,6 @@ def _describe(item: Any) -> str:
 
 def _ports_of(item: Any) -> str:
     if item is None:
-        return "A port that an option adds exists only with that option, such as use_axis_flange=True."
+        return NOTHING
     ports = item._ports if isinstance(item, Component) else ()
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -66,7 +66,7 @@ def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
     """
     form = "when(self.h < 0, reinit(self.v, 0))"
     if not isinstance(condition, Condition) or condition.excess.shape:
-        late = " At a fixed time it is time >= 2." if isinstance(condition, int | float | bool) else ""
+        late = f" At a fixed time it is time >= {condition:g}." if type(condition) in (int, float) else ""
         order = " The condition comes first." if isinstance(condition, Reinit) else ""
         raise DeclarationError(
             f"when needs a condition that compares two scalars by <, <=, > or >=, such as {form}.{late}{order}"

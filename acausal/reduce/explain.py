@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Mapping
 
@@ -11,8 +10,10 @@ import casadi as ca
 from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
+from acausal.flatten.whose import is_users
 from acausal.language.component import Connector
 from acausal.language.fields import Variable
+from acausal.language.functions import time
 from acausal.structure import StructuralSingularity, Subsystem
 from acausal.symbols import scalars
 
@@ -40,39 +41,27 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
     else:
         head = "the model has as many equations as unknowns, but they cannot determine all of them."
+    over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
     lines = [head]
-    if singularity.over:
-        lines += _too_many(flat, singularity.over[0])
-    if singularity.under:
-        lines += _too_few(flat, _together(singularity.under))
+    if over and under and not _hints(flat, under):
+        lines += _determined(flat, over[0])[0] + _undetermined(flat, under)
+        return "\n".join([*lines, f"One of the first equations should probably contain {_one_of(flat, under)}."])
+    if over:
+        lines += _too_many(flat, over[0])
+    if under:
+        lines += _too_few(flat, under)
     return "\n".join(lines)
+
+
+def _one_of(flat: FlatModel, part: Subsystem) -> str:
+    names = _names(flat, part)
+    return f"one of {names}" if len(part.variables) > 1 else names
 
 
 def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
     """Equations that determine too few unknowns, and the mend."""
-    rows = [e for e in part.equations if e < len(flat.equations.origins)]
-    bases = {
-        str(flat.equations.origins[e]): base for e in rows if (base := _inherited(flat, flat.equations.origins[e]))
-    }
-    n, own = len(part.variables), _equations(flat, part, bases)
-    others = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
-    if n:
-        others = [o for o in others if _is_users(flat, o) and f"  {o}" not in own]
-        lines = [
-            f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):",
-            *own,
-        ]
-        lines += ["with others that are given by:"] if others else []
-    else:
-        lines = [
-            f"{'This equation has' if len(own) == 1 else 'These equations have'} no unknown left to determine:",
-            *own,
-        ]
-        it = "it holds" if len(own) == 1 else "they hold"
-        lines.append(f"Others determine all that {it}:" if others else f"{it.capitalize()} only {KNOWN}")
-    lines += [f"  {line}" for line in list(dict.fromkeys(map(str, others)))[:MOST]]
-    mend = "One of them is too many: remove it." if n or others else f"Remove it. {DECLARED}"
-    if bases:
+    lines, mend = _determined(flat, part)
+    if any("(inherited from " in line for line in lines):
         mend += (
             " What is inherited comes by `yield from super().equations()`; leave that out where all of it is replaced."
         )
@@ -81,19 +70,78 @@ def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
     return [*lines, mend]
 
 
+def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
+    """Equations that determine too few unknowns, the user's own first where parts state the others; and the mend."""
+    origins = flat.equations.origins
+    rows = [e for e in part.equations if e < len(origins)]
+    bases = {str(origins[e]): base for e in rows if (base := _inherited(flat, origins[e]))}
+    inside = [o for o in dict.fromkeys(origins[e] for e in rows) if o.kind != "root"]
+    givers = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
+    every = dict.fromkeys([*inside, *givers])
+    users = _lines([o for o in every if is_users(flat.tree, o)], bases)
+    n = len(part.variables)
+    # Where unknowns are left, what parts gave of them is no more than how the equations were solved.
+    stated = [o for o in (inside if n else every) if not is_users(flat.tree, o)]
+    others = _lines(stated, bases)
+    if not n and not givers:
+        return _known(flat, rows, _lines(inside, bases))
+    if users and others:
+        one = len(users) == 1
+        head = "This equation has" if one else "One of these equations has"
+        held = f"These already determine what {'it holds' if one else 'they hold'}:"
+        mend = "Remove it." if one else "Remove one of yours."
+        return [f"{head} no unknown left to determine:", *users, held, *others], mend
+    if not n:
+        return ["One of these equations has no unknown left to determine:", *(users or others)], "Remove one of them."
+    count = f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):"
+    own = _lines(inside, bases)
+    given = [line for line in users if line not in own]
+    lines = [count, *own, *(["with others that are given by:", *given] if given else [])]
+    return lines, "One of them is too many: remove it."
+
+
+def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str], str]:
+    """Equations that hold only what is known before, and the mend."""
+    head = "This equation determines nothing:" if len(lines) == 1 else "These equations determine nothing:"
+    residuals, own = scalars(flat.equations.residuals), flat.parameters
+    inside = {s.element_hash() for e in rows for s in ca.symvar(residuals[e])}
+    symbols = zip(own.names, scalars(own.symbols), strict=True)
+    held = dict.fromkeys(name.partition("[")[0] for name, s in symbols if s.element_hash() in inside)
+    it = "It holds" if len(lines) == 1 else "They hold"
+    if not held:
+        what = "time and numbers." if inside == {time.sx.element_hash()} else KNOWN
+        return [head, *lines], f"{it} only {what} Remove it. {DECLARED}"
+    declared = {join(c._path, name): d for c in walk(flat.tree) for name, d in c.fields.items()}
+    what = [
+        f"`{name}` is {'an input of the model (0 unless given)' if isinstance(declared.get(name), Variable) else 'a parameter'}"
+        for name in held
+    ]
+    first = f"{', '.join(what[:SHORT])}. Declare"
+    mend = (
+        f"{first} it variable(...) if the equation is to determine it; or remove the equation."
+        if len(held) == 1
+        else f"{first} the one that is to follow from this variable(...); or remove the equation."
+    )
+    return [head, *lines], mend
+
+
 def _together(parts: tuple[Subsystem, ...]) -> Subsystem:
     """The smallest part; all that no equation holds, if it is one of these."""
     alone = [part for part in parts if not part.equations]
     return Subsystem.of((), (v for part in alone for v in part.variables)) if alone else parts[0]
 
 
+def _undetermined(flat: FlatModel, part: Subsystem) -> list[str]:
+    """What nothing determines, and what contains it."""
+    own = _equations(flat, part)
+    lines = [f"Nothing determines {_names(flat, part)}."]
+    return lines + (["Only these equations contain them:", *own] if own else [])
+
+
 def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
-    """What nothing determines, and the mend."""
+    """What nothing determines, the likely cause first, and the mend."""
     hints = _hints(flat, part)
-    lines = [f"Nothing determines {_names(flat, part)}.", *hints]
-    own = _equations(flat, part, {})
-    if own:
-        lines += ["Only these equations contain them:", *own]
+    lines = [*hints, *_undetermined(flat, part)]
     ports = any(line.startswith(UNCONNECTED) for line in hints)
     mend = (
         "Connect the part, or give it what is missing"
@@ -105,11 +153,6 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, mend + zero]
-
-
-def _is_users(flat: FlatModel, origin: Origin) -> bool:
-    """Whether an equation is stated in the file of the model itself."""
-    return origin.where.startswith(f"{inspect.getsourcefile(type(flat.tree))}:")
 
 
 def _inherited(flat: FlatModel, origin: Origin) -> str:
@@ -167,11 +210,16 @@ def _names(flat: FlatModel, part: Subsystem) -> str:
     return f"{text} and {more} more" + (f" of {parts}" if parts else "")
 
 
-def _equations(flat: FlatModel, part: Subsystem, bases: Mapping[str, str]) -> list[str]:
+def _equations(flat: FlatModel, part: Subsystem) -> list[str]:
     origins = flat.equations.origins
     # What the user wrote in the model itself is the likely slip.
     known = sorted((origins[e] for e in part.equations if e < len(origins)), key=lambda o: bool(o.path))
-    written = dict.fromkeys(str(o) for o in known if o.kind != "root")
+    return _lines([o for o in known if o.kind != "root"], {})
+
+
+def _lines(origins: list[Origin], bases: Mapping[str, str]) -> list[str]:
+    """List where equations are stated, some of many."""
+    written = dict.fromkeys(map(str, origins))
     rows = [f"  {line}{f' (inherited from {bases[line]})' if line in bases else ''}" for line in list(written)[:MOST]]
     more = len(written) - MOST
     return rows + ([f"  and {more} more"] if more > 0 else [])

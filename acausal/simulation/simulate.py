@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from acausal.compiler import CompiledModel, ready
-from acausal.errors import SimulationError, caution
+from acausal.errors import InitializationError, SimulationError, caution
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
@@ -103,6 +103,8 @@ def simulate(
     try:
         result = _simulate(model, parameters, task, accuracy)
     except SimulationError as failure:
+        if not failure.begun:
+            raise InitializationError(str(failure)) from None
         _warn(failure.result)
         raise
     _warn(result)

@@ -12,16 +12,12 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.compiler.whole import EQUATION, Row, Whole, whole
 from acausal.policy import POLICY
+from acausal.solve.guesses import ELSEWHERE, another_guess, mend_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 
 CAUSES = POLICY.causes
-ELSEWHERE = (
-    "Start elsewhere, start=... or fixed(...): an unknown without them begins at 0. Or say what holds there, "
-    "piecewise((value, condition), ..., otherwise)."
-)
-GUESSES = "Give a guess at which it does, variable(..., start=...) or guess(...): an unknown without one begins at 0."
 RANGE = ", which must lie between -1 and 1"
 WORDS = {
     ca.OP_DIV: "divides by {}",
@@ -73,9 +69,11 @@ class _There:
         return replace(self, p=p)
 
 
-def cause(problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,)) -> str:
+def cause(
+    problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), mend: str = ELSEWHERE
+) -> str:
     """Say why equations cannot be solved at a point, "" if nothing in the equations themselves tells."""
-    twice = "" if (missing := without_value(problem, at, flag, kinds)) else dependent(problem, at, flag)
+    twice = "" if (missing := without_value(problem, at, flag, kinds, mend)) else dependent(problem, at, flag)
     return missing or (f"at t = {at.time:.6g} s {twice}" if twice else "")
 
 
@@ -95,7 +93,7 @@ def without_value(
     kinds : iterable of str
         Rows that count, see `Row`.
     mend : str
-        What to do where no parameter is the cause.
+        What to do where no parameter is the cause; "" for what suits guesses and start values.
     """
     there = _There.of(problem, at, flag)
     rows = [row for row in there.failing() if row.kind in kinds]
@@ -107,7 +105,7 @@ def without_value(
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
     what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
     own = _mend(problem, there, rows, found[0][2])
-    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, own or mend])
+    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, own or mend or mend_of(problem, found[0][2])])
 
 
 def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
@@ -135,12 +133,30 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
         return f"{_of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
-    if len(inside) > 1:
+    if len(inside) > 1 and _same(there):
         return (
             f"these equations say the same, so that nothing determines {what}:\n{lines}\n"
             "Replace one of them by an equation that says something new."
         )
-    return f"this equation does not determine {what}:\n{lines}\n{GUESSES}"
+    if len(inside) > 1:
+        return (
+            f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
+            "Give other guesses; if none helps, they say the same or contradict each other: replace one of them."
+        )
+    k = int(there.whole.solved[_heavy(right)[0]])
+    here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
+    return f"this equation {here}:\n{lines}\n{another_guess(problem, k)}; if none helps, the equation may have no solution."
+
+
+def _same(there: _There) -> bool:
+    """Whether equations that depend on each other at a point hold there, and depend on each other beside it as well."""
+    left, _ = _null(there)
+    J = there.whole.sensitivities(*there.arguments)
+    size = abs(J) @ (np.abs(there.unknowns) + 1.0)
+    held = np.abs(there.whole.values(*there.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
+    move = POLICY.ranks.motion * np.random.default_rng(0).standard_normal((2, len(there.unknowns)))
+    beside = replace(there, unknowns=there.unknowns * (1.0 + move[0]) + move[1])
+    return bool(np.all(held[_heavy(left)])) and len(_null(beside)[1]) >= len(left)
 
 
 def infinite_slope(problem: Problem, at: Point) -> str:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from acausal.errors import KEPT
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, infinite_slope, without_value
@@ -31,7 +32,6 @@ MENDS = {
     None: "A value that grows without bound, a force that becomes infinite, or a jump inside a function stops a run. Check "
     "the equations above; write a jump as piecewise(...) or when(...).",
 }
-KEPT = "The result up to there is kept."
 
 
 def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace, failure: Failure) -> str:
@@ -52,16 +52,26 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
     """
     reached = bool(trace.pieces)
     at = problem.point(trace.pieces[-1].rows, -1) if reached else begun
-    lines = [f"the run stopped at t = {failure.time:.6g} s: {failure.reason}."]
+    begins = failure.time <= begun.time
+    head, kept = (
+        f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:",
+        "" if begins else KEPT,
+    )
     if failure.kind is None:
-        return f"{lines[0]} {KEPT}"
+        return f"{head} {failure.reason}. {kept}".rstrip()
+    lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at, left) or (left.singular and not reached):
-        return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {KEPT}"])
+        return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {kept}".rstrip()])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
-        return "\n".join([*lines, found[0].upper() + found[1:], KEPT])
+        # What fails in the equations explains all; that no step was short enough would be a second head.
+        same = f"at t = {failure.time:.6g} s "
+        lines = (
+            [f"{head} {found.removeprefix(same)}"] if found.startswith(same) else [*lines, found[0].upper() + found[1:]]
+        )
+        return "\n".join(filter(None, [*lines, kept]))
     mend = MENDS.get(failure.kind, MENDS[None])
-    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {KEPT}"])
+    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {kept}".rstrip()])
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:

@@ -171,7 +171,9 @@ def _raise(done: _Done, result: Result) -> NoReturn:
     if isinstance(failure, Failure):
         run = done.integrator
         text = failure_text(run.problem, done.at, done.begun.redundancy, run.trace, failure)
-        raise SimulationError(text, result)
+        error = SimulationError(text, result)
+        error.begun = failure.time > done.at.time
+        raise error
     if isinstance(failure, Chattering):
         raise SimulationError(str(failure), result)
     failure.result = result

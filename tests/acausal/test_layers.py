@@ -23,7 +23,20 @@ MAY = {
     "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
 }
 ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
-SOLVE = ("points", "problem", "hermite", "looks", "causes", "start", "integrate", "events", "checks", "failed", "run")
+SOLVE = (
+    "points",
+    "problem",
+    "hermite",
+    "looks",
+    "guesses",
+    "causes",
+    "start",
+    "integrate",
+    "events",
+    "checks",
+    "failed",
+    "run",
+)
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}
 
 

@@ -134,7 +134,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
     value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
-    lines = []
+    lines = list[str]()
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
@@ -151,12 +151,24 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
         if k not in c.closures and np.max(gap[list(rows)]) > LOOPS.closed:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
-    if given:
-        lines.append(f"Start values are fixed for {', '.join(f'`{name}`' for name in given)}: perhaps one too many.")
     if lines and np.max(gap) > LOOPS.closed:
-        raise InitializationError(
-            f"these loops cannot close at t = {at.time:g} s, for any position of their joints:\n"
-            + "\n".join(lines)
-            + "\nCheck lengths, free one of the fixed start values (guess(...) instead of fixed(...)), or give better "
-            "guesses of the joints' positions."
-        )
+        raise InitializationError("\n".join([_open_head(at.time, len(lines), bool(given)), *lines, _open_mend(given)]))
+
+
+def _open_head(time: float, n: int, fixed: bool) -> str:
+    one, at = n == 1, f"at t = {time:g} s"
+    if fixed:
+        return f"{'this loop does' if one else 'these loops do'} not close {at} with the start values that are fixed:"
+    which = "this loop closes" if one else "these loops close"
+    return f"{at} no position of the joints was found in which {which}:"
+
+
+def _open_mend(fixed: list[str]) -> str:
+    if not fixed:
+        return "Check lengths, or give better guesses of the joints' positions."
+    names = ", ".join(f"`{name}`" for name in fixed)
+    what = "Free it" if len(fixed) == 1 else "Free one of them"
+    return (
+        f"Start values are fixed for {names}. {what}, guess(...) instead of fixed(...); or check lengths and the guesses "
+        "of the other joints' positions."
+    )

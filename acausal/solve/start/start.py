@@ -44,6 +44,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """
     guards, p = problem.compiled.guards, problem.p
     head = problem.compiled.guards.estimate(p, later)[0].copy()
+    previous = older = head
     for _ in range(POLICY.switches.rounds):
         begun = _begun(problem, time, head, initial)
         at = begun.point
@@ -55,8 +56,13 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         new[own] = found[own]
         if np.allclose(new, head, rtol=POLICY.switches.same, atol=0.0):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
-        previous, head = head, new
+        older, previous, head = previous, head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
+    if len(places := set(places_text(problem.compiled, wrong).splitlines())) == 1 and np.array_equal(older, head):
+        raise InitializationError(
+            f"at t = {time:g} s this condition contradicts its own consequence, whether it is true or false:\n"
+            f"{places.pop()}\nGive other start values, or change what holds where it is true, or where it is false."
+        )
     raise InitializationError(
         f"no switches fit the values at the start, t = {time:g} s; after {POLICY.switches.rounds} rounds these "
         "conditions still change:\n"
@@ -70,7 +76,7 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     try:
         begun = initialize(problem, time, head, initial)
     except Lost as lost:
-        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES) or str(lost)) from None
+        raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, mend="") or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
         raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
     return begun

@@ -18,8 +18,7 @@ def missing_text(compiled: CompiledModel, free: list[int]) -> str:
     """List the undetermined states, and what would fix each."""
     names = [compiled.states[k] for k in free]
     lines = [
-        f"the initial system leaves {len(free)} state{'s' if len(free) > 1 else ''} undetermined: "
-        "too few start values are fixed (the model itself is complete).",
+        f"{len(free)} start value{'s are' if len(free) > 1 else ' is'} missing (the model itself is complete). "
         "Fix for instance:",
     ]
     lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled, name) for name in names))[:10]]

@@ -75,7 +75,7 @@ class Guessed(Decay):
 def test_initial():
     assert ac.simulate(Guessed()).stats["method"] == "idas"
     assert ac.linearize(Guessed()).A.item() == pytest.approx(-1)
-    with pytest.raises(ac.InitializationError, match="1 state undetermined"):
+    with pytest.raises(ac.InitializationError, match="1 start value is missing"):
         ac.simulate(Guessed(), initial="fixed")
     with pytest.raises(DeclarationError, match="initial is 'rest'; it must be one of"):
         ac.simulate(type("M", (Guessed,), {"initial": "rest"})())

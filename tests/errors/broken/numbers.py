@@ -99,6 +99,16 @@ def implicit_without_guess(repaired):
     ac.simulate(M(), stop_time=0.1)
 
 
+def square_that_is_negative(repaired):
+    class M(Decay):
+        z: Scalar = variable("z", start=1 if repaired else 0)
+
+        def more(self):
+            yield self.z**2 == (1 if repaired else -1)
+
+    ac.simulate(M(), stop_time=0.1)
+
+
 def logarithm_of_a_guess(repaired):
     class M(Decay):
         z: Scalar = variable("z", start=1 if repaired else 0)

@@ -55,6 +55,27 @@ def same_sine(repaired):
     ac.simulate(M(), stop_time=0.1)
 
 
+def touching(repaired):
+    class M(Two):
+        def more(self):
+            yield self.a + self.b == self.x
+            yield self.a * self.b == (0.24 if repaired else 0.25)
+
+        a: Scalar = variable("a", start=0.6 if repaired else 0.5)
+        b: Scalar = variable("b", start=0.4 if repaired else 0.5)
+
+    ac.simulate(M(), stop_time=0.1) if not repaired else ac.compile(M())
+
+
+def sum_by_its_sine_and_cosine(repaired):
+    class M(Two):
+        def more(self):
+            yield sin(self.a + self.b) == 0.5 * self.x
+            yield cos(self.a - (self.b if repaired else -self.b)) == self.x
+
+    ac.compile(M()) if repaired else ac.simulate(M(), stop_time=0.1)
+
+
 def same_rates(repaired):
     class M(Model):
         x: Scalar = variable("x", start=1, fixed=True)

@@ -117,7 +117,7 @@ class Crossed(Turned):
 @pytest.mark.parametrize("method", ["auto", "rosenbrock"])
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 def test_rates_with_which_the_loop_opens_are_named(method: str, angle: float) -> None:
-    with pytest.raises(ac.InitializationError, match=r"(?s)cannot close.*`pin1.w`.*one too many"):
+    with pytest.raises(ac.InitializationError, match=r"(?s)does not close.*`pin1.w`.*Free"):
         ac.simulate(Crossed(angle=angle, speed=(1.0, 7.0)), stop_time=1, method=method)
 
 

@@ -104,7 +104,7 @@ def test_one_start_value_too_many_is_told_with_what_could_be_freed() -> None:
 
 
 def test_velocity_that_nobody_gives_is_asked_for() -> None:
-    with pytest.raises(ac.InitializationError, match=r"1 state undetermined.*\n.*\n  \w+: Revolute\(w=fixed"):
+    with pytest.raises(ac.InitializationError, match=r"1 start value is missing.*\n  \w+: Revolute\(w=fixed"):
         ac.simulate(Crank(slider=Prismatic(s=fixed(0.35))), stop_time=0.1)
 
 
@@ -126,7 +126,7 @@ class Linkage(Model):
 
 def test_loop_with_sphericals_starts_and_moves() -> None:
     compiled = ac.compile(Linkage())
-    with pytest.raises(ac.InitializationError, match="2 states undetermined"):
+    with pytest.raises(ac.InitializationError, match="2 start values are missing"):
         ac.simulate(compiled, stop_time=0.1)
     energies, ends = [], []
     for tolerance in (1e-6, 1e-8):

@@ -1,0 +1,53 @@
+"""Whose an equation is: the user's model states it, or a part does; and equations that contradict each other."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable
+
+from acausal.errors import PACKAGE
+from acausal.flatten.origin import Origin
+from acausal.language.component import Component
+
+MOST = 5
+
+
+def is_users(tree: Component, origin: Origin) -> bool:
+    """Return whether an equation is stated in a file of the model's own classes, where the likely slip is.
+
+    Parameters
+    ----------
+    tree : Component
+        The model.
+    origin : Origin
+        Of the equation.
+    """
+    files = {inspect.getsourcefile(c) for c in type(tree).__mro__ if c is not object}
+    return origin.where.rpartition(":")[0] in {f for f in files if f and not f.startswith(PACKAGE)}
+
+
+def contradiction_text(tree: Component, wrong: list[tuple[Origin, float]], others: Iterable[Origin]) -> str:
+    """Say which equations contradict each other whatever their unknowns are, the user's own first.
+
+    Parameters
+    ----------
+    tree : Component
+        The model.
+    wrong : list of (Origin, float)
+        Equations in which no unknown is left, and by how much their sides differ.
+    others : iterable of Origin
+        What gave their unknowns.
+    """
+    own = {origin: f": its sides differ by {value:.6g}" for origin, value in wrong[:MOST]}
+    every = own | {origin: "" for origin in others if origin not in own}
+    groups = [[f"  {o}{text}" for o, text in every.items() if is_users(tree, o) == users] for users in (True, False)]
+    first, second = groups if all(groups) else ([*groups[0], *groups[1]], [])
+    one = len(first) == 1
+    what = "this equation contradicts" if one else "these equations contradict"
+    lines = [
+        f"{what} {'others' if second else 'each other'}, whatever the values of {'its' if one else 'their'} unknowns:"
+    ]
+    lines += first[:MOST] + (["The others:", *second[:MOST]] if second else [])
+    return "\n".join(
+        [*lines, "A length, position or value is given twice with different values; remove one or make them agree."]
+    )

@@ -1,0 +1,50 @@
+"""What to do about values of unknowns at which equations fail: another guess, another start, or another law there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from acausal.solve.problem import Problem
+from acausal.symbols import scalars
+
+PIECEWISE = "say what holds there: piecewise((value, condition), ..., otherwise)."
+ELSEWHERE = f"Start elsewhere, or {PIECEWISE}"
+
+
+def mend_of(problem: Problem, operand: Any) -> str:
+    """Say what to do where an expression has a value at the start that an equation does not allow.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    operand : casadi.SX
+        The expression, in unknowns of the model.
+    """
+    r = problem.compiled.reduced
+    place = {s.element_hash(): k for k, s in enumerate(scalars(r.unknowns))}
+    inside = [place[s.element_hash()] for s in ca.symvar(r.resolve(operand)) if s.element_hash() in place]
+    fixed = _fixed(problem)
+    free = [k for k in inside if r.unknowns[k].element_hash() not in fixed and r.names[k]]
+    if free:
+        return f"{another_guess(problem, free[0])}."
+    if inside:
+        return f"Start {' or '.join(f'`{r.names[k]}`' for k in inside[:3])} elsewhere, or {PIECEWISE}"
+    return ELSEWHERE
+
+
+def another_guess(problem: Problem, unknown: int) -> str:
+    """Say how an unknown is given another guess, without the full stop."""
+    r = problem.compiled.reduced
+    told = r.flat.unknowns.guessed
+    begins = "" if unknown < len(told) and told[unknown] else " (without one it begins at 0)"
+    return f"Give another guess of `{r.names[unknown]}`, variable(..., start=1) or guess(...){begins}"
+
+
+def _fixed(problem: Problem) -> set[int]:
+    """Unknowns whose values at the start are fixed."""
+    conditions = problem.compiled.reduced.flat.equations.initial
+    alone = [ca.symvar(c.residual) for c in conditions if c.text != "initial equation"]
+    return {symbols[0].element_hash() for symbols in alone if len(symbols) == 1}
