@@ -36,7 +36,7 @@ TAKES = {
 }
 BARE = {
     "requirements": 'yield require(a < b, "what is wrong otherwise")',
-    "validity": 'yield expect(a < b, "what is neglected otherwise")',
+    "validity": 'yield expect(part, whole, 0.01, "what is neglected")',
 }
 
 
@@ -54,10 +54,12 @@ def misplaced(statement: Any, method: str) -> str:
     several = isinstance(statement, list | tuple) and bool(statement)
     first = statement[0] if several and isinstance(statement[0], Connect | Equation) else statement
     for kind, (word, home) in HOMES.items():
-        if isinstance(first, kind) and home != f"{method}()" and not (kind is Equation and "equations" in method):
+        takes_it = kind is Equation and ("equations" in method or method in BARE)
+        if isinstance(first, kind) and home != f"{method}()" and not takes_it:
             return f"{method}() yields {word}, which belongs to {home}: write it there."
-    if isinstance(first, Condition) and method in BARE:
-        return f"{method}() yields a bare inequality; write {BARE[method]}."
+    if isinstance(first, Condition | Equation) and method in BARE:
+        word = "an equation" if isinstance(first, Equation) else "a bare inequality"
+        return f"{method}() yields {word}; write {BARE[method]}."
     what, mend = _described(statement, method)
     return f"{method}() yields {what}; yield {takes}.{f' {mend}' if mend else ''}"
 

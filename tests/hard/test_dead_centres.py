@@ -97,5 +97,5 @@ class BySliderSpeed(Rigid):
 
 
 def test_speed_of_the_slider_in_a_dead_centre_is_no_start():
-    with pytest.raises(ac.InitializationError, match=r"1 state undetermined[\s\S]*Revolute\(w=fixed"):
+    with pytest.raises(ac.InitializationError, match=r"1 start value is missing[\s\S]*Revolute\(w=fixed"):
         ac.simulate(BySliderSpeed(), stop_time=1.0)

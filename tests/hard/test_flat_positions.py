@@ -151,7 +151,7 @@ def test_antiparallelogram_from_its_flat_position(rate):
 
 
 def test_one_speed_does_not_choose_a_branch():
-    with pytest.raises(ac.InitializationError, match=r"1 state undetermined[\s\S]*w=fixed"):
+    with pytest.raises(ac.InitializationError, match=r"1 start value is missing[\s\S]*w=fixed"):
         ac.simulate(Parallelogram(given=False), stop_time=1.0)
 
 

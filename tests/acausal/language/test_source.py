@@ -56,7 +56,7 @@ FIRST = HEAD.count("\n") + 2
     ],
 )
 def test_what_is_refused(text, line, message):
-    with pytest.raises(ac.DeclarationError, match=rf"\.py:{FIRST + line}: .*{message}"):
+    with pytest.raises(ac.AcausalError, match=rf"\.py:{FIRST + line}: .*{message}"):
         built(text)
     built(text, known=False)  # without its text nothing is known
 

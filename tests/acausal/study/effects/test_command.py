@@ -109,7 +109,7 @@ def test_other_commands_take_effects_as_well(scene, tmp_path, command):
     [
         ({"effects": {"leaf.bend": True}}, "no `leaf.bend` among the effects of the scene; did you mean `leaf.bent`"),
         ({"effects": {"leaf_kind": "none", "leaf.bent": True}}, "no `leaf.bent` among the effects of the scene"),
-        ({"effects": {"steep": "very"}}, "`steep` of Tree is 'very'; it must be one of True, False"),
+        ({"effects": {"steep": "very"}}, '`steep` of Tree is "very"; it must be true or false'),
         ({"effects": None}, "contains no choices of effects; `acausal effects"),
         ({"scene": "slider-crank"}, "is for the scene slider-crank, not for"),
     ],

@@ -70,7 +70,7 @@ def test_a_table_as_reference(run, tmp_path):
         ),
         (["--switch", "rate"], "--switch takes NAME=VALUE,VALUE, such as --switch crank=elastic,rigid, not `rate`."),
         (["--workers", "0"], "workers is 0; it must be a whole number of at least 1."),
-        (["--outputs", "z"], "there is no `z` in the model."),
+        (["--outputs", "z"], "there is no `z` in the model; it has"),
         (["--plot", "a.txt"], "cannot write a.txt: a picture's name ends in .png, .svg or .pdf."),
         (["--csv", "none/a.csv"], "cannot write none/a.csv: there is no directory {dir}/none; create it first."),
         (["--cluster", "nowhere"], "there is no Dask scheduler at nowhere"),

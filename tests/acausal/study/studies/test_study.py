@@ -108,7 +108,7 @@ def _place() -> int:
     ("options", "message"),
     [
         ({"outputs": ["y"]}, "there is no `y` in the model"),
-        ({"tolerances": (2.0,)}, "a tolerance is 2.0; it must lie between 1e-12 and 1"),
+        ({"tolerances": (2.0,)}, "tolerances has 2.0; it must lie between 1e-12 and 1"),
         ({"tolerances": ()}, "tolerances is empty; give at least one"),
         ({"max_orders": (7,)}, "a limit of the order is 7; it must be a whole number from 1 to 5"),
         ({"methods": ("euler",)}, "methods has 'euler'; it must be one of auto, idas"),
