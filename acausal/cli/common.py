@@ -16,7 +16,7 @@ import typer
 
 from acausal.cli.faults import brief, ended, place_in
 from acausal.cli.scenes import instance
-from acausal.cli.streams import aside, tell, unwritten
+from acausal.cli.streams import WRONG, aside, tell, unwritten
 from acausal.cli.values import read_settings
 from acausal.errors import AcausalError, AcausalWarning, DeclarationError, SimulationError
 from acausal.language.component import Model
@@ -26,7 +26,7 @@ from acausal.simulation.stop_time import own_stop_time
 if TYPE_CHECKING:
     from acausal.compiler import CompiledModel
 
-FAILED, WRONG, INTERRUPTED, TERMINATED = 1, 2, 130, 143
+FAILED, INTERRUPTED, TERMINATED = 1, 130, 143
 # What a full, closed or unread standard output gives.
 NO_OUTPUT = (errno.EPIPE, errno.ENOSPC, errno.EBADF, errno.EIO, errno.EFBIG)
 STOP_TIME = 1.0  # of a model that declares none, in s

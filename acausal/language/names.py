@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping
+from functools import cache
 from types import FunctionType
 from typing import Any
 
@@ -92,7 +93,9 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
     if not inspect.isfunction(old) or name[0] == "_":
         plain = name in PLAIN and not field and not callable(value)
         return "" if plain else "this name is used by the engine; give it another one."
-    written = ", ".join(list(inspect.signature(old).parameters))
+    if isinstance(value, FunctionType) and _takes(value, old):
+        return ""
+    written = ", ".join(_arguments(old))
     form = f"`def {name}({written}): {EXAMPLES.get(name, 'return ...')}`"
     if not isinstance(value, FunctionType):
         marked = isinstance(value, property | staticmethod | classmethod)
@@ -101,14 +104,18 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
             f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
         )
         return f"every component has a method of this name, {form}; {other}"
-    return "" if _takes(value, old) else f"this method takes {'self alone' if written == 'self' else written}: {form}."
+    return f"this method takes {'self alone' if written == 'self' else written}: {form}."
+
+
+@cache
+def _arguments(method: FunctionType) -> tuple[str, ...]:
+    return tuple(inspect.signature(method).parameters)
 
 
 def _takes(method: FunctionType, old: FunctionType) -> bool:
     """Whether a method can be called like the one that it overrides."""
-    given = list(inspect.signature(old).parameters)
     try:
-        inspect.signature(method).bind(*given)
+        inspect.signature(method).bind(*_arguments(old))
     except TypeError:
         return False
     return True
