@@ -219,10 +219,12 @@ class Run:
         on_output = abs(near - after.time) <= snap
         label = float(near) if on_output and near > at.time else after.time
         n = int(np.searchsorted(stretch.times, min(label, after.time)))
+        last = at
         if n:
-            self.integrator.trace.add(stretch.part(0, n))
+            before = stretch.part(0, n)
+            self.integrator.trace.add(before)
+            last = before.end(at)
         self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
-        last = stretch.part(0, n).end(at) if n else at
         gained = work_between(self.integrator, replace(last, constants=after.at.constants), after.at)
         reached = replace(after.at, time=max(label, after.time))
         new = self._jump(reached, label, gained, crossed=out)

@@ -142,18 +142,15 @@ class Integrator:
         steps = trace.count(way.method, *method.counted(call.stats))
         if not done:
             return read(said, times[0], times[-1])
-        states, algebraics, energy = setup.rows(call)
-        rows = Rows.within(times[1:], states, algebraics, at.constants.vector)
-        if self._is_worn(rows, at.constants):
+        found = setup.stretch(call, at, times, steps)
+        if self._is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
         few = POLICY.energy.resolved if method.multistep and way.order <= 2 else 1
-        if energy is not None and not c.powers.is_zero() and steps < n * few:
-            given = np.vstack([np.zeros((1, 2)), energy])
-            whole = Rows.joined([Rows.of(at), rows])
-            work, known = refined(self.consistent, whole, given, way.tolerance, steps < n)
-            energy, trace.rough = work[1:], trace.rough or not known
-        energy = np.zeros((n, 2)) if energy is None else energy
-        return Stretch(rows, energy, at.constants, steps)
+        if call.function.nnz_out("qf") and not c.powers.is_zero() and steps < n * few:
+            given = np.vstack([np.zeros((1, 2)), found.energy])
+            work, known = refined(self.consistent, found.since(at), given, way.tolerance, steps < n)
+            found, trace.rough = replace(found, energy=work[1:]), trace.rough or not known
+        return found
 
     def _keep_reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> None:
         """Keep the rows that an interrupted call had written, unless it was a trial on the way."""

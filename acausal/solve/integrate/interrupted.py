@@ -10,7 +10,7 @@ from acausal.compiler.call import Call
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.methods import Setup
 from acausal.solve.integrate.trace import Stretch
-from acausal.solve.points import Point, Rows
+from acausal.solve.points import Point
 
 
 def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Stretch | None:
@@ -31,10 +31,8 @@ def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: 
     times : array
         Its start and output times.
     """
-    x, z, energy = setup.rows(call)
-    energy = np.zeros((len(x), 2)) if energy is None else energy
-    whole = np.isfinite(np.hstack([x, z, energy])).all(axis=1)
-    found = Stretch(Rows.within(times[1:], x, z, at.constants.vector), energy, at.constants, 0)
+    found = setup.stretch(call, at, times)
+    whole = np.isfinite(np.hstack([found.rows.x, found.rows.z, found.energy])).all(axis=1)
     found = found.part(0, _leading(whole))
     if not len(found.rows):
         return None

@@ -18,7 +18,8 @@ from acausal.compiler.dae import UNSEEN
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
-from acausal.solve.points import Point
+from acausal.solve.integrate.trace import Stretch
+from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 
 CALLS = POLICY.calls
@@ -42,12 +43,13 @@ class Setup:
                 call.inputs[k][:] = given[name]
         call.clear()
 
-    def rows(self, call: Call) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
-        """Return states, algebraic unknowns and integrals of power that a call has found; None where it has no such."""
+    def stretch(self, call: Call, at: Point, times: np.ndarray, steps: int = 0) -> Stretch:
+        """Return what a call from a point has found at its output times; integrals of power that it has not are 0."""
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n, (x_size, z_size) = call.function.size2_out("xf"), self.sizes or (1.0, 1.0)
         x, z = out["xf"].reshape(n, -1) * x_size, out["zf"].reshape(n, -1) * z_size
-        return x, z, out["qf"].reshape(n, 2).copy() if out["qf"].size else None
+        energy = out["qf"].reshape(n, 2).copy() if out["qf"].size else np.zeros((n, 2))
+        return Stretch(Rows.within(times[1:], x, z, at.constants.vector), energy, at.constants, steps)
 
 
 @dataclass(frozen=True)
