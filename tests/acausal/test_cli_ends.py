@@ -315,7 +315,7 @@ def lives(pid):
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks into /proc")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGTERM, pytest.param(signal.SIGKILL, marks=pytest.mark.slow)])
 def test_workers_do_not_outlive_a_study(start, number):
     arguments = ("--stop-time", 1000, "--tolerances", "1e-8,1e-9", "--workers", 2, "--quiet")
     process = start("study", "ends.py:Fast", *arguments)

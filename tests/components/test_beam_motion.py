@@ -126,6 +126,7 @@ def test_free_beam_tumbles(reference):
     np.testing.assert_allclose(np.sum(result["handle.frame_a.Q"] ** 2, axis=1), 1, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_tangent_and_pinned_differ_by_the_second_order():
     """Both lack the shortening by bending, in different frames; axial forces act on it: (speed / frequency)^2 counts.
 

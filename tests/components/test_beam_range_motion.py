@@ -170,7 +170,10 @@ class Coupler(Model):
         yield chain(self.world, self.guide, self.slider)
 
 
-@pytest.mark.parametrize(("speed", "warns"), [pytest.param(1, False, marks=pytest.mark.slow), (20, True), (30, True)])
+@pytest.mark.parametrize(
+    ("speed", "warns"),
+    [*(pytest.param(speed, warns, marks=pytest.mark.slow) for speed, warns in [(1, False), (20, True)]), (30, True)],
+)
 def test_coupler(speed, warns):
     options = {"stop_time": 12 / speed, "tolerance": 1e-5, "parameters": {"speed": speed}}
     texts, linear = doubts(compiled(Coupler), **options)

@@ -101,15 +101,20 @@ class Deep(Model):
     ("model", "what"),
     [
         (SameEquation, r"SameEquation, .*: equations\(\) has"),
-        (Deep, r"inner \(SameEquation\), .*: equations\(\) has"),
-        (SameWhen, r"SameWhen, .*: equations\(\) has"),
-        (SameStart, r"SameStart, .*: initial_equations\(\) has"),
-        (SameConnection, r"SameConnection, .*: connections\(\) has"),
-        (SameChain, r"SameChain, .*: connections\(\) has"),
-        (SameRoot, r"SameRoot, .*: connections\(\) has"),
         (NestedGenerators, r"NestedGenerators, .*: connections\(\) has"),
-        (EmptyLists, r"EmptyLists, .*: connections\(\) has"),
         (EndlessParts, r"EndlessParts, .*: bodies: the list of parts has"),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in [
+                (Deep, r"inner \(SameEquation\), .*: equations\(\) has"),
+                (SameWhen, r"SameWhen, .*: equations\(\) has"),
+                (SameStart, r"SameStart, .*: initial_equations\(\) has"),
+                (SameConnection, r"SameConnection, .*: connections\(\) has"),
+                (SameChain, r"SameChain, .*: connections\(\) has"),
+                (SameRoot, r"SameRoot, .*: connections\(\) has"),
+                (EmptyLists, r"EmptyLists, .*: connections\(\) has"),
+            ]
+        ),
     ],
 )
 def test_a_generator_that_does_not_end_is_named_with_its_line(model, what):

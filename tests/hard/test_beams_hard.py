@@ -130,6 +130,7 @@ def test_spin_up_at_50_with_tangent_volumes():
     within("stretch, relative", off, (WAVE * 8 / 40) ** 2 + SWINGING)
 
 
+@pytest.mark.slow
 @pytest.mark.xfail(strict=True, reason="a volume lacks the tension within it: N l^2 / EJ = 18 bends it without limit")
 def test_spin_up_at_50_with_few_tangent_volumes():
     model = SpinUp50(volumes=10, reference="tangent")
@@ -192,6 +193,7 @@ class Tumbling(Model):
         yield connect(self.handle.frame_a, self.beam.frame_a)
 
 
+@pytest.mark.slow
 def test_free_beam_tumbles_about_all_axes():
     """Momentum, angular momentum and energy by quadrature over material points."""
     stop, tolerance = 5.0, 1e-8

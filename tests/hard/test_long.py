@@ -133,6 +133,7 @@ def test_1000_turns_about_a_stable_axis(axis):
     spun((1.0, 2.0, 3.0), tuple(spin), 1000, 1e-8)
 
 
+@pytest.mark.slow
 def test_1000_turns_of_a_symmetric_top():
     """Closed form: the angular velocity turns about the axis of symmetry at (I3 / I1 - 1) w3."""
     spin, tolerance = (1.0, 0.0, 2 * np.pi), 1e-9

@@ -55,6 +55,7 @@ def test_two_identical_loops_in_parallel():
     within("closing gap of both loops, m", max(gap(result), gap(result, "_b")), 1e-7)
 
 
+@pytest.mark.slow
 def test_bearing_force_of_two_loops_in_parallel():
     """How the couplers share their load is open, but the bearings bear what they bear with one coupler of double mass."""
     how = {"stop_time": 0.5, "tolerance": 1e-8, "intervals": 10}
@@ -90,9 +91,8 @@ class Inclined(Model):
         yield chain(self.j1.support, self.damper, self.j1.axis)
 
 
-@pytest.mark.parametrize(
-    "constraints", ["auto", *(pytest.param(way, marks=pytest.mark.slow) for way in ("states", "projection"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("constraints", ["auto", "states", "projection"])
 def test_planar_loop_in_an_inclined_plane(constraints):
     """Three constraints are redundant up to rounding only."""
     result = ac.simulate(Inclined(), stop_time=5.0, tolerance=1e-8, intervals=50, constraints=constraints)

@@ -104,7 +104,8 @@ for N in (1, 2, 5, 10):
         parallel_gap,
         1e-3,
     )
-every = pytest.mark.parametrize("name", CASES)
+NAMES = {name: pytest.param(name, marks=pytest.mark.slow if name == "n-four-bar, N=10" else ()) for name in CASES}
+every = pytest.mark.parametrize("name", list(NAMES.values()))
 
 
 @cache
@@ -168,7 +169,7 @@ def test_reference(name):
         assert error.max() < case.error, output
 
 
-@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.gap])
+@pytest.mark.parametrize("name", [NAMES[name] for name, case in CASES.items() if case.gap])
 def test_loops_stay_closed(name):
     case = CASES[name]
     assert case.gap is not None
@@ -244,6 +245,7 @@ def test_slider_crank_refuses_elements_that_do_not_fill_the_volumes():
         ac.compile(SliderCrank(rod_elements=9, rod_volumes=4))
 
 
+@pytest.mark.slow
 def test_elastic_slider_crank():
     """Little differs from the rigid one; one frame and four volumes of the same elements differ in stiffness alone."""
     how = {"stop_time": 0.5, "tolerance": 1e-4, "intervals": 50}

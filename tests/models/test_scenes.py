@@ -22,7 +22,7 @@ from tests.shared import CONTRACT
 
 ROOT = Path(models.__file__).parents[1]
 SPIN_UP = {"stop_time": 20.0, "tolerance": 1e-8}
-QUICK = ("simple-pendulum", "four-bar", "governor", "spin-up")
+QUICK = ("simple-pendulum", "four-bar", "spin-up")
 
 
 @pytest.mark.parametrize(

@@ -48,6 +48,7 @@ def test_spatial_four_bar_stays_closed_and_keeps_its_energy():
     assert max(mechanism.gap(state) for state in states) < 1e-9
 
 
+@pytest.mark.slow
 def test_planar_four_bar_as_a_spatial_loop():
     """Three constraints are redundant; the motion is that of one coordinate."""
     machine = FourBar(damping=0.0)

@@ -149,6 +149,7 @@ def run(compiled):
     return ac.simulate(compiled, **TANK)
 
 
+@pytest.mark.slow
 def test_a_pool_of_processes_takes_and_gives_both():
     compiled = ac.compile(Plant())
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:

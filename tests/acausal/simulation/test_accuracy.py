@@ -182,6 +182,7 @@ def test_elements_of_the_pendulum():
     assert result.stats["error_elements"] > 0
 
 
+@pytest.mark.slow
 def test_seconds_and_counts_are_those_of_all_runs():
     stats = ac.simulate(SpinUp(), stop_time=20.0, accuracy=0.1, parameters=ADAPTIVE).stats
     assert len(stats["trials"]) >= 3
@@ -201,6 +202,7 @@ def test_options_stay():
     assert result.time[0] == 0.5
 
 
+@pytest.mark.slow
 def test_vibrations_are_followed_at_high_order_where_that_costs_less():
     stats, _ = measured("free-vibration", 1e-4)
     assert stats["chosen"]["max_order"] == 5

@@ -58,7 +58,7 @@ def interrupted(at: int | None, **how):
 
 
 @pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
-@pytest.mark.parametrize("energy", [False, True])
+@pytest.mark.parametrize("energy", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_interrupted_anywhere(energy, method):
     model = ac.compile(Bounces())
     how = {"model": model, "stop_time": 2.5, "intervals": 50, "method": method, "energy": energy}

@@ -114,9 +114,10 @@ def run(name: str, units: tuple[float, ...], part: float = 1.0) -> tuple[dict[st
 
 
 UNITS = [tuple(factor if k == place else 1.0 for k in range(3)) for place in range(3) for factor in (MUCH, 1 / MUCH)]
-# Each scene with one of them, and with the others in the slow tests.
+LONG = ("slider-crank", "squeezer", "bricard", "four-bar-spatial", "n-four-bar")
+# Each scene that runs quickly with one of them; the rest is slow.
 CASES = [
-    pytest.param(name, units, marks=() if k % len(UNITS) == place else pytest.mark.slow)
+    pytest.param(name, units, marks=() if k % len(UNITS) == place and name not in LONG else pytest.mark.slow)
     for k, name in enumerate(SCENES)
     for place, units in enumerate(UNITS)
 ]

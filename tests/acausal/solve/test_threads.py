@@ -84,6 +84,7 @@ def test_shared_models(jobs, threads, round_):
     assert_same(found, expected)
 
 
+@pytest.mark.slow
 def test_models_that_are_compiled_by_threads():
     def task(model, name, value, options):
         return read(ac.simulate(model, parameters={name: value}, intervals=50, **options))

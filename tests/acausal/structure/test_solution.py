@@ -138,7 +138,8 @@ def test_analysis_is_deterministic() -> None:
     assert analyse(rods(30, closed=True).system) == analyse(rods(30, closed=True).system)
 
 
-@pytest.mark.parametrize("closed", [pytest.param(False, marks=pytest.mark.slow), True])
+@pytest.mark.slow
+@pytest.mark.parametrize("closed", [False, True])
 def test_long_chain_of_rods(closed: bool) -> None:
     n = 1540
     plan = analyse(rods(n, closed).system)

@@ -61,7 +61,7 @@ def test_evaluations_are_counted_and_only_what_is_read_is_solved():
     assert result.stats["consistent_evaluations"] == known, "what is known is not solved again"
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+@pytest.mark.parametrize("tolerance", [pytest.param(1e-3, marks=pytest.mark.slow), 1e-6])
 @pytest.mark.parametrize("scene", ["four-bar-spatial", "slider-crank", "squeezer"])
 def test_forces_of_a_loop_are_solved_for_once(scene, tolerance):
     """Positions and speeds are settled first, by a step or a few; accelerations and forces are linear then."""
@@ -270,6 +270,7 @@ def test_many_steps_an_interval_come_to_an_end(intervals, tolerance, method):
     assert result.stats["steps"] < 200_000
 
 
+@pytest.mark.slow
 def test_stretches_are_cut_where_no_number_of_looks_is_enough(monkeypatch):
     monkeypatch.setattr(stride, "LOOKS", replace(stride.LOOKS, rows=1, densest=4))
     result = ac.simulate(compiled(Rings), stop_time=0.5, intervals=6, tolerance=1e-6, method="idas")

@@ -72,6 +72,7 @@ def test_the_reason_is_told():
     assert "trial" not in stats["order_reason"]
 
 
+@pytest.mark.slow
 def test_watched_conditions_change_nothing():
     found = ac.simulate(compiled(Watched), stop_time=50.0, tolerance=1e-8, method="idas")
     assert np.max(np.abs(found["slow"] - np.cos(found.time))) <= 1e-4

@@ -82,6 +82,7 @@ class Chain(Model):
         yield chain(self.world, *(part for pair in zip(self.joints, self.rods, strict=True) for part in pair))
 
 
+@pytest.mark.slow
 def test_a_long_chain_of_bodies_at_rest() -> None:
     result = ac.simulate(Chain(), stop_time=0.1, intervals=2)
     assert np.allclose(result["rods[32].frame_b.r_0"][-1], [3.3, 0, 0])

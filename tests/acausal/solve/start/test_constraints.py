@@ -12,7 +12,9 @@ from models import Bricard, FourBar, NFourBar
 from tests.reference import bricard, n_four_bar
 
 
-@pytest.mark.parametrize("constraints", ["states", pytest.param("projection", marks=pytest.mark.slow), "auto"])
+@pytest.mark.parametrize(
+    "constraints", [*(pytest.param(way, marks=pytest.mark.slow) for way in ("states", "projection")), "auto"]
+)
 def test_bricard_by_every_way(constraints: str) -> None:
     result = ac.simulate(Bricard(), stop_time=4, tolerance=1e-8, intervals=100, constraints=constraints)
     expected = bricard.point(result.time)

@@ -154,6 +154,7 @@ class Hanging(Model):
         yield chain(self.world, self.beam)
 
 
+@pytest.mark.slow
 def test_static_equilibrium_of_a_beam_that_bends_far() -> None:
     """Against the elastica: EJ theta'' = -w (L - s) cos theta, clamped at the root, free at the tip."""
     from scipy.integrate import solve_bvp

@@ -71,7 +71,7 @@ def run(tmp_path, text, name="script.py", *, elsewhere=False):
 @pytest.mark.parametrize(
     "text",
     [
-        pytest.param(text, id=name, marks=() if "its own" in name else pytest.mark.slow)
+        pytest.param(text, id=name, marks=() if name == "its own, without a guard" else pytest.mark.slow)
         for name, text in SCRIPTS.items()
     ],
 )
@@ -82,6 +82,7 @@ def test_scripts(tmp_path, text):
     assert done.stdout.count("once") == ("print('once')" in text)
 
 
+@pytest.mark.slow
 def test_a_script_in_another_folder(tmp_path):
     done = run(tmp_path, SCRIPTS["without a guard"], elsewhere=True)
     assert done.stdout.split() == ["once", "2"], done.stderr
@@ -126,6 +127,7 @@ def test_the_script_is_as_it_was():
     assert getattr(main, "__spec__", None) is before
 
 
+@pytest.mark.slow
 def test_points_in_threads():
     from tests.acausal.study.decay import Decay
 

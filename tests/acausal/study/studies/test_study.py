@@ -88,7 +88,13 @@ def test_orders_switches_and_a_table_as_reference(tmp_path):
     assert min(r.error for r in found.rows if r.case.settings["rate"] == 1.1) > 0.02
 
 
-@pytest.mark.parametrize("workers", [processes, lambda n: cluster("local", n)], ids=["processes", "dask"])
+@pytest.mark.parametrize(
+    "workers",
+    [
+        pytest.param(processes, id="processes"),
+        pytest.param(lambda n: cluster("local", n), id="dask", marks=pytest.mark.slow),
+    ],
+)
 def test_two_workers(workers):
     few = {"formulations": Decay.formulations[:2], "tolerances": (1e-5,), "accuracy": 1e-2}
     with workers(2) as executor:
@@ -180,6 +186,7 @@ def test_a_journal_of_another_study_is_refused(tmp_path):
     assert len(journal.read_text().splitlines()) == 3
 
 
+@pytest.mark.slow
 def test_a_switch_that_changes_the_model_limits_it():
     form = {"formulations": Decay.formulations[1:2], "tolerances": (1e-6,), "accuracy": 1e-3}
     found = study(**form, switches={"rate": (1.0, 1.1)})
