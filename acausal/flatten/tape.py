@@ -16,6 +16,8 @@ from typing import Any
 
 import casadi as ca
 
+from acausal.instructions import read_instructions
+
 Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
 
 _UNARY: dict[int, Callable[[float], float]] = {
@@ -39,13 +41,14 @@ class Tape:
     """
 
     def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:
-        function = ca.Function("residuals", [unknowns, others], [residuals])
-        self.op: list[int] = []
-        self.args: list[tuple[int, ...]] = []
-        self.constant: list[float] = []
-        self.input: dict[int, int] = {}
-        self.residual = [-1] * residuals.numel()
-        self._read(function)
+        read = read_instructions(ca.Function("residuals", [unknowns, others], [residuals]))
+        self.args, self.constant, self.residual = read.arguments, read.constant, read.results[0]
+        # Of the two arguments, only the elements of the first are unknown.
+        self.unknown = {node: element for node, (argument, element) in read.place.items() if argument == 0}
+        self.op = [
+            ca.OP_PARAMETER if op == ca.OP_INPUT and k not in self.unknown else op for k, op in enumerate(read.op)
+        ]
+        self.input = {element: node for node, element in self.unknown.items()}
         self.users: list[list[int]] = [[] for _ in self.op]
         for node, args in enumerate(self.args):
             for arg in set(args):
@@ -60,37 +63,12 @@ class Tape:
         for node in range(len(self.op)):
             self.value[node] = self._evaluate(node)
 
-    def _read(self, function: ca.Function) -> None:
-        """Turn the work vector of the function into operations that each have a value of their own."""
-        slot: dict[int, int] = {}
-        for k in range(function.n_instructions()):
-            op = function.instruction_id(k)
-            inputs = function.instruction_input(k)
-            if op == ca.OP_OUTPUT:
-                self.residual[function.instruction_output(k)[1]] = slot[inputs[0]]
-                continue
-            node, constant, args = len(self.op), 0.0, ()
-            if op == ca.OP_INPUT:
-                argument, constant = inputs
-                if argument == 0:
-                    self.input[constant] = node
-                else:
-                    op = ca.OP_PARAMETER
-            elif op == ca.OP_CONST:
-                constant = function.instruction_constant(k)
-            else:
-                args = tuple(slot[i] for i in inputs)
-            self.op.append(op)
-            self.constant.append(constant)
-            self.args.append(args)
-            slot[function.instruction_output(k)[0]] = node
-
     def _evaluate(self, node: int) -> Linear | None:
         op = self.op[node]
         if op == ca.OP_CONST:
             return self.constant[node], ()
         if op == ca.OP_INPUT:
-            return self.resolve((0.0, ((int(self.constant[node]), 1.0),)))
+            return self.resolve((0.0, ((self.unknown[node], 1.0),)))
         values = [self.value[arg] for arg in self.args[node]]
         if op in (ca.OP_MUL, ca.OP_DIV):
             return _product(values[0], values[1], op == ca.OP_DIV)

@@ -1,0 +1,7 @@
+"""The core: a library in C that evaluates and integrates any model, which it takes as data."""
+
+from acausal.core.library import library, why_not
+from acausal.core.lu import LU
+from acausal.core.tape import Tape, make_tape
+
+__all__ = ["LU", "Tape", "library", "make_tape", "why_not"]

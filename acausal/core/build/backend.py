@@ -1,0 +1,71 @@
+"""Build backend: setuptools, and the library compiled first.
+
+Without a compiler it asks for `ziglang`, a package that holds one. With ACAUSAL_WITHOUT_CORE set it does neither.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from typing import Any
+
+from compiling import compile_core, own_compiler, own_platform, ziglang
+from setuptools import build_meta
+from setuptools.build_meta import (
+    build_sdist,
+    get_requires_for_build_sdist,
+    prepare_metadata_for_build_editable,
+    prepare_metadata_for_build_wheel,
+)
+
+__all__ = [
+    "build_editable",
+    "build_sdist",
+    "build_wheel",
+    "get_requires_for_build_editable",
+    "get_requires_for_build_sdist",
+    "get_requires_for_build_wheel",
+    "prepare_metadata_for_build_editable",
+    "prepare_metadata_for_build_wheel",
+]
+
+
+def _wanted() -> bool:
+    return not os.environ.get("ACAUSAL_WITHOUT_CORE")
+
+
+def _compile() -> None:
+    """Compile the library of this platform; everything works without it, slower."""
+    compiler = own_compiler() or ziglang()
+    try:
+        if _wanted() and compiler:
+            compile_core(own_platform(), compiler)
+    except (subprocess.CalledProcessError, OSError) as error:
+        print(f"acausal is installed without its core: {error}\n{getattr(error, 'stderr', '')}", file=sys.stderr)
+
+
+def _requires(own: list[str]) -> list[str]:
+    return own if own_compiler() or not _wanted() else [*own, "ziglang"]
+
+
+def get_requires_for_build_wheel(config_settings: Any = None) -> list[str]:
+    """Return what setuptools requires, and a compiler."""
+    return _requires(build_meta.get_requires_for_build_wheel(config_settings))
+
+
+def get_requires_for_build_editable(config_settings: Any = None) -> list[str]:
+    """Return what setuptools requires, and a compiler."""
+    return _requires(build_meta.get_requires_for_build_editable(config_settings))
+
+
+def build_wheel(wheel_directory: str, config_settings: Any = None, metadata_directory: str | None = None) -> str:
+    """Compile the library and build a wheel."""
+    _compile()
+    return build_meta.build_wheel(wheel_directory, config_settings, metadata_directory)
+
+
+def build_editable(wheel_directory: str, config_settings: Any = None, metadata_directory: str | None = None) -> str:
+    """Compile the library and build an editable wheel."""
+    _compile()
+    return build_meta.build_editable(wheel_directory, config_settings, metadata_directory)

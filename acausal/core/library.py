@@ -1,0 +1,115 @@
+"""Find and load the library; everything works without it, slower."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p
+from functools import cache
+
+from acausal.core.build.compiling import file_of, own_platform
+
+# What switches the library off: whatever it holds, unless it is empty.
+WITHOUT = "ACAUSAL_WITHOUT_CORE"
+
+
+class TapeData(Structure):
+    """What the library takes as a tape, see `core.h`."""
+
+    _fields_ = (
+        *((name, c_int32) for name in ("constants", "inputs", "results", "runs", "early", "outputs")),
+        *((name, c_void_p) for name in ("constant", "kind", "length", "first", "second", "output")),
+    )
+
+
+class EquationsData(Structure):
+    """What the library takes as equations, see `core.h`."""
+
+    _fields_ = (
+        *((name, c_int32) for name in ("nx", "nz", "np", "nc")),
+        *((name, POINTER(TapeData)) for name in ("values", "slopes", "powers")),
+        *((name, c_void_p) for name in ("start", "row", "diagonal")),
+    )
+
+
+class RequestData(Structure):
+    """What the library takes as the request for an integration, see `core.h`."""
+
+    _fields_ = (
+        ("tolerance", c_double),
+        ("first_step", c_double),
+        ("size", c_void_p),
+        ("outputs", c_int32),
+        *((name, c_void_p) for name in ("time", "x", "z", "integral")),
+    )
+
+
+class Progress(Structure):
+    """Counts of an integration, written outputs, and the time that was reached."""
+
+    _fields_ = (
+        *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
+        ("written", c_int32),
+        ("time", c_double),
+    )
+
+
+# Result and arguments of each function; arrays are addresses.
+_FUNCTIONS = {
+    "ac_tape_run": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32)),
+    "ac_tape_rows": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32, c_void_p, c_void_p, c_void_p, c_void_p)),
+    "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
+    "ac_lu_factor": (c_int32, (c_void_p, c_void_p)),
+    "ac_lu_solve": (None, (c_void_p, c_void_p)),
+    "ac_lu_counts": (None, (c_void_p, POINTER(c_int64))),
+    "ac_lu_free": (None, (c_void_p,)),
+    "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
+    "ac_rodas_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
+    "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
+    "ac_rodas_free": (None, (c_void_p,)),
+}
+
+
+@cache
+def _loaded() -> ctypes.CDLL | str:
+    """The library, or why there is none."""
+    if os.environ.get(WITHOUT):
+        return f"it is switched off by {WITHOUT}"
+    platform = own_platform()
+    path = file_of(platform)
+    if not path.exists():
+        return f"it was not built for {platform}; install a C compiler, or `pip install ziglang`, and install acausal again"
+    try:
+        found = ctypes.CDLL(str(path))
+        for name, (result, arguments) in _FUNCTIONS.items():
+            function = getattr(found, name)
+            function.restype, function.argtypes = result, arguments
+    except (OSError, AttributeError) as error:
+        return f"it cannot be loaded: {error}"
+    return found
+
+
+def library() -> ctypes.CDLL | None:
+    """Return the library, or None where there is none."""
+    found = _loaded()
+    return None if isinstance(found, str) else found
+
+
+def why_not() -> str:
+    """Return why there is no library; empty where there is one."""
+    found = _loaded()
+    return found if isinstance(found, str) else ""
+
+
+def loaded() -> ctypes.CDLL:
+    """Return the library.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none.
+    """
+    found = _loaded()
+    if isinstance(found, str):
+        raise RuntimeError(f"the core cannot be used: {found}")
+    return found

@@ -1,0 +1,188 @@
+"""The one-step method of the core."""
+
+from __future__ import annotations
+
+from ctypes import byref, pointer
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from acausal.core.library import EquationsData, Progress, RequestData, loaded
+from acausal.core.tape import Tape, make_tape
+from acausal.symbols import dense
+
+
+class End(IntEnum):
+    """How an integration ended: at its last output, after the steps it was given, with steps too short, without memory."""
+
+    DONE = 0
+    MORE = 1
+    SHORT = 2
+    MEMORY = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """Equations x' = f, 0 = g of states and algebraic unknowns, and what is integrated besides, as tapes.
+
+    Attributes
+    ----------
+    nx, nz, np, nc : int
+        Numbers of states, algebraic unknowns, parameters and constants of a segment.
+    values, slopes, powers : Tape
+        f and g; entries of their Jacobian, and their derivatives by time where they depend on it; at most two powers.
+    start, row, diagonal : arrays of int
+        Sparsity of the Jacobian in columns, and the places in it of the diagonal of the states.
+    """
+
+    nx: int
+    nz: int
+    np: int
+    nc: int
+    values: Tape
+    slopes: Tape
+    powers: Tape | None
+    start: np.ndarray
+    row: np.ndarray
+    diagonal: np.ndarray
+
+    @cached_property
+    def data(self) -> EquationsData:
+        """What the library takes; it holds addresses of the arrays of these equations."""
+        tapes = (self.values.data, self.slopes.data, self.powers.data if self.powers else None)
+        return EquationsData(
+            *(self.nx, self.nz, self.np, self.nc),
+            *(None if tape is None else pointer(tape) for tape in tapes),
+            *(array.ctypes.data for array in (self.start, self.row, self.diagonal)),
+        )
+
+
+def make_equations(
+    x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX, powers: ca.SX | None = None
+) -> Equations:
+    """Return equations as tapes.
+
+    Parameters
+    ----------
+    x, z, t, p, c : casadi.SX
+        States, algebraic unknowns, time, parameters and constants of a segment.
+    ode, alg : casadi.SX
+        Derivatives of the states, and residuals.
+    powers : casadi.SX, optional
+        At most two expressions to integrate.
+    """
+    nx, nz = x.numel(), z.numel()
+    y, F = ca.vertcat(x, z), ca.vertcat(dense(ode), dense(alg))
+    J = ca.jacobian(F, y)
+    own = ca.Sparsity.triplet(nx + nz, nx + nz, list(range(nx)), list(range(nx)))
+    pattern = J.sparsity() + own
+    entries = ca.project(J, pattern).nz[:]
+    by_time = ca.jacobian(F, t)
+    slopes = ca.vertcat(entries, ca.densify(by_time)) if by_time.nnz() else entries
+    arguments = [x, z, t, p, c]
+
+    def tape(name: str, column: ca.SX) -> Tape:
+        return make_tape(ca.Function(name, arguments, [ca.densify(ca.cse(column))]), early=(3, 4))
+
+    start, row = (np.array(part, dtype=np.int32) for part in (pattern.colind(), pattern.row()))
+    diagonal = np.array([pattern.get_nz(k, k) for k in range(nx)], dtype=np.int32)
+    return Equations(
+        *(nx, nz, p.numel(), c.numel()),
+        *(tape("values", F), tape("slopes", slopes), None if powers is None else tape("powers", powers)),
+        *(start, row, diagonal),
+    )
+
+
+@dataclass(frozen=True)
+class Found:
+    """What an integration has found at the outputs that it reached.
+
+    Attributes
+    ----------
+    x, z, integral : arrays, shapes (n, nx), (n, nz), (n, 2)
+        States, algebraic unknowns as they are interpolated, integrals of the powers.
+    end : End
+        How it ended.
+    progress : Progress
+        Counts, and the time that was reached.
+    """
+
+    x: np.ndarray
+    z: np.ndarray
+    integral: np.ndarray
+    end: End
+    progress: Progress
+
+
+class Rodas:
+    """An integrator with memory of its own, for one thread at a time.
+
+    Parameters
+    ----------
+    equations : Equations
+        What is integrated.
+    """
+
+    def __init__(self, equations: Equations) -> None:
+        self._library, self.equations = loaded(), equations
+        self._memory = self._library.ac_rodas_make(byref(equations.data))
+        if not self._memory:
+            raise MemoryError
+
+    def __del__(self) -> None:
+        if getattr(self, "_memory", None):
+            self._library.ac_rodas_free(self._memory)
+
+    def integrate(
+        self,
+        times: np.ndarray,
+        x: np.ndarray,
+        z: np.ndarray,
+        p: np.ndarray,
+        c: np.ndarray,
+        *,
+        size: np.ndarray,
+        tolerance: float,
+        first_step: float = 0.0,
+        max_steps: int = 1_000_000,
+        at_once: int = 1000,
+    ) -> Found:
+        """Integrate from the first of some times to the last.
+
+        Parameters
+        ----------
+        times : array, shape (n + 1,)
+            Start and output times.
+        x, z, p, c : arrays
+            States and algebraic unknowns at the start, consistent; parameters; constants of the segment.
+        size : array, shape (nx,)
+            Sizes of the states: the error of a step is that over tolerance (size + |x|), root mean square.
+        tolerance : float
+            Relative tolerance.
+        first_step : float, optional
+            Length of the first step that is tried; chosen if 0.
+        max_steps : int, optional
+            Steps at most, refused ones among them.
+        at_once : int, optional
+            Steps of one call of the library: an interrupt waits for its end.
+        """
+        e, n = self.equations, len(times) - 1
+        found = np.zeros((n, e.nx)), np.zeros((n, e.nz)), np.zeros((n, 2))
+        times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
+        if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
+            raise ValueError("the arguments do not fit the equations")
+        places = (array.ctypes.data for array in (times, *found))
+        request = RequestData(tolerance, first_step, size.ctypes.data, n, *places)
+        given = (array.ctypes.data for array in (x, z, p, c))
+        self._library.ac_rodas_begin(self._memory, byref(request), *given)
+        progress, end, left = Progress(), End.MORE, max_steps
+        while end == End.MORE and left > 0:
+            end = End(self._library.ac_rodas_go(self._memory, min(at_once, left), byref(progress)))
+            left = max_steps - progress.steps - progress.refused
+        if end == End.MEMORY:
+            raise MemoryError
+        x, z, integral = (array[: progress.written] for array in found)
+        return Found(x, z, integral, end, progress)

@@ -1,0 +1,81 @@
+/* The core: lists of scalar operations, and a sparse LU. No state of its own, no memory taken but where a comment says so. */
+#ifndef ACAUSAL_CORE_H
+#define ACAUSAL_CORE_H
+
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define AC_PUBLIC __declspec(dllexport)
+#else
+#define AC_PUBLIC __attribute__((visibility("default")))
+#endif
+
+/* What an operation does to x and y; the numbers are part of the file format. */
+enum {
+    AC_ADD, AC_SUB, AC_MUL, AC_DIV, AC_NEG, AC_SQ, AC_TWICE, AC_INV, AC_SQRT, AC_SIN, AC_COS, AC_TAN, AC_ASIN, AC_ACOS,
+    AC_ATAN, AC_ATAN2, AC_EXP, AC_LOG, AC_POW, AC_SINH, AC_COSH, AC_TANH, AC_ASINH, AC_ACOSH, AC_ATANH, AC_FABS, AC_SIGN,
+    AC_FLOOR, AC_CEIL, AC_FMOD, AC_REMAINDER, AC_COPYSIGN, AC_FMIN, AC_FMAX, AC_HYPOT, AC_LOG1P, AC_EXPM1, AC_ERF, AC_LT,
+    AC_LE, AC_EQ, AC_NE, AC_NOT, AC_AND, AC_OR, AC_IF, AC_ASSIGN, AC_OPERATIONS
+};
+
+/* A list of operations on an array w: constants, inputs, then the results in their order.
+   Operations of one kind stand together in runs. The first `early` runs need parameters and constants of a segment alone. */
+typedef struct {
+    int32_t constants, inputs, results, runs, early, outputs;
+    const double *constant;                     /* (constants) */
+    const int32_t *kind, *length;               /* (runs) */
+    const int32_t *first, *second;              /* (results) arguments, places in w */
+    const int32_t *output;                      /* (outputs) places in w */
+} ac_tape;
+
+AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t to);
+AC_PUBLIC void ac_tape_rows(const ac_tape *tape, double *w, int32_t rows, int32_t parts, const int32_t *size,
+                            const int32_t *stride, const double *const *part, double *found);
+
+/* Factors of a sparse n x n matrix in columns: L U = P S A Q, S powers of 2 that bring each row near 1. */
+typedef struct ac_lu ac_lu;
+
+AC_PUBLIC ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row);
+AC_PUBLIC int32_t ac_lu_factor(ac_lu *lu, const double *value);
+AC_PUBLIC void ac_lu_solve(ac_lu *lu, double *b);
+AC_PUBLIC void ac_lu_counts(const ac_lu *lu, int64_t counts[4]);
+AC_PUBLIC void ac_lu_free(ac_lu *lu);
+
+/* Equations x' = f, 0 = g of states x and algebraic unknowns z at times t, for parameters p and constants c of a segment.
+   The inputs of all tapes are x, z, t, p, c in this order. */
+typedef struct {
+    int32_t nx, nz, np, nc;
+    const ac_tape *values;      /* f, g */
+    const ac_tape *slopes;      /* d(f, g)/d(x, z), of the sparsity below; then d(f, g)/dt where they depend on time */
+    const ac_tape *powers;      /* what is integrated besides, NULL for nothing */
+    const int32_t *start, *row; /* sparsity in columns, the diagonal of the states included */
+    const int32_t *diagonal;    /* (nx) places of that diagonal */
+} ac_equations;
+
+/* What one integration is asked for. */
+typedef struct {
+    double tolerance, first_step;  /* first step 0: chosen */
+    const double *size;            /* (nx) sizes of the states in the error test */
+    int32_t outputs;
+    const double *time;            /* (1 + outputs) start and output times, ascending */
+    double *x, *z, *integral;      /* (outputs, ...) what is found */
+} ac_request;
+
+enum { AC_DONE, AC_MORE, AC_SHORT, AC_MEMORY };
+
+/* Counts of one integration. */
+typedef struct {
+    int64_t steps, refused, slopes, values, pivots;
+    int32_t written; /* outputs */
+    double time;     /* reached */
+} ac_progress;
+
+typedef struct ac_rodas ac_rodas;
+
+AC_PUBLIC ac_rodas *ac_rodas_make(const ac_equations *equations);
+AC_PUBLIC void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p,
+                              const double *c);
+AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress);
+AC_PUBLIC void ac_rodas_free(ac_rodas *r);
+
+#endif

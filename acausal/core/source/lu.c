@@ -1,0 +1,98 @@
+/* Sparse LU whose pivots are kept while the factors stay small: every factorisation runs through one pattern. */
+#include "lu.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GROWN 1e5 /* entry of L at which pivots are chosen anew */
+
+/* Factors with the pivots that were chosen; 0 where they are no longer good. */
+static int refactor(ac_lu *lu, const double *value) {
+    double *w = lu->work;
+    for (int32_t k = 0; k < lu->n; k++) {
+        const int32_t j = lu->column_of[k];
+        for (int32_t e = lu->start[j]; e < lu->start[j + 1]; e++) {
+            w[lu->step_of[lu->row[e]]] = value[e] * lu->scale[lu->row[e]];
+        }
+        for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) {
+            const int32_t s = lu->u_row[e];
+            const double x = lu->u[e] = w[s];
+            w[s] = 0;
+            for (int32_t i = lu->l_start[s]; i < lu->l_start[s + 1]; i++) w[lu->l_row[i]] -= lu->l[i] * x;
+        }
+        const double pivot = lu->diagonal[k] = w[k], inverse = 1 / pivot;
+        int good = fabs(pivot) > 0 && isfinite(inverse);
+        w[k] = 0;
+        for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) {
+            lu->l[i] = w[lu->l_row[i]] * inverse;
+            w[lu->l_row[i]] = 0;
+            good &= fabs(lu->l[i]) <= GROWN;
+        }
+        if (!good) {
+            memset(w, 0, (size_t)lu->n * sizeof *w);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Take memory for matrices of a pattern, given in columns; NULL where there is none. */
+ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
+    ac_lu *lu = calloc(1, sizeof *lu);
+    if (!lu) return NULL;
+    const size_t size = (size_t)n + 1, entries = (size_t)start[n] + 1;
+    lu->n = n;
+    lu->start = malloc((6 * size + entries) * sizeof *lu->start);
+    lu->scale = calloc(3 * size, sizeof *lu->scale);
+    if (!lu->start || !lu->scale) {
+        ac_lu_free(lu);
+        return NULL;
+    }
+    lu->row_of = lu->start + size, lu->column_of = lu->row_of + size, lu->step_of = lu->column_of + size;
+    lu->l_start = lu->step_of + size, lu->u_start = lu->l_start + size, lu->row = lu->u_start + size;
+    lu->diagonal = lu->scale + size, lu->work = lu->diagonal + size;
+    memcpy(lu->start, start, size * sizeof *start);
+    memcpy(lu->row, row, (size_t)start[n] * sizeof *row);
+    return lu;
+}
+
+/* Factorise; takes memory only where pivots are chosen. 0, 1 where the matrix is singular, -1 where there is no memory. */
+int32_t ac_lu_factor(ac_lu *lu, const double *value) {
+    lu->factored++;
+    if (lu->ready && refactor(lu, value)) return 0;
+    lu->chosen++;
+    lu->ready = 0;
+    const int32_t failed = ac_lu_choose(lu, value);
+    if (failed) return failed;
+    return (lu->ready = refactor(lu, value)) ? 0 : 1;
+}
+
+/* Solve A x = b in place. */
+void ac_lu_solve(ac_lu *lu, double *b) {
+    double *y = lu->work;
+    for (int32_t k = 0; k < lu->n; k++) y[k] = b[lu->row_of[k]] * lu->scale[lu->row_of[k]];
+    for (int32_t k = 0; k < lu->n; k++) {
+        const double x = y[k];
+        for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) y[lu->l_row[i]] -= lu->l[i] * x;
+    }
+    for (int32_t k = lu->n - 1; k >= 0; k--) {
+        const double x = y[k] / lu->diagonal[k];
+        y[k] = 0;
+        for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) y[lu->u_row[e]] -= lu->u[e] * x;
+        b[lu->column_of[k]] = x;
+    }
+}
+
+/* How often pivots were chosen, factorisations, entries of both factors, and operations of one factorisation. */
+void ac_lu_counts(const ac_lu *lu, int64_t counts[4]) {
+    counts[0] = lu->chosen, counts[1] = lu->factored;
+    counts[2] = lu->ready ? (int64_t)lu->l_start[lu->n] + lu->u_start[lu->n] + lu->n : 0;
+    counts[3] = lu->ready ? lu->flops : 0;
+}
+
+void ac_lu_free(ac_lu *lu) {
+    if (!lu) return;
+    free(lu->start), free(lu->scale), free(lu->l), free(lu->u), free(lu->l_row), free(lu->u_row);
+    free(lu);
+}

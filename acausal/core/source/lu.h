@@ -1,0 +1,20 @@
+/* What the two parts of the LU share. */
+#ifndef ACAUSAL_LU_H
+#define ACAUSAL_LU_H
+
+#include "core.h"
+
+struct ac_lu {
+    int32_t n, ready;
+    int32_t *start, *row;                  /* of the matrix */
+    int32_t *row_of, *column_of, *step_of; /* row and column of each step, step of each row */
+    double *scale, *diagonal, *work;
+    int32_t *l_start, *l_row, *u_start, *u_row;
+    double *l, *u;
+    int32_t l_room, u_room;
+    int64_t chosen, factored, flops;
+};
+
+int32_t ac_lu_choose(ac_lu *lu, const double *value);
+
+#endif

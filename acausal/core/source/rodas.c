@@ -1,0 +1,270 @@
+/* Integrate by Rodas5P. Stages as in E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, where
+   u_i = sum gamma_ij k_j:
+     (M/(h gamma) - J) u_i = F(t + alpha_i h, y + sum a_ij u_j) + M sum (c_ij/h) u_j + h gamma_i F_t,  M = diag(1, 0). */
+#include "rodas5p.h"
+
+#include "core.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SAFETY 0.9            /* of the step that the error estimate allows, as in Hairer's RODAS */
+#define LEAST 0.2             /* change of a step at most, likewise */
+#define MOST 6.0
+#define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
+#define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
+
+struct ac_rodas {
+    ac_equations of;
+    int32_t n, timely; /* unknowns; whether the equations depend on time */
+    ac_lu *lu;
+    double *block;                              /* all the memory */
+    double *values, *slopes, *powers;           /* arrays of the tapes */
+    double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
+    double t, h, gathered[2];
+    int32_t reached, refused;
+    ac_request request;
+    ac_progress progress;
+};
+
+static size_t length(const ac_tape *tape) {
+    return tape ? (size_t)tape->constants + (size_t)tape->inputs + (size_t)tape->results + 1 : 0;
+}
+
+ac_rodas *ac_rodas_make(const ac_equations *equations) {
+    ac_rodas *r = calloc(1, sizeof *r);
+    if (!r) return NULL;
+    const ac_equations *e = &r->of;
+    r->of = *equations;
+    r->n = e->nx + e->nz;
+    const size_t n = (size_t)r->n + 1, entries = (size_t)e->start[r->n] + 1;
+    r->timely = e->slopes->outputs > e->start[r->n];
+    r->lu = ac_lu_make(r->n, e->start, e->row);
+    r->block = calloc(length(e->values) + length(e->slopes) + length(e->powers) + (STAGES + 7) * n + entries + 4, sizeof(double));
+    if (!r->lu || !r->block) {
+        ac_rodas_free(r);
+        return NULL;
+    }
+    r->values = r->block;
+    r->slopes = r->values + length(e->values);
+    r->powers = r->slopes + length(e->slopes);
+    r->y = r->powers + length(e->powers);
+    r->next = r->y + n, r->stage = r->next + n, r->b = r->stage + n, r->u = r->b + n;
+    r->dense = r->u + STAGES * n, r->matrix = r->dense + 3 * n, r->power = r->matrix + entries;
+    const ac_tape *tapes[] = {e->values, e->slopes, e->powers};
+    double *arrays[] = {r->values, r->slopes, r->powers};
+    for (int k = 0; k < 3; k++) {
+        if (tapes[k]) memcpy(arrays[k], tapes[k]->constant, (size_t)tapes[k]->constants * sizeof(double));
+    }
+    return r;
+}
+
+void ac_rodas_free(ac_rodas *r) {
+    if (!r) return;
+    ac_lu_free(r->lu);
+    free(r->block);
+    free(r);
+}
+
+/* Write parameters and constants of a segment, and evaluate what follows from them alone. */
+static void prepare(const ac_rodas *r, const ac_tape *tape, double *w, const double *p, const double *c) {
+    if (!tape) return;
+    double *input = w + tape->constants + r->n + 1;
+    if (r->of.np) memcpy(input, p, (size_t)r->of.np * sizeof *w);
+    if (r->of.nc) memcpy(input + r->of.np, c, (size_t)r->of.nc * sizeof *w);
+    ac_tape_run(tape, w, 0, tape->early);
+}
+
+static void evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t) {
+    memcpy(w + tape->constants, y, (size_t)r->n * sizeof *w);
+    w[tape->constants + r->n] = t;
+    ac_tape_run(tape, w, tape->early, tape->runs);
+}
+
+/* Where an integration begins; nothing is computed yet. */
+void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p, const double *c) {
+    r->request = *request;
+    memset(&r->progress, 0, sizeof r->progress);
+    if (r->of.nx) memcpy(r->y, x, (size_t)r->of.nx * sizeof *x);
+    if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
+    prepare(r, r->of.values, r->values, p, c);
+    prepare(r, r->of.slopes, r->slopes, p, c);
+    prepare(r, r->of.powers, r->powers, p, c);
+    r->t = r->progress.time = request->time[0];
+    r->h = request->first_step;
+    r->gathered[0] = r->gathered[1] = 0;
+    r->refused = 0;
+}
+
+/* Root mean square of changes of the states over tolerance (size + |x|). */
+static double norm(const ac_rodas *r, const double *change) {
+    double sum = 0;
+    for (int32_t k = 0; k < r->of.nx; k++) {
+        const double most = fmax(fabs(r->y[k]), fabs(r->next[k]));
+        const double part = change[k] / (r->request.tolerance * (r->request.size[k] + most));
+        sum += part * part;
+    }
+    return r->of.nx ? sqrt(sum / r->of.nx) : 0;
+}
+
+/* First step in which an explicit step would change the states by a hundredth of themselves (Hairer, Norsett, Wanner, II.4). */
+static double first_step(ac_rodas *r) {
+    const double span = r->request.time[r->request.outputs] - r->t;
+    memcpy(r->next, r->y, (size_t)r->n * sizeof *r->y);
+    evaluate(r, r->of.values, r->values, r->y, r->t);
+    r->progress.values++;
+    for (int32_t k = 0; k < r->of.nx; k++) r->stage[k] = r->values[r->of.values->output[k]];
+    const double size = norm(r, r->y), rate = norm(r, r->stage);
+    const double h = size > 1e-5 && rate > 1e-5 ? 0.01 * size / rate : 1e-6 * span;
+    return fmin(h, 0.01 * span);
+}
+
+/* Factors of M/(h gamma) - J here. */
+static int32_t factorise(ac_rodas *r, double h) {
+    const ac_tape *tape = r->of.slopes;
+    const int32_t entries = r->of.start[r->n];
+    for (int32_t k = 0; k < entries; k++) r->matrix[k] = -r->slopes[tape->output[k]];
+    for (int32_t k = 0; k < r->of.nx; k++) r->matrix[r->of.diagonal[k]] += 1 / (h * GAMMA);
+    return ac_lu_factor(r->lu, r->matrix);
+}
+
+/* All stages, and where they lead. */
+static void stages(ac_rodas *r, double h) {
+    const int32_t n = r->n, nx = r->of.nx;
+    const int32_t *value = r->of.values->output;
+    for (int32_t i = 0; i < STAGES; i++) {
+        double *u = r->u + (size_t)i * (size_t)n;
+        memcpy(r->stage, r->y, (size_t)n * sizeof *u);
+        memset(r->b, 0, (size_t)n * sizeof *u);
+        for (int32_t j = 0; j < i; j++) {
+            const double *before = r->u + (size_t)j * (size_t)n, a = A[i][j], c = C[i][j] / h;
+            for (int32_t k = 0; k < n; k++) r->stage[k] += a * before[k];
+            for (int32_t k = 0; k < nx; k++) r->b[k] += c * before[k];
+        }
+        evaluate(r, r->of.values, r->values, r->stage, r->t + ALPHA[i] * h);
+        for (int32_t k = 0; k < n; k++) u[k] = r->values[value[k]] + r->b[k];
+        if (r->timely && GAMMAS[i] != 0) {
+            const int32_t *slope = r->of.slopes->output + r->of.start[n];
+            for (int32_t k = 0; k < n; k++) u[k] += h * GAMMAS[i] * r->slopes[slope[k]];
+        }
+        ac_lu_solve(r->lu, u);
+    }
+    /* The last stage starts from y + sum a_8j u_j: the solution is that and u_8, which is the error estimate. */
+    const double *last = r->u + (size_t)(STAGES - 1) * (size_t)n;
+    for (int32_t k = 0; k < n; k++) r->next[k] = r->stage[k] + last[k];
+    r->progress.values += STAGES;
+}
+
+static void interpolate(const ac_rodas *r, double s, double *y) {
+    const double *d = r->dense;
+    const int32_t n = r->n;
+    for (int32_t k = 0; k < n; k++) {
+        y[k] = (1 - s) * r->y[k] + s * (r->next[k] + (1 - s) * (d[k] + s * (d[n + k] + s * d[2 * n + k])));
+    }
+}
+
+/* Integral of the powers over a part of the step: Lobatto's rule of order 6 on the interpolant. */
+static void gather(ac_rodas *r, double from, double to, double h) {
+    static const double WEIGHT[4] = {1. / 12, 5. / 12, 5. / 12, 1. / 12};
+    const double at[4] = {0, 0.5 - 0.5 / sqrt(5), 0.5 + 0.5 / sqrt(5), 1};
+    const ac_tape *tape = r->of.powers;
+    for (int k = 0; k < 4; k++) {
+        const double s = from + at[k] * (to - from);
+        interpolate(r, s, r->stage);
+        evaluate(r, tape, r->powers, r->stage, r->t + s * h);
+        for (int32_t j = 0; j < tape->outputs && j < 2; j++) {
+            r->gathered[j] += WEIGHT[k] * (to - from) * h * r->powers[tape->output[j]];
+        }
+    }
+}
+
+/* Write the outputs that lie in the step, and what was gathered up to them. */
+static void write(ac_rodas *r, double h, int last) {
+    const ac_request *q = &r->request;
+    const size_t nx = (size_t)r->of.nx, nz = (size_t)r->of.nz;
+    const int32_t n = r->n;
+    for (int32_t j = 0; j < 3; j++) {
+        double *d = r->dense + (size_t)j * (size_t)n;
+        memset(d, 0, (size_t)n * sizeof *d);
+        for (int32_t i = 0; i < STAGES; i++) {
+            for (int32_t k = 0; k < n; k++) d[k] += H[j][i] * r->u[(size_t)i * (size_t)n + (size_t)k];
+        }
+    }
+    double from = 0;
+    int32_t *written = &r->progress.written;
+    while (*written < q->outputs && (last || q->time[*written + 1] <= r->t + h)) {
+        const double s = fmin((q->time[*written + 1] - r->t) / h, 1);
+        if (r->of.powers) gather(r, from, s, h);
+        interpolate(r, from = s, r->stage);
+        if (nx) memcpy(q->x + (size_t)*written * nx, r->stage, nx * sizeof(double));
+        if (nz) memcpy(q->z + (size_t)*written * nz, r->stage + nx, nz * sizeof(double));
+        memcpy(q->integral + 2 * (size_t)*written, r->gathered, sizeof r->gathered);
+        ++*written;
+    }
+    if (r->of.powers && from < 1) gather(r, from, 1, h);
+}
+
+static int finite(const double *y, int32_t n) {
+    for (int32_t k = 0; k < n; k++) {
+        if (!isfinite(y[k])) return 0;
+    }
+    return 1;
+}
+
+/* Go on for some steps at most; AC_MORE where there is more to do. */
+int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
+    const double end = r->request.time[r->request.outputs];
+    int32_t found = AC_DONE, fresh = 1;
+    const int64_t most = r->progress.steps + r->progress.refused + steps;
+    if (!(r->h > 0)) r->h = first_step(r);
+    while (r->progress.written < r->request.outputs) {
+        if (r->progress.steps + r->progress.refused >= most) {
+            found = AC_MORE;
+            break;
+        }
+        const double left = end - r->t;
+        const int last = r->h >= left * (1 - 1e-10);
+        const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : r->h;
+        if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
+            found = AC_SHORT;
+            break;
+        }
+        if (fresh) {
+            evaluate(r, r->of.slopes, r->slopes, r->y, r->t);
+            r->progress.slopes++;
+            fresh = 0;
+        }
+        const int32_t failed = factorise(r, h);
+        if (failed < 0) {
+            found = AC_MEMORY;
+            break;
+        }
+        double error = INFINITY;
+        if (!failed) {
+            stages(r, h);
+            if (finite(r->next, r->n)) error = norm(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n);
+        }
+        const double change = isfinite(error) ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
+        if (!(error <= 1)) {
+            r->progress.refused++;
+            r->refused = 1;
+            r->h = h * fmax(LEAST, fmin(change, SAFETY));
+            continue;
+        }
+        write(r, h, last);
+        memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
+        r->t = last ? end : r->t + h;
+        r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : MOST));
+        r->refused = 0;
+        r->progress.steps++;
+        fresh = 1;
+    }
+    int64_t counts[4];
+    ac_lu_counts(r->lu, counts);
+    r->progress.pivots = counts[0];
+    r->progress.time = r->t;
+    *progress = r->progress;
+    return found;
+}

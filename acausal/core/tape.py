@@ -1,0 +1,168 @@
+"""Tapes: lists of scalar operations, in runs of one kind, that the core evaluates."""
+
+from __future__ import annotations
+
+import ctypes
+from collections import deque
+from collections.abc import Collection
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from acausal.core.library import TapeData, loaded
+from acausal.instructions import Instructions, read_instructions
+
+# In the order of `core.h`: the numbers are part of the file format.
+_KINDS = (
+    *(ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_NEG, ca.OP_SQ, ca.OP_TWICE, ca.OP_INV, ca.OP_SQRT, ca.OP_SIN),
+    *(ca.OP_COS, ca.OP_TAN, ca.OP_ASIN, ca.OP_ACOS, ca.OP_ATAN, ca.OP_ATAN2, ca.OP_EXP, ca.OP_LOG, ca.OP_POW),
+    *(ca.OP_SINH, ca.OP_COSH, ca.OP_TANH, ca.OP_ASINH, ca.OP_ACOSH, ca.OP_ATANH, ca.OP_FABS, ca.OP_SIGN, ca.OP_FLOOR),
+    *(ca.OP_CEIL, ca.OP_FMOD, ca.OP_REMAINDER, ca.OP_COPYSIGN, ca.OP_FMIN, ca.OP_FMAX, ca.OP_HYPOT, ca.OP_LOG1P),
+    *(ca.OP_EXPM1, ca.OP_ERF, ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR),
+    *(ca.OP_IF_ELSE_ZERO, ca.OP_ASSIGN),
+)
+_KIND = {op: kind for kind, op in enumerate(_KINDS)} | {ca.OP_CONSTPOW: _KINDS.index(ca.OP_POW)}
+
+
+@dataclass(frozen=True, eq=False)
+class Tape:
+    """Operations on one array of numbers: constants, inputs, results.
+
+    Attributes
+    ----------
+    constants : array of float
+    sizes : tuple of int
+        Numbers of each argument of the function; all of them stand in the inputs, one argument after the other.
+    kinds, lengths : arrays of int
+        Runs of one kind of operation.
+    first, second : arrays of int
+        Arguments of each result; twice the same where there is one.
+    early : int
+        Runs at the front whose results do not change while some arguments stay what they are.
+    outputs : tuple of arrays of int
+        Where the nonzeros of each result of the function stand.
+    """
+
+    constants: np.ndarray
+    sizes: tuple[int, ...]
+    kinds: np.ndarray
+    lengths: np.ndarray
+    first: np.ndarray
+    second: np.ndarray
+    early: int
+    outputs: tuple[np.ndarray, ...]
+
+    def __post_init__(self) -> None:
+        for array in (self.constants, self.kinds, self.lengths, self.first, self.second, *self.outputs):
+            array.setflags(write=False)
+
+    @property
+    def size(self) -> int:
+        """Length of the array of numbers."""
+        return len(self.constants) + sum(self.sizes) + len(self.first)
+
+    @cached_property
+    def data(self) -> TapeData:
+        """What the library takes; it holds addresses of the arrays of this tape."""
+        arrays = (self.constants, self.kinds, self.lengths, self.first, self.second, self._output)
+        counts = (len(self.constants), sum(self.sizes), len(self.first), len(self.kinds), self.early, len(self._output))
+        return TapeData(*counts, *(array.ctypes.data for array in arrays))
+
+    @cached_property
+    def _output(self) -> np.ndarray:
+        return np.concatenate([np.zeros(0, dtype=np.int32), *self.outputs])
+
+    def rows(self, *arguments: np.ndarray) -> np.ndarray:
+        """Evaluate at many places; return all nonzeros of all results, shape (n, ...).
+
+        Parameters
+        ----------
+        *arguments : arrays
+            Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
+        """
+        given = [np.ascontiguousarray(a, dtype=float) for a in arguments]
+        counts = {len(a) for a in given if a.ndim == 2}
+        if len(counts) > 1 or tuple(a.shape[-1] for a in given) != self.sizes:
+            raise ValueError(
+                f"arguments of {self.sizes} numbers are expected, not of shapes {[a.shape for a in given]}"
+            )
+        n = counts.pop() if counts else 1
+        sizes = np.array(self.sizes, dtype=np.int32)
+        strides = np.array([a.shape[1] if a.ndim == 2 else 0 for a in given], dtype=np.int32)
+        parts = (ctypes.c_void_p * len(given))(*(a.ctypes.data for a in given))
+        found, work = np.empty((n, len(self._output))), np.empty(self.size)
+        call = loaded().ac_tape_rows
+        call(
+            self.data, work.ctypes.data, n, len(given), sizes.ctypes.data, strides.ctypes.data, parts, found.ctypes.data
+        )
+        return found
+
+
+def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
+    """Return the operations of a function, grouped by kind.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        Made from SX, with dense arguments.
+    early : collection of int
+        Arguments that change rarely: what follows from them alone stands in front.
+    """
+    read = read_instructions(function)
+    sizes = tuple(function.nnz_in(k) for k in range(function.n_in()))
+    starts = np.cumsum([0, *sizes])
+    constant_places = [node for node, op in enumerate(read.op) if op == ca.OP_CONST]
+    seats = np.full(len(read.op), -1, dtype=np.int64)
+    seats[constant_places] = np.arange(len(constant_places))
+    for node, (argument, element) in read.place.items():
+        seats[node] = len(constant_places) + starts[argument] + element
+    order, kinds, lengths, early_runs = _grouped(read, set(early))
+    base = len(constant_places) + int(starts[-1])
+    seats[order] = base + np.arange(len(order))
+    return Tape(
+        np.array([read.constant[node] for node in constant_places], dtype=float),
+        sizes,
+        np.array(kinds, dtype=np.int32),
+        np.array(lengths, dtype=np.int32),
+        *(seats[[read.arguments[node][k] for node in order]].astype(np.int32) for k in (0, -1)),
+        early_runs,
+        tuple(seats[nodes].astype(np.int32) for nodes in read.results),
+    )
+
+
+def _grouped(read: Instructions, early: set[int]) -> tuple[list[int], list[int], list[int], int]:
+    """Order of the operations, kind and length of each run, and the number of runs that need early arguments alone."""
+    late = [False] * len(read.op)
+    users: list[list[int]] = [[] for _ in read.op]
+    waits = [0] * len(read.op)
+    for node, arguments in enumerate(read.arguments):
+        late[node] = (node in read.place and read.place[node][0] not in early) or any(late[k] for k in arguments)
+        waits[node] = len(arguments)
+        for argument in arguments:
+            users[argument].append(node)
+    order: list[int] = []
+    runs: list[tuple[int, int]] = []
+    ready: tuple[dict[int, deque[int]], dict[int, deque[int]]] = ({}, {})
+
+    def done(node: int) -> None:
+        for user in users[node]:
+            waits[user] -= 1
+            if not waits[user]:
+                ready[late[user]].setdefault(_KIND[read.op[user]], deque()).append(user)
+
+    for node, arguments in enumerate(read.arguments):
+        if not arguments:
+            done(node)
+    ends = []
+    for stage in ready:
+        while any(stage.values()):
+            kind = max(stage, key=lambda kind: len(stage[kind]))
+            before = len(order)
+            while stage[kind]:
+                order.append(stage[kind].popleft())
+                done(order[-1])
+            runs.append((kind, len(order) - before))
+        ends.append(len(runs))
+    return order, [kind for kind, _ in runs], [length for _, length in runs], ends[0]
