@@ -2,6 +2,18 @@
 
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
+from acausal.core.rodas import End, Equations, Found, Rodas, make_equations
 from acausal.core.tape import Tape, make_tape
 
-__all__ = ["LU", "Tape", "library", "make_tape", "why_not"]
+__all__ = [
+    "LU",
+    "End",
+    "Equations",
+    "Found",
+    "Rodas",
+    "Tape",
+    "library",
+    "make_equations",
+    "make_tape",
+    "why_not",
+]

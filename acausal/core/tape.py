@@ -121,12 +121,14 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
     order, kinds, lengths, early_runs = _grouped(read, set(early))
     base = len(constant_places) + int(starts[-1])
     seats[order] = base + np.arange(len(order))
+    first, second = (seats[[read.arguments[node][k] for node in order]].astype(np.int32) for k in (0, -1))
     return Tape(
         np.array([read.constant[node] for node in constant_places], dtype=float),
         sizes,
         np.array(kinds, dtype=np.int32),
         np.array(lengths, dtype=np.int32),
-        *(seats[[read.arguments[node][k] for node in order]].astype(np.int32) for k in (0, -1)),
+        first,
+        second,
         early_runs,
         tuple(seats[nodes].astype(np.int32) for nodes in read.results),
     )

@@ -5,25 +5,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GROWN 1e5 /* entry of L at which pivots are chosen anew */
+#define GROWN 1e3 /* entries of L, and of U over those of the matrix, at which pivots are chosen anew: 1e-10 is lost at most */
 
 /* Factors with the pivots that were chosen; 0 where they are no longer good. */
 static int refactor(ac_lu *lu, const double *value) {
-    double *w = lu->work;
+    double *w = lu->work, given = 0, grown = 0;
     for (int32_t k = 0; k < lu->n; k++) {
         const int32_t j = lu->column_of[k];
         for (int32_t e = lu->start[j]; e < lu->start[j + 1]; e++) {
-            w[lu->step_of[lu->row[e]]] = value[e] * lu->scale[lu->row[e]];
+            const double x = value[e] * lu->scale[lu->row[e]];
+            w[lu->step_of[lu->row[e]]] = x;
+            given = fmax(given, fabs(x));
         }
         for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) {
             const int32_t s = lu->u_row[e];
             const double x = lu->u[e] = w[s];
             w[s] = 0;
+            grown = fmax(grown, fabs(x));
             for (int32_t i = lu->l_start[s]; i < lu->l_start[s + 1]; i++) w[lu->l_row[i]] -= lu->l[i] * x;
         }
         const double pivot = lu->diagonal[k] = w[k], inverse = 1 / pivot;
         int good = fabs(pivot) > 0 && isfinite(inverse);
         w[k] = 0;
+        grown = fmax(grown, fabs(pivot));
         for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) {
             lu->l[i] = w[lu->l_row[i]] * inverse;
             w[lu->l_row[i]] = 0;
@@ -34,7 +38,7 @@ static int refactor(ac_lu *lu, const double *value) {
             return 0;
         }
     }
-    return 1;
+    return grown <= GROWN * given;
 }
 
 /* Take memory for matrices of a pattern, given in columns; NULL where there is none. */

@@ -1,0 +1,27 @@
+"""Equations of models at random points near their start."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+
+import acausal as ac
+
+
+def jacobian(model: ac.CompiledModel) -> ca.Function:
+    """Return values and Jacobian of the equations that are integrated."""
+    r = model.reduced
+    values = ca.vertcat(r.running.ode, r.running.alg)
+    return ca.Function(
+        "equations", model.arguments[:-1], [ca.densify(values), ca.jacobian(values, ca.vertcat(r.x, r.z))]
+    )
+
+
+def points(model: ac.CompiledModel, n: int, seed: int = 0) -> list[np.ndarray]:
+    """Return states, algebraic unknowns, parameters, times and constants at n places; constants are any numbers."""
+    random, p = np.random.default_rng(seed), model.parameter_values(None)
+    start = model.start(p, 0.0)[0].copy()
+    near = start + 0.1 * random.standard_normal((n, len(start)))
+    constants = random.standard_normal((n, model.reduced.constants.numel()))
+    times = random.uniform(0, 1, (n, 1))
+    return [near[:, : model.nx], near[:, model.nx :], p, times, constants]

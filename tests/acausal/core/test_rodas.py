@@ -1,0 +1,141 @@
+"""Rodas5P: orders on a DAE with a known solution, stiffness, interpolation, and what ends it."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from acausal.core import End, Equations, Found, Rodas, make_equations
+
+
+def equations(ode, alg=lambda x, z, t, p: ca.SX(0, 1), nx=1, nz=0, np=1, powers=None) -> Equations:
+    x, z, t, p, c = (ca.SX.sym(name, n) for name, n in (("x", nx), ("z", nz), ("t", 1), ("p", np), ("c", 0)))
+    own = None if powers is None else powers(x, z, t)
+    return make_equations(x, z, t, p, c, ca.vertcat(ode(x, z, t, p)), ca.vertcat(alg(x, z, t, p)), own)
+
+
+@cache
+def known() -> Equations:
+    """x = (sin t, exp(-t) cos t), z = x1 x2 + t^2; the algebraic equation is cubic and stands in the first derivative."""
+
+    def ode(x, z, t, p):
+        return ca.vertcat(ca.cos(t) + p * (z - x[0] * x[1] - t**2), -x[1] - ca.exp(-t) * x[0])
+
+    def alg(x, z, t, p):
+        right = x[0] * x[1] + t**2
+        return z + z**3 - right - right**3
+
+    return equations(ode, alg, 2, 1, powers=lambda x, z, t: ca.vertcat(x[0], z))
+
+
+TIMES = np.linspace(0, 2, 9)
+
+
+def solution(t: np.ndarray) -> np.ndarray:
+    x = np.sin(t), np.exp(-t) * np.cos(t)
+    return np.column_stack([*x, x[0] * x[1] + t**2])
+
+
+def integrate(e: Equations, times: np.ndarray, x, z=(), p=(3.0,), tolerance=1e-6, **options) -> Found:
+    given = (np.array(v, dtype=float) for v in (x, z, p, ()))
+    return Rodas(e).integrate(times, *given, size=np.ones(e.nx), tolerance=tolerance, **options)
+
+
+def test_steps_grow_as_the_order_says_and_errors_follow_the_tolerance():
+    expected, steps = solution(TIMES)[1:], []
+    for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
+        found = integrate(known(), TIMES, [0, 1], [0], tolerance=tolerance)
+        assert found.end == End.DONE
+        assert found.progress.written == len(TIMES) - 1
+        steps.append(found.progress.steps)
+        assert np.max(np.abs(found.x - expected[:, :2])) < 10 * tolerance
+        np.testing.assert_allclose(found.integral[:, 0], 1 - np.cos(TIMES[1:]), atol=10 * tolerance)
+    # The error of a step is h^5, order 4 of the embedded method and 1: a hundredth takes 100^(1/5) = 2.5 times the steps.
+    assert np.log(steps[-1] / steps[1]) / np.log(1e4) == pytest.approx(1 / 5, abs=0.02)
+
+
+def test_the_interpolant_has_order_4():
+    errors = []
+    for h in (0.2, 0.1, 0.05):
+        times = np.linspace(0, h, 41)
+        found = integrate(known(), times, [0, 1], [0], tolerance=1e-2, first_step=h)
+        assert found.progress.steps == 1
+        errors.append(np.max(np.abs(np.hstack([found.x, found.z]) - solution(times)[1:]), axis=0))
+    rates = np.log2(errors[1] / errors[2])
+    assert np.all(rates[:2] > 4.7), "over one step, states an order more"
+    assert rates[2] > 3.7
+
+
+def test_a_stiff_equation_takes_no_steps_for_its_fast_part():
+    """Prothero and Robinson: x' = -L (x - sin t) + cos t."""
+    e = equations(lambda x, z, t, p: -p * (x - ca.sin(t)) + ca.cos(t))
+    counts = [integrate(e, np.array([0, 5.0]), [0], p=[L]) for L in (1e1, 1e4, 1e8)]
+    assert max(found.progress.steps for found in counts) < 60
+    for found in counts:
+        assert found.x[-1, 0] == pytest.approx(np.sin(5.0), abs=1e-5)
+
+
+def test_vibrations_that_errors_do_not_show_are_damped():
+    """L-stable: a vibration of 1e6 rad/s within the tolerance is gone after a few steps."""
+    e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)
+    found = Rodas(e).integrate(
+        *(np.array(v, dtype=float) for v in ([0, 1], [1e-9, 0], [], [1e6], [])),
+        size=np.array([1.0, 1e6]),
+        tolerance=1e-6,
+    )
+    assert found.progress.steps < 40
+    assert abs(found.x[-1, 0]) < 1e-12
+
+
+def test_steps_in_parts_and_other_threads_change_no_bit():
+    once = integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9)
+    parts = integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9, at_once=3)
+    assert parts.progress.steps == once.progress.steps
+    with ThreadPoolExecutor(4) as pool:
+        others = list(pool.map(lambda _: integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9), range(8)))
+    for other in (parts, *others):
+        for name in ("x", "z", "integral"):
+            np.testing.assert_array_equal(getattr(other, name), getattr(once, name))
+
+
+def test_one_integrator_is_used_again_for_other_parameters():
+    e = equations(lambda x, z, t, p: -p * x)
+    rodas, times, size = Rodas(e), np.array([0, 1.0]), np.ones(1)
+    for p in (1.0, 50.0, 0.0, 1.0):
+        given = (np.array(v) for v in ([1.0], [], [p], []))
+        found = rodas.integrate(times, *given, size=size, tolerance=1e-8)
+        assert found.x[-1, 0] == pytest.approx(np.exp(-p), abs=1e-7)
+
+
+def test_what_cannot_be_integrated_says_how_far_it_came():
+    times = np.linspace(0, 1.9, 20)
+    explodes = integrate(equations(lambda x, z, t, p: x**2), times, [1], tolerance=1e-8)
+    assert explodes.end == End.SHORT
+    assert explodes.progress.time == pytest.approx(1, abs=1e-3)
+    assert len(explodes.x) >= 9
+    np.testing.assert_allclose(explodes.x[:9, 0], 1 / (1 - times[1:10]), rtol=1e-5)
+    no_value = integrate(equations(lambda x, z, t, p: ca.sqrt(0.5 - t)), np.array([0, 1.0]), [0])
+    assert no_value.end == End.SHORT
+    assert no_value.progress.time == pytest.approx(0.5, abs=1e-2)
+    undetermined = equations(lambda x, z, t, p: z, lambda x, z, t, p: p * z, nz=1)
+    assert integrate(undetermined, np.array([0, 1.0]), [0], [0], p=[0]).end == End.SHORT
+    few = integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9, max_steps=5)
+    assert few.end == End.MORE
+    assert few.progress.steps + few.progress.refused == 5
+
+
+def test_without_states_and_without_outputs():
+    found = integrate(
+        equations(lambda x, z, t, p: ca.SX(0, 1), lambda x, z, t, p: z - ca.sin(t), nx=0, nz=1), TIMES, [], [0]
+    )
+    assert found.end == End.DONE
+    assert integrate(known(), TIMES[:1], [0, 1], [0]).end == End.DONE
+
+
+def test_arguments_that_do_not_fit_are_refused():
+    with pytest.raises(ValueError, match="do not fit"):
+        integrate(known(), TIMES, [0], [0])
