@@ -206,7 +206,7 @@ static void write(ac_rodas *r, double h, int last) {
     if (r->of.powers && from < 1) gather(r, from, 1, h);
 }
 
-static int finite(const double *y, int32_t n) {
+static int all_finite(const double *y, int32_t n) {
     for (int32_t k = 0; k < n; k++) {
         if (!isfinite(y[k])) return 0;
     }
@@ -244,7 +244,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         double error = INFINITY;
         if (!failed) {
             stages(r, h);
-            if (finite(r->next, r->n)) error = norm(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n);
+            if (all_finite(r->next, r->n)) error = norm(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n);
         }
         const double change = isfinite(error) ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
         if (!(error <= 1)) {
