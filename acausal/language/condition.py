@@ -63,6 +63,9 @@ class Condition:
     def __bool__(self) -> bool:
         raise DeclarationError(undecided(self._said()))
 
+    def __repr__(self) -> str:
+        return self._said()
+
     def _said(self) -> str:
         if not self._sides:
             return "a comparison"
