@@ -11,7 +11,7 @@ import numpy as np
 from acausal.errors import AcausalError
 from acausal.language import fields as f
 from acausal.language.arguments import refused
-from acausal.language.types import shape_of_annotation
+from acausal.language.types import shape_of_annotation, wrong_type
 from acausal.language.values import shown
 from acausal.units import parse
 
@@ -45,9 +45,13 @@ def _wrong(cls: Any, name: str, field: f.Field) -> str:
     if isinstance(field, f.Part):
         return _wrong_part(field)
     if isinstance(field, f.Observed):
-        takes = callable(field.compute) and _takes_self(field.compute)
-        return "" if takes else f"@observed marks a method, `def {name}(self): return ...`."
+        if not (callable(field.compute) and _takes_self(field.compute)):
+            return f"@observed marks a method, `def {name}(self): return ...`."
+        yields = inspect.isgeneratorfunction(field.compute)
+        return "an observed quantity is one expression: write `return`, not `yield`." if yields else ""
     wrong = _wrong_shape(cls, name, field) or _wrong_unit(field)
+    if not wrong and isinstance(field, f.Parameter | f.Variable):
+        wrong = wrong_type(cls, name, field.shape, _declared_by(field))
     if wrong or isinstance(field, f.Outer):
         return wrong
     if isinstance(field, f.Variable):
@@ -60,12 +64,15 @@ def _wrong_unit(field: f.Field) -> str:
     if unit is None or callable(unit):
         return ""
     if isinstance(unit, str):
-        parse(unit)
-        return ""
-    if not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
+        unit = [unit]
+    elif not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
         return f'unit={shown(unit)} is not a unit: write unit="m/s", one for each entry in brackets, unit=("m", "rad"), or none.'
     for entry in unit:
         parse(entry)
+        if entry != entry.strip():
+            return f'unit="{entry}" has a blank at an end: write "{entry.strip()}".'
+    if isinstance(field.unit, str):
+        return ""
     size = field.shape[0] if isinstance(field.shape, tuple) and field.shape else None
     if isinstance(field.shape, tuple) and len(unit) != size:
         what = f"{size} rows" if size else "one value"
@@ -145,7 +152,21 @@ def _wrong_part(field: f.Part) -> str:
         return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
     if inspect.isfunction(make) and not _takes_self(make):
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
+    if inspect.isgeneratorfunction(make) and not field.many:
+        what = (
+            "@port marks a method that returns one port"
+            if field.is_port
+            else "@part marks a method that returns one part"
+        )
+        return f"{what}: write `return`, not `yield`. Several parts are made by a method marked @parts."
     return ""
+
+
+def _declared_by(field: f.Parameter | f.Variable) -> str:
+    """Return the function that declares a field."""
+    if isinstance(field, f.Parameter):
+        return "parameter"
+    return "flow" if field.flow else field.causality or "variable"
 
 
 def _takes_self(method: Any) -> bool:

@@ -61,6 +61,16 @@ def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) ->
     return f"{cls.__name__} takes its values by name, for instance {cls.__name__}({written})."
 
 
+def values_of_class(cls: Any, name: str, value: Any) -> str:
+    """Return the message for a value in the brackets of a class statement."""
+    known = isinstance(value, f.Template) or name in getattr(cls, "fields", {}) or name in cls._settings
+    line = f"{name} = {shown(value)}" if known else f'{name}: Scalar = parameter("...", default={shown(value)})'
+    bases = ", ".join(base.__name__ for base in cls.__bases__)
+    return (
+        f"class {cls.__name__}({bases}, {name}=...): values stand in the class body, in a line of their own, `{line}`."
+    )
+
+
 def refuse_decorator(cls: Any) -> None:
     """Raise DeclarationError for a class whose constructor was written by @dataclass or the like."""
     if hasattr(cls, "__dataclass_fields__") or hasattr(cls, "__attrs_attrs__"):
