@@ -270,13 +270,20 @@ def _zeros_of(bound: Component) -> str:
 
 
 def _has_no_number(value: Any) -> bool:
-    if isinstance(value, list | tuple):
+    if _is_listed(value):
         return any(_has_no_number(item) for item in value)
     return value is None or isinstance(value, bool | np.bool_ | str | Symbolic | Condition)
 
 
+def _is_listed(value: Any) -> bool:
+    """Whether a value has entries that may be no numbers."""
+    return isinstance(value, list | tuple) or (
+        isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0
+    )
+
+
 def _symbolic(value: Any) -> bool:
-    if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype == object and value.ndim):
+    if _is_listed(value):
         return any(_symbolic(item) for item in value)
     return isinstance(value, Expr | Condition)
 

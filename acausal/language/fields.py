@@ -104,7 +104,7 @@ def evaluate(value: Any, owner: Any) -> Any:
     if isinstance(value, Deferrable):
         return value.evaluate(owner)
     if isinstance(value, Condition):
-        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind))
+        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind, c.sides))
     if isinstance(value, InitialValue):
         return InitialValue(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
     if type(value) in (list, tuple):

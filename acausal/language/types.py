@@ -51,6 +51,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
         The function that declares it.
     """
     kind = _type_name(cls, name)
+    a = "an" if field in ("input", "output") else "a"
     if kind in _REAL:
         listed = shape not in (None, ())
         return (
@@ -58,7 +59,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
         )
     if kind in _WHOLE:
         mend = f"`{name}: {kind} = structural(...)`"
-        return f"a {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {mend}."
+        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {mend}."
     if kind in _LISTED:
         mend = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
         return f"the type {kind} does not tell how many numbers: write {mend}." if shape is None else ""
@@ -68,7 +69,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
             if kind in _NEITHER
             else f"; a part or port stands alone, `{name} = {kind}(...)`, `{name} = port({kind})`"
         )
-        return f"a {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
+        return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
     known = kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
     near = [] if known else difflib.get_close_matches(kind, _BY_NAME, 1)
     return f"the type {kind} is unknown; did you mean {near[0]}?" if near else ""
