@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -12,18 +11,16 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.numeric import is_symbolic, misshapen, numeric
 from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component
-from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
-from acausal.language.symbolic import Symbolic
-from acausal.language.written import cut
 from acausal.symbols import scalars
-from acausal.units import in_si, parse
+from acausal.units import parse
 
 
 @dataclass
@@ -126,7 +123,7 @@ class Given:
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         where = f"`{name}` of {self._origin(bound, name).owner}"
         value = self._given(bound, name, declared)
-        if _symbolic(value):
+        if is_symbolic(value):
             raise DeclarationError(
                 f"{where} is structural: it cannot depend on {value!r}, which may change after compiling. Declare what it "
                 "follows from structural(...) as well."
@@ -149,7 +146,7 @@ class Given:
         where = f"`{name}` of {origin.owner}"
         shape = declared.shape(bound) if callable(declared.shape) else declared.shape
         unit = unit_of(declared, bound)
-        if not _symbolic(value):
+        if not is_symbolic(value):
             expression = self._free(path, numeric(value, shape or (), where), unit)
         else:
             given = with_place(lambda: as_expr(value), origin)
@@ -177,7 +174,7 @@ class Given:
         shape = declared.shape if isinstance(declared.shape, tuple) else ()
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, declared.start))
-        if _symbolic(given):
+        if is_symbolic(given):
             raise DeclarationError(
                 f"{where} is {given!r}, but an input of the whole model takes a number. A law is given where "
                 f"{type(bound).__name__} is a part: `class Whole(Model): part = {type(bound).__name__}({name}=...)`."
@@ -227,65 +224,11 @@ def one_of(choices: tuple[Any, ...]) -> str:
     return f"one of {', '.join(map(repr, choices))}"
 
 
-def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
-    """Return the value as an array of finite numbers of the given shape, or raise DeclarationError."""
-    try:
-        if _has_no_number(value):
-            raise TypeError
-        array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        wanted = f"an array of numbers of shape {shape}" if shape else "a number"
-        si = in_si(value) if isinstance(value, str) and not shape else None
-        mend = _point(value, shape) if si is None else f", in SI units without the unit: {si:.12g}"
-        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}{mend}.") from None
-    except OverflowError:
-        raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
-    if array.shape != shape:
-        raise DeclarationError(misshapen(where, value, array.shape, shape))
-    if not all(math.isfinite(x) for x in array.flat):
-        raise DeclarationError(f"{where} is {value!r}; it must be finite.")
-    return array
-
-
-def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...]) -> str:
-    """Return the message for a value of a wrong shape."""
-    if shape:
-        return f"{where} has shape {found}; it must have shape {shape}."
-    return f"{where} is {cut(repr(value))}; it must be one number{_point(value, shape)}."
-
-
-def _point(value: Any, shape: tuple[int, ...]) -> str:
-    """Return the mend where a comma was intended as decimal point, "" where it was not."""
-    parts = value.split(",") if isinstance(value, str) else value if isinstance(value, tuple) else ()
-    texts = [str(part).strip() for part in parts]
-    meant = not shape and len(texts) == 2 and re.fullmatch(r"[-+]?\d*", texts[0]) and re.match(r"\d+", texts[1])
-    return f"; a decimal point is a dot: {texts[0]}.{texts[1]}" if meant else ""
-
-
 def _zeros_of(bound: Component) -> str:
     """Name the parameters of a component that are 0."""
     known = [(n, vars(bound).get(n)) for n, d in bound.fields.items() if isinstance(d, f.Parameter)]
     names = [f"`{n}`" for n, value in known if isinstance(value, Expr) and value.sx.is_zero()]
     return f", here {' or '.join(names)}" if names else ""
-
-
-def _has_no_number(value: Any) -> bool:
-    if _is_listed(value):
-        return any(_has_no_number(item) for item in value)
-    return value is None or isinstance(value, bool | np.bool_ | str | Symbolic | Condition)
-
-
-def _is_listed(value: Any) -> bool:
-    """Whether a value has entries that may be no numbers."""
-    return isinstance(value, list | tuple) or (
-        isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0
-    )
-
-
-def _symbolic(value: Any) -> bool:
-    if _is_listed(value):
-        return any(_symbolic(item) for item in value)
-    return isinstance(value, Expr | Condition)
 
 
 def owner_text(component: Component) -> str:

@@ -10,7 +10,8 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import misshapen, unit_of
+from acausal.flatten.given import unit_of
+from acausal.flatten.numeric import misshapen
 from acausal.flatten.origin import value_origin, with_place
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.errors import AcausalError
 from acausal.language import fields as f
 from acausal.language.arguments import refused
+from acausal.language.no_expression import decimal_point
 from acausal.language.types import shape_of_annotation, wrong_type
 from acausal.language.values import shown
 from acausal.units import parse
@@ -129,9 +130,13 @@ def _wrong_value(field: f.Field) -> str:
         return f"a parameter has no start: write default={shown(default.value)}."
     if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
         return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
+    if not isinstance(getattr(field, "positive", False), bool):
+        return f"positive={shown(field.positive)} must be True or False; the least value is minimum=..."
     if inspect.isfunction(default) and not _takes_self(default):
         return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
     if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
+        if isinstance(default, str) and decimal_point(default):
+            return f"default={shown(default)} must be a number{decimal_point(default)}."
         mend = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
         return f"default={shown(default)} must be a number.{mend}"
     choices = field.choices if isinstance(field, f.Structural) else None
@@ -150,6 +155,8 @@ def _wrong_part(field: f.Part) -> str:
     if not fits:
         what = getattr(make, "__name__", None) or shown(make)
         return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
+    if isinstance(make, staticmethod | classmethod | property):
+        return f"a method that makes a part takes self: leave out @{type(make).__name__}."
     if inspect.isfunction(make) and not _takes_self(make):
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
     if inspect.isgeneratorfunction(make) and not field.many:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import builtins
 import difflib
 import inspect
+import re
 import sys
 from typing import TYPE_CHECKING, Any
+
+from acausal.language.arguments import refused
 
 if TYPE_CHECKING:
     Scalar = Any
@@ -14,17 +17,26 @@ if TYPE_CHECKING:
     Matrix33 = Any
 else:
 
-    class Scalar:
+    class _Type:
+        def __new__(cls, *_: Any, **__: Any) -> Any:
+            name = cls.__name__
+            raise refused(
+                f'{name} is the type of a field and takes no value: `x: {name} = variable("...")`, or parameter(...).'
+            )
+
+    class Scalar(_Type):
         """A number: shape ()."""
 
-    class Vector3:
+    class Vector3(_Type):
         """A vector of three components: shape (3,)."""
 
-    class Matrix33:
+    class Matrix33(_Type):
         """A 3 x 3 matrix: shape (3, 3)."""
 
 
 _BY_NAME = {"Scalar": (), "Vector3": (3,), "Matrix33": (3, 3)}
+_NO_TYPES = (tuple, list, int, float)
+_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a name, and what it holds or stands beside
 _REAL = ("float", "float64", "floating", "Real")
 _WHOLE = ("int", "bool", "str", "Literal", "Enum")
 _LISTED = ("list", "tuple", "ndarray", "Sequence", "Iterable", "array")
@@ -50,6 +62,11 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
     field : str
         The function that declares it.
     """
+    annotation = inspect.get_annotations(cls).get(name)
+    if isinstance(annotation, _NO_TYPES) or (isinstance(annotation, str) and not _READABLE.match(annotation)):
+        return (
+            f"{annotation!r} is no type: write `{name}: Scalar = {field}(...)`; shape=(3,) and unit=... are arguments."
+        )
     kind = _type_name(cls, name)
     a = "an" if field in ("input", "output") else "a"
     if kind in _REAL:
@@ -70,7 +87,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
             else f"; a part or port stands alone, `{name} = {kind}(...)`, `{name} = port({kind})`"
         )
         return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
-    known = kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
+    known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
     near = [] if known else difflib.get_close_matches(kind, _BY_NAME, 1)
     return f"the type {kind} is unknown; did you mean {near[0]}?" if near else ""
 

@@ -4,6 +4,7 @@ import numpy as np
 
 import acausal as ac
 from acausal import (
+    Formulation,
     Matrix33,
     Model,
     Scalar,
@@ -25,8 +26,9 @@ from acausal import (
     study,
     time,
     variable,
+    with_and_without,
 )
-from components import Body, Frame, Revolute
+from components import Body, Frame, Revolute, rotational
 from tests.errors.broken.models import Decay, Pendulum, Rotor
 
 
@@ -216,7 +218,7 @@ def study_with_a_slip(repaired):
 
 def file_of_a_plot(repaired):
     result = simulate(Decay(), stop_time=0.1)
-    _ = result.plot("x", show=False) if repaired else result.plot("x", file="x.png")
+    _ = result.series("x") if repaired else result.plot("x", file="x.png")
 
 
 def value_beside_the_base(repaired):
@@ -362,3 +364,81 @@ def quantity_of_a_blank_unit(repaired):
             yield self.k == quantity(1, "m" if repaired else " ")
 
     ac.compile(M())
+
+
+def decimal_comma_in_a_default(repaired):
+    built(k=parameter("k", default=1.5 if repaired else "1,5"))
+
+
+def decimal_comma_of_a_compiled_model(repaired):
+    compiled = compile(Pendulum())
+    simulate(compiled, stop_time=0.1, parameters={"mass.m": 1.5 if repaired else (1, 5)})
+
+
+def symbol_in_a_compiled_model(repaired):
+    compiled = compile(Pendulum())
+    simulate(compiled, stop_time=0.1, parameters={"bar.r": (1 if repaired else time, 0, 0)})
+
+
+def start_for_a_parameter_by_a_default(repaired):
+    built(k=parameter("k", default=lambda s: 1 if repaired else fixed(1)))
+
+
+def function_for_a_mass(repaired):
+    compile(Pendulum(mass=Body(m=1 if repaired else lambda s: 1)))
+
+
+def bound_for_positive(repaired):
+    built(k=parameter("k", default=1, positive=True if repaired else 0.5))
+
+
+def property_of_a_part(repaired):
+    made = part(lambda self: None)
+    built(mass=made if repaired else property(made))
+
+
+def static_part(repaired):
+    def mass():
+        return Body(m=1)
+
+    built(mass=part((lambda self: None) if repaired else staticmethod(mass)))
+
+
+def colon_for_a_part(repaired):
+    if repaired:
+
+        class N(Decay):
+            mass = rotational.Inertia(J=1, phi=fixed(0), w=fixed(0))
+
+        compile(N())
+        return
+
+    class M(Decay):
+        mass: rotational.Inertia(J=1)
+
+    compile(M())
+
+
+def type_with_a_value(repaired):
+    class M(Decay):
+        k: Scalar = parameter("k", default=3) if repaired else Scalar(3)
+
+    _ = M
+
+
+def shape_as_a_type(repaired):
+    class M(Decay):
+        k: Vector3 if repaired else (3,) = parameter("k", default=(1, 2, 3))
+
+    compile(M())
+
+
+def unit_as_a_type(repaired):
+    class M(Decay):
+        k: Scalar if repaired else "m/s" = parameter("k", default=1, unit="m/s")  # noqa: F821
+
+    compile(M())
+
+
+def switch_of_no_formulation(repaired):
+    with_and_without(*[Formulation("fine", {})] * repaired, stiffened="beam.geometric_stiffness")
