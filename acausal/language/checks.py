@@ -130,7 +130,7 @@ def _wrong_value(field: f.Field) -> str:
         return f"a parameter has no start: write default={shown(default.value)}."
     if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
         return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
-    if not isinstance(getattr(field, "positive", False), bool):
+    if isinstance(field, f.Parameter) and not isinstance(field.positive, bool):
         return f"positive={shown(field.positive)} must be True or False; the least value is minimum=..."
     if inspect.isfunction(default) and not _takes_self(default):
         return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
