@@ -77,7 +77,9 @@ def _wrong_unit(field: f.Field) -> str:
     size = field.shape[0] if isinstance(field.shape, tuple) and field.shape else None
     if isinstance(field.shape, tuple) and len(unit) != size:
         what = f"{size} rows" if size else "one value"
-        return f"it has {len(unit)} units, and {what}: give one unit for all, or one for each row."
+        return (
+            f"it has {len(unit)} unit{'s' * (len(unit) != 1)}, and {what}: give one unit for all, or one for each row."
+        )
     return ""
 
 

@@ -112,13 +112,16 @@ def evaluate(value: Any, owner: Any) -> Any:
     return value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class InitialValue:
     """A start value; `fixed` makes it an equation of the initial system, otherwise it is a guess."""
 
     value: Any
     fixed: bool
     nominal: Any = None
+
+    def __repr__(self) -> str:
+        return f"{'fixed' if self.fixed else 'guess'}({self.value!r})"
 
 
 @dataclass(eq=False)

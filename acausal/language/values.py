@@ -31,6 +31,15 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
+    if (
+        isinstance(field, f.Variable)
+        and isinstance(value, list | tuple)
+        and isinstance(next(iter(value), 0), f.InitialValue)
+    ):
+        word = "fixed" if value[0].fixed else "guess"
+        inside = [v.value if isinstance(v, f.InitialValue) else v for v in value]
+        whole = repr(tuple(inside)) if len(inside) > 1 else repr(inside[0])
+        raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
     if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue):
         raise DeclarationError(
             f"{where} is a variable: write {name}=fixed({value!r}) for a value at the start, "

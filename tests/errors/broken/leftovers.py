@@ -442,3 +442,14 @@ def unit_as_a_type(repaired):
 
 def switch_of_no_formulation(repaired):
     with_and_without(*[Formulation("fine", {})] * repaired, stiffened="beam.geometric_stiffness")
+
+
+def fixed_around_each_entry(repaired):
+    class M(Decay):
+        body = Body(m=1, v_0=fixed((0, 0, 1)) if repaired else (fixed(0), fixed(0), fixed(1)))
+
+    _ = M
+
+
+def time_of_a_linearization(repaired):
+    linearize(Decay(), **{"time" if repaired else "at": 0})
