@@ -31,15 +31,8 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
-    if (
-        isinstance(field, f.Variable)
-        and isinstance(value, list | tuple)
-        and isinstance(next(iter(value), 0), f.InitialValue)
-    ):
-        word = "fixed" if value[0].fixed else "guess"
-        inside = [v.value if isinstance(v, f.InitialValue) else v for v in value]
-        whole = repr(tuple(inside)) if len(inside) > 1 else repr(inside[0])
-        raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
+    if isinstance(field, f.Variable) and isinstance(value, list | tuple):
+        _refuse_inside(where, value, name)
     if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue):
         raise DeclarationError(
             f"{where} is a variable: write {name}=fixed({value!r}) for a value at the start, "
@@ -134,6 +127,16 @@ def holds_parts(value: Any) -> bool:
     if isinstance(value, dict):
         return holds_parts(list(value.values()))
     return isinstance(value, list | tuple | set | frozenset) and any(is_part_class(v) or holds_parts(v) for v in value)
+
+
+def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
+    """Raise DeclarationError for fixed(...) or guess(...) around single entries of a value."""
+    first = next((entry for entry in entries if isinstance(entry, f.InitialValue)), None)
+    if first is not None:
+        word = "fixed" if first.fixed else "guess"
+        inside = tuple(entry.value if isinstance(entry, f.InitialValue) else entry for entry in entries)
+        whole = repr(inside if len(inside) > 1 else inside[0])
+        raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
 
 
 def _check_part(where: str, value: Any, field: f.Part) -> Any:
