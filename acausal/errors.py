@@ -67,16 +67,26 @@ class SimulationError(AcausalError):
     ----------
     begun : bool
         Whether a step was taken.
+    kept : str
+        What `result` is, to begin a sentence.
     """
 
     begun = True
+    kept = "The result up to there"
 
     def __init__(self, message: str, result: object | None = None) -> None:
         super().__init__(message)
         self.result = result
 
+    def __str__(self) -> str:
+        return self.said("is in error.result")
 
-KEPT = "The result up to there is in error.result."
+    def said(self, where: str = "") -> str:
+        """Return the message, and where what was computed is found: "is in error.result"."""
+        text = super().__str__()
+        if not where or self.result is None or not self.begun:
+            return text
+        return f"{text}\n{self.kept} {where}."
 
 
 class UnitsError(AcausalError):

@@ -13,8 +13,9 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.given import numeric, owner_text
+from acausal.flatten.given import owner_text
 from acausal.flatten.instantiate import not_settable
+from acausal.flatten.numeric import misshapen, numeric
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
@@ -62,10 +63,7 @@ class Settable:
             )
         own = self.own
         index = {name: k for k, name in enumerate(own.names)}
-        try:
-            array = numeric(value, np.shape(value), f"`{path}`")
-        except ValueError:
-            raise DeclarationError(f"`{path}` is {value!r}; it must be an array of numbers.") from None
+        array = numeric(value, None, f"`{path}`")
         prefix = path + "["
         entries = [n for n in (*index, *own.structural_zeros) if n == path or n.startswith(prefix)]
         if not entries:
@@ -84,8 +82,11 @@ class Settable:
                 or len(entries) != array.size
                 or any(k >= n for k, n in zip(at, array.shape, strict=True))
             ):
-                shape = f"entries such as {name}" if name != path else "one entry"
-                raise DeclarationError(f"`{path}` has {shape}; a value of shape {array.shape} does not fit.")
+                if name == path:
+                    raise DeclarationError(misshapen(f"`{path}`", value, array.shape, ()))
+                raise DeclarationError(
+                    f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
+                )
             entry = float(array[at])
             if name in own.weighing and entry != values[index[name]]:
                 raise DeclarationError(f"`{name}` sets nominal values, which are fixed when compiled. {_again(path)}")

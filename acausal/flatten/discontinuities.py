@@ -10,7 +10,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten.given import unit_of
-from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
@@ -114,7 +114,7 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
     """Start values of the discrete variables, a column each."""
     PENDING.get().watches = False
     try:
-        return [with_place(d.start, Origin.of(d.owner, d.declared.name)) for d in discretes]
+        return [with_place(d.start, value_origin(d.owner, d.declared.name)) for d in discretes]
     finally:
         PENDING.get().watches = True
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.flatten.origin import Origin
+from acausal.flatten.origin import Origin, value_origin
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars, stacked, vec
 
@@ -27,7 +27,7 @@ def refuse_foreign(raw: Said) -> None:
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
-    stated += [(e.sx, Origin.of(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
+    stated += [(e.sx, value_origin(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
     everything = _column([*[sx for sx, _ in stated], *others])
     symbols = ca.symvar(everything)
@@ -38,7 +38,7 @@ def refuse_foreign(raw: Said) -> None:
             "condition), ..., otherwise), or as a polynomial; a function of elementary operations is written out where it "
             "is called with SX."
         )
-    _refuse_variables_in_starts(raw)
+    _refuse_varying(raw)
     known = _known(raw)
     strangers = [s for s in symbols if s.element_hash() not in known]
     if strangers:
@@ -46,17 +46,27 @@ def refuse_foreign(raw: Said) -> None:
         raise DeclarationError(place + _undeclared(strangers[0]))
 
 
-def _refuse_variables_in_starts(raw: Said) -> None:
-    """Raise DeclarationError if a start value depends on a variable."""
+def _refuse_varying(raw: Said) -> None:
+    """Raise DeclarationError if a start value depends on a variable, or a nominal value on one or on time."""
     variables = {s.element_hash() for a in raw.arrays for s in scalars(a.expr.sx)}
     for array in raw.arrays:
         found = [s for s in ca.symvar(array.start.sx) if s.element_hash() in variables]
         if found:
             declared = array.declared.name
             raise DeclarationError(
-                f"{Origin.of(array.owner, declared)}: the start value depends on the variable "
+                f"{value_origin(array.owner, declared)}: the start value depends on the variable "
                 f"`{found[0].name()}`; it takes numbers and parameters. State it in initial_equations(): "
                 f"yield self.{declared} == ...."
+            )
+    varying = variables | {time.sx.element_hash()}
+    if not any(s.element_hash() in varying for s in ca.symvar(_column(a.nominal.sx for a in raw.arrays))):
+        return
+    for array in raw.arrays:
+        found = [s for s in ca.symvar(array.nominal.sx) if s.element_hash() in varying]
+        if found:
+            raise DeclarationError(
+                f"{value_origin(array.owner, array.declared.name)}: the nominal value depends on `{found[0].name()}`, which "
+                "changes in a run; it takes numbers and parameters."
             )
 
 

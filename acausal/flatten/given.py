@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.numeric import is_symbolic, misshapen, numeric
+from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
@@ -19,7 +20,7 @@ from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
 from acausal.symbols import scalars
-from acausal.units import in_si, parse
+from acausal.units import parse
 
 
 @dataclass
@@ -100,7 +101,11 @@ class Given:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
         # An error in a default that another one needs is located by that one.
-        return call() if len(self._open) > 1 else with_place(call, Origin.of(bound, f"default of {name}"))
+        return (
+            call()
+            if len(self._open) > 1
+            else with_place(call, replace(value_origin(bound, name), text=f"default of {name}"))
+        )
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
         value = self.overrides.pop(join(bound._path, name), f.MISSING)
@@ -116,12 +121,12 @@ class Given:
         return value
 
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
+        where = f"`{name}` of {self._origin(bound, name).owner}"
         value = self._given(bound, name, declared)
-        where = f"`{name}` of {owner_text(bound)}"
-        if _symbolic(value):
+        if is_symbolic(value):
             raise DeclarationError(
-                f"{where} is structural: it cannot depend on the parameter {value!r}, which may change after compiling. "
-                "Declare that one structural(...) as well."
+                f"{where} is structural: it cannot depend on {value!r}, which may change after compiling. Declare what it "
+                "follows from structural(...) as well."
             )
         if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
             raise DeclarationError(f"{where} is {value!r}; it must be {one_of(declared.choices)}.")
@@ -135,20 +140,21 @@ class Given:
         return value
 
     def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
+        origin = self._origin(bound, name)
         value = self._given(bound, name, declared)
         path = join(bound._path, name)
-        where = f"`{name}` of {owner_text(bound)}"
+        where = f"`{name}` of {origin.owner}"
         shape = declared.shape(bound) if callable(declared.shape) else declared.shape
         unit = unit_of(declared, bound)
-        if not _symbolic(value):
+        if not is_symbolic(value):
             expression = self._free(path, numeric(value, shape or (), where), unit)
         else:
-            given = as_expr(value)
+            given = with_place(lambda: as_expr(value), origin)
             if given.shape != (shape or ()):
-                raise DeclarationError(f"{where} has shape {given.shape}; it must have shape {shape or ()}.")
+                raise DeclarationError(misshapen(where, value, given.shape, shape or ()))
             if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
                 raise DeclarationError(
-                    f"{Origin.of(bound)}: {where} follows from others, but not to a finite number: one that divides is 0"
+                    f"{Origin.of(bound)}: `{name}` follows from others, but not to a finite number: one that divides is 0"
                     f"{_zeros_of(bound)}. Give it another value."
                 )
             if ca.depends_on(given.sx, time.sx):
@@ -156,7 +162,7 @@ class Given:
                     f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
             own = Expr(given.sx, unit, path)
-            with_place(lambda: unit_rules.check_value(own, given), Origin.of(bound))
+            with_place(lambda: unit_rules.check_value(own, given), replace(origin, text=""))
             self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
@@ -166,9 +172,19 @@ class Given:
     def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
         """An input at the top of the model is a parameter, whatever its value."""
         shape = declared.shape if isinstance(declared.shape, tuple) else ()
+        where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, declared.start))
-        value = np.broadcast_to(numeric(given, np.shape(given), f"`{name}` of {owner_text(bound)}"), shape)
-        vars(bound)[name] = self._free(name, value, unit_of(declared, bound), fold=False)
+        if is_symbolic(given):
+            raise DeclarationError(
+                f"{where} is {given!r}, but an input of the whole model takes a number. A law is given where "
+                f"{type(bound).__name__} is a part: `class Whole(Model): part = {type(bound).__name__}({name}=...)`."
+            )
+        value = numeric(given, shape if isinstance(given, list | tuple | np.ndarray) else (), where)
+        vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit_of(declared, bound), fold=False)
+
+    def _origin(self, bound: Component, name: str) -> Origin:
+        """Where the value of a field is written."""
+        return value_origin(bound, name, by_path=join(bound._path, name) in self.overrides)
 
     def _free(self, path: str, value: np.ndarray, unit: Any, fold: bool = True) -> Expr:
         """Make a symbol for each entry that is not exactly 0."""
@@ -208,26 +224,6 @@ def one_of(choices: tuple[Any, ...]) -> str:
     return f"one of {', '.join(map(repr, choices))}"
 
 
-def numeric(value: Any, shape: tuple[int, ...], where: str) -> np.ndarray:
-    """Return the value as an array of finite numbers of the given shape, or raise DeclarationError."""
-    try:
-        if _has_no_number(value):
-            raise TypeError
-        array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        wanted = f"an array of numbers of shape {shape}" if shape else "a number"
-        si = in_si(value) if isinstance(value, str) and not shape else None
-        mend = "" if si is None else f", in SI units without the unit: {si:.12g}"
-        raise DeclarationError(f"{where} is {value!r}; it must be {wanted}{mend}.") from None
-    except OverflowError:
-        raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
-    if array.shape != shape:
-        raise DeclarationError(f"{where} has shape {array.shape}; it must have shape {shape}.")
-    if not all(math.isfinite(x) for x in array.flat):
-        raise DeclarationError(f"{where} is {value!r}; it must be finite.")
-    return array
-
-
 def _zeros_of(bound: Component) -> str:
     """Name the parameters of a component that are 0."""
     known = [(n, vars(bound).get(n)) for n, d in bound.fields.items() if isinstance(d, f.Parameter)]
@@ -235,19 +231,6 @@ def _zeros_of(bound: Component) -> str:
     return f", here {' or '.join(names)}" if names else ""
 
 
-def _has_no_number(value: Any) -> bool:
-    if isinstance(value, list | tuple):
-        return any(_has_no_number(item) for item in value)
-    return value is None or isinstance(value, bool | str)
-
-
-def _symbolic(value: Any) -> bool:
-    if isinstance(value, list | tuple):
-        return any(_symbolic(item) for item in value)
-    return isinstance(value, Expr)
-
-
 def owner_text(component: Component) -> str:
     """Return path, class and line of a component, for messages."""
-    kind = type(component).__name__
-    return f"{component._path} ({kind}, {component._origin})" if component._path else kind
+    return Origin.of(component).owner if component._path else type(component).__name__

@@ -93,10 +93,15 @@ class Instantiation:
         )
 
     def _part(self, bound: Component, name: str, declared: f.Part) -> Any:
-        path, place = join(bound._path, name), Origin.of(bound, name)
+        path = join(bound._path, name)
         made: Any = bound._values.get(name, f.MISSING)
         if made is f.MISSING:
-            made = self._made(bound, declared, place)
+            made = self._made(bound, declared, Origin.of(bound, name))
+        place = Origin(bound._path, type(bound).__name__, declared.where, name)
+        if isinstance(made, list | tuple) and not declared.many:
+            raise DeclarationError(
+                f"{place}: a method marked @part or @port returns one; mark it @parts if it returns a list of parts."
+            )
         if isinstance(made, list | tuple):
             return [self._member(bound, item, f"{path}[{k}]") for k, item in enumerate(made)]
         if declared.many:

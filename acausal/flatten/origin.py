@@ -31,9 +31,37 @@ class Origin:
         """Where a component is constructed."""
         return cls(component._path, type(component).__name__, component._origin, text)
 
+    @property
+    def owner(self) -> str:
+        """Path, class and line in the middle of a sentence."""
+        inside = ", ".join(filter(None, [self.kind, self.where]))
+        return f"{self.path} ({inside})" if self.path else self.kind + f" ({self.where})" * bool(self.where)
+
     def __str__(self) -> str:
         name = f"{self.path} ({self.kind})" if self.path else self.kind
-        return f"{name}, {self.where}{': ' + self.text if self.text else ''}"
+        return f"{', '.join(filter(None, [name, self.where]))}{': ' + self.text if self.text else ''}"
+
+
+def value_origin(component: Component, name: str, by_path: bool = False) -> Origin:
+    """Where the value of a field is written: in the call of the constructor, or in the class.
+
+    Parameters
+    ----------
+    component : Component
+        What has the field, bound.
+    name : str
+        The field.
+    by_path : bool
+        True for a value by path, `parameters={"beam.E": ...}`: no line of the model holds it.
+    """
+    here = Origin.of(component, name)
+    if by_path:
+        return here if component._path else replace(here, where="")
+    if name in component._values:
+        return here
+    said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
+    given = next(said, None) if name in component._class_values else None
+    return replace(here, where=given._line if given else component.fields[name].where)
 
 
 def method_origin(component: Component, name: str) -> Origin:

@@ -11,13 +11,14 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.given import unit_of
-from acausal.flatten.origin import Origin, with_place
+from acausal.flatten.numeric import misshapen
+from acausal.flatten.origin import value_origin, with_place
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
-from acausal.symbols import combined
+from acausal.symbols import combined, scalars
 from acausal.units import Dimension
 
 
@@ -88,7 +89,7 @@ def _members(connector: Component) -> list[Component]:
 
 
 def _create(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
-    return with_place(lambda: _declare(owner, name, declared, arrays), Origin.of(owner, name))
+    return with_place(lambda: _declare(owner, name, declared, arrays), value_origin(owner, name))
 
 
 def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
@@ -103,7 +104,7 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
         else f.InitialValue(f.evaluate(declared.start, owner), declared.fixed)
     )
     nominal = declared.nominal(owner) if callable(declared.nominal) else declared.nominal
-    nominal = start.nominal if start.nominal is not None else nominal
+    nominal = start.nominal if start.nominal is not None else f.evaluate(nominal, owner)
     arrays.append(
         VariableArray(
             path,
@@ -125,13 +126,17 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
     path = variable.name
     if callable(value):
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
+    if isinstance(value, bool | np.bool_):
+        raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be a number.")
     given = as_expr(value)
     if given.sx.is_constant() and not given.sx.is_regular():
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
         given = Expr(combined(ca.SX.ones(*shape), "*", given.sx), given.unit)
     elif given.shape != shape:
-        raise DeclarationError(f"{what} of `{path}` has shape {given.shape}; it must have shape {shape}.")
+        raise DeclarationError(misshapen(f"{what} of `{path}`", value, given.shape, shape))
     if what == "start":
         unit_rules.common(variable, given, "its start value")
+    elif given.sx.is_constant() and not all(float(entry) > 0 for entry in scalars(given.sx)):
+        raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be positive: it is the typical size.")
     return given

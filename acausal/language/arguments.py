@@ -17,13 +17,23 @@ F = TypeVar("F", bound=Callable[..., Any])
 MEANT = {
     "default": ("start", "value"),
     "value": ("default", "start"),
-    "start": ("default", "value"),
-    "init": ("start", "default"),
+    "start": ("default", "value", "start_time"),
+    "init": ("start", "default", "initial"),
     "min": ("minimum",),
     "size": ("shape",),
     "max": (),
     "maximum": (),
+    **dict.fromkeys(("t_end", "tend", "t_final", "tf", "t_stop", "t_max", "end_time", "end", "stop"), ("stop_time",)),
+    **dict.fromkeys(("duration", "until", "time"), ("stop_time",)),
+    **dict.fromkeys(("t", "at"), ("stop_time", "time")),
+    **dict.fromkeys(("t0", "t_start", "tstart", "begin"), ("start_time",)),
+    **dict.fromkeys(("tol", "rtol", "reltol"), ("tolerance",)),
+    **dict.fromkeys(("n", "steps", "n_steps", "points", "n_points", "dt", "step", "step_size"), ("intervals",)),
+    **dict.fromkeys(("solver", "integrator"), ("method",)),
+    **dict.fromkeys(("params", "parameter", "values", "settings"), ("parameters",)),
+    **dict.fromkeys(("file", "filename", "file_name", "fname"), ("path",)),
 }
+MARKS = ("part", "parts", "observed")
 
 
 def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:
@@ -44,18 +54,47 @@ def told(function: F) -> F:
             error.line = error.line or user_line()
             raise
         except TypeError:
-            wrong = _misfit(function, given, named)
-            if not wrong:
-                raise
-            raise refused(wrong) from None
+            _refuse_misfit(function, given, named)
+            raise
 
     return call  # type: ignore[return-value]
 
 
+def fitting(function: F) -> F:
+    """Decorate a public function that runs models, or a method: wrong arguments are an error of ours, with the line."""
+
+    @wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        try:
+            return function(*given, **named)
+        except TypeError:
+            _refuse_misfit(function, given, named)
+            raise
+
+    return call  # type: ignore[return-value]
+
+
+def brackets(mark: str) -> str:
+    """Return the message for a mark above a method that is called instead."""
+    form = "def ...(self): return ..."
+    return f"@{mark} marks a method: it stands alone, without brackets, above `{form}`, whose docstring describes it."
+
+
+def _refuse_misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> None:
+    """Raise DeclarationError if the arguments of a call are wrong."""
+    wrong = _misfit(function, given, named)
+    if wrong:
+        raise refused(wrong) from None
+
+
 def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> str:
     """Say what is wrong with the arguments of a call, "" if nothing is."""
-    parameters = inspect.signature(function).parameters
+    parameters = dict(inspect.signature(function).parameters)
     name = function.__name__
+    if name in MARKS:
+        return brackets(name)
+    if parameters.pop("self", None):
+        given = given[1:]
     kinds = [p.kind for p in parameters.values()]
     places = [
         n for n, p in parameters.items() if p.kind in (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
@@ -64,17 +103,23 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     other = [n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY]
     several = [f"*{n}" for n, p in parameters.items() if p.kind is Parameter.VAR_POSITIONAL]
     form = f"`{name}({', '.join([*needed, *several])})`"
-    unknown = next((n for n in named if n not in parameters), None)
+    unknown = next((n for n in named if n not in (*places, *other)), None)
     if unknown is not None and Parameter.VAR_KEYWORD not in kinds:
         near = [n for n in MEANT.get(unknown, ()) if n in parameters]
         near = near if unknown in MEANT else difflib.get_close_matches(unknown, [*places, *other], 1)
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
+        if "parameters" in parameters:
+            value = f"parameters={{{unknown!r}: {short(named[unknown])}}}"
+            known = (
+                f"a value of the model is given by its path, {value}. The arguments are {', '.join([*places, *other])}."
+            )
         return f"{name}() has no argument `{unknown}`; {f'did you mean `{near[0]}`?' if near else known}"
     if name == "der" and len(given) > 1:
         order = "the second derivative is" if given[1] == 2 else "a further derivative is a der() around it, as"
         return f"der({', '.join(map(short, given))}): {order} der(der({short(given[0])}))."
     if len(given) > len(places) and Parameter.VAR_POSITIONAL not in kinds:
         only = f"{name}() takes {len(places)} argument{'s' * (len(places) != 1)} without a name, not {len(given)}"
-        return f"{only}; write {form}." if not other else f"{only}; the others are given by name: {', '.join(other)}."
+        whole = f"`{name}({', '.join(places)})`"
+        return f"{only}; write {whole}." if not other else f"{only}; the others are given by name: {', '.join(other)}."
     missing = [n for n in needed[len(given) :] if n not in named]
     return f"{name}() lacks its argument `{missing[0]}`; write {form}." if missing else ""

@@ -11,7 +11,8 @@ import numpy as np
 from acausal.errors import AcausalError
 from acausal.language import fields as f
 from acausal.language.arguments import refused
-from acausal.language.types import shape_of_annotation
+from acausal.language.no_expression import decimal_point
+from acausal.language.types import shape_of_annotation, wrong_type
 from acausal.language.values import shown
 from acausal.units import parse
 
@@ -45,9 +46,13 @@ def _wrong(cls: Any, name: str, field: f.Field) -> str:
     if isinstance(field, f.Part):
         return _wrong_part(field)
     if isinstance(field, f.Observed):
-        takes = callable(field.compute) and _takes_self(field.compute)
-        return "" if takes else f"@observed marks a method, `def {name}(self): return ...`."
+        if not (callable(field.compute) and _takes_self(field.compute)):
+            return f"@observed marks a method, `def {name}(self): return ...`."
+        yields = inspect.isgeneratorfunction(field.compute)
+        return "an observed quantity is one expression: write `return`, not `yield`." if yields else ""
     wrong = _wrong_shape(cls, name, field) or _wrong_unit(field)
+    if not wrong and isinstance(field, f.Parameter | f.Variable):
+        wrong = wrong_type(cls, name, field.shape, _declared_by(field))
     if wrong or isinstance(field, f.Outer):
         return wrong
     if isinstance(field, f.Variable):
@@ -60,16 +65,21 @@ def _wrong_unit(field: f.Field) -> str:
     if unit is None or callable(unit):
         return ""
     if isinstance(unit, str):
-        parse(unit)
-        return ""
-    if not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
+        unit = [unit]
+    elif not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
         return f'unit={shown(unit)} is not a unit: write unit="m/s", one for each entry in brackets, unit=("m", "rad"), or none.'
     for entry in unit:
         parse(entry)
+        if entry != entry.strip():
+            return f'unit="{entry}" has a blank at an end: write "{entry.strip()}".'
+    if isinstance(field.unit, str):
+        return ""
     size = field.shape[0] if isinstance(field.shape, tuple) and field.shape else None
     if isinstance(field.shape, tuple) and len(unit) != size:
         what = f"{size} rows" if size else "one value"
-        return f"it has {len(unit)} units, and {what}: give one unit for all, or one for each row."
+        return (
+            f"it has {len(unit)} unit{'s' * (len(unit) != 1)}, and {what}: give one unit for all, or one for each row."
+        )
     return ""
 
 
@@ -122,9 +132,13 @@ def _wrong_value(field: f.Field) -> str:
         return f"a parameter has no start: write default={shown(default.value)}."
     if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
         return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
+    if isinstance(field, f.Parameter) and not isinstance(field.positive, bool):
+        return f"positive={shown(field.positive)} must be True or False; the least value is minimum=..."
     if inspect.isfunction(default) and not _takes_self(default):
         return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
     if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
+        if isinstance(default, str) and decimal_point(default):
+            return f"default={shown(default)} must be a number{decimal_point(default)}."
         mend = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
         return f"default={shown(default)} must be a number.{mend}"
     choices = field.choices if isinstance(field, f.Structural) else None
@@ -143,9 +157,25 @@ def _wrong_part(field: f.Part) -> str:
     if not fits:
         what = getattr(make, "__name__", None) or shown(make)
         return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
+    if isinstance(make, staticmethod | classmethod | property):
+        return f"a method that makes a part takes self: leave out @{type(make).__name__}."
     if inspect.isfunction(make) and not _takes_self(make):
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
+    if inspect.isgeneratorfunction(make) and not field.many:
+        what = (
+            "@port marks a method that returns one port"
+            if field.is_port
+            else "@part marks a method that returns one part"
+        )
+        return f"{what}: write `return`, not `yield`. Several parts are made by a method marked @parts."
     return ""
+
+
+def _declared_by(field: f.Parameter | f.Variable) -> str:
+    """Return the function that declares a field."""
+    if isinstance(field, f.Parameter):
+        return "parameter"
+    return "flow" if field.flow else field.causality or "variable"
 
 
 def _takes_self(method: Any) -> bool:

@@ -16,7 +16,7 @@ from acausal.language.docstring import with_parameters
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.slips import SETTINGS
-from acausal.language.values import check_value, refuse_decorator, unnamed_text
+from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
 
 
 @dataclass_transform(
@@ -57,7 +57,13 @@ class Component(f.Template):
 
     @told
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        super().__init_subclass__(**kwargs)
+        try:
+            super().__init_subclass__(**kwargs)
+        except TypeError:
+            if not kwargs:
+                raise
+            name, value = next(iter(kwargs.items()))
+            raise DeclarationError(values_of_class(cls, name, value)) from None
         read_body(cls)
         cls.__doc__ = with_parameters(cls)
 

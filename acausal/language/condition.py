@@ -27,7 +27,7 @@ class Condition:
     def __init__(self, excess: Any, kind: str, sides: tuple[Any, ...] = ()) -> None:
         self.excess = excess
         self.kind = kind
-        self._sides = sides
+        self.sides = sides
 
     @property
     def comparisons(self) -> list[Condition]:
@@ -63,10 +63,13 @@ class Condition:
     def __bool__(self) -> bool:
         raise DeclarationError(undecided(self._said()))
 
+    def __repr__(self) -> str:
+        return self._said()
+
     def _said(self) -> str:
-        if not self._sides:
-            return "a comparison"
-        left, sign, right = self._sides
+        if not self.sides:
+            return "a condition"
+        left, sign, right = self.sides
         return f"{cut(repr(left))} {sign} {cut(repr(right))}"
 
 
@@ -87,7 +90,7 @@ class Joined(Condition):
                 f"& and | join two conditions, each in brackets, such as (x > 0) & (v < 0), not one and {b!r}. What is known "
                 "when the model is built is decided by Python's `if`."
             )
-        self.a, self.b, self.every, self._sides = a, b, every, ()
+        self.a, self.b, self.every, self.sides = a, b, every, ()
 
     @property
     def excess(self) -> Any:  # type: ignore[override]

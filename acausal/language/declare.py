@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import told
+from acausal.language.arguments import brackets, told
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
@@ -235,19 +235,19 @@ def port(connector: Any, description: str = "") -> Any:
 @told
 def part(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a part from structural values; None leaves the part out."""
-    return Part(make.__doc__ or "", make=make)
+    return Part(_described(make, "part"), make=make)
 
 
 @told
 def parts(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a list of parts from structural values."""
-    return Part(make.__doc__ or "", make=make, many=True)
+    return Part(_described(make, "parts"), make=make, many=True)
 
 
 @told
 def observed(compute: Callable[[Any], Any]) -> Any:
     """Decorate a method that returns an expression: readable in results like a variable, at no cost during the run."""
-    return Observed(compute.__doc__ or "", compute=compute)
+    return Observed(_described(compute, "observed"), compute=compute)
 
 
 @told
@@ -256,6 +256,13 @@ def outer(cls: type) -> Any:
     if not isinstance(cls, type):
         raise DeclarationError(f"outer() takes the class of the component, such as outer(World), not {cls!r}.")
     return Outer(f"the {cls.__name__} of the model", cls=cls)
+
+
+def _described(method: Any, mark: str) -> str:
+    """Return the docstring of a method that is marked."""
+    if isinstance(method, str):
+        raise DeclarationError(brackets(mark))
+    return method.__doc__ or ""
 
 
 def _allowed(choices: Sequence[Any]) -> tuple[Any, ...]:

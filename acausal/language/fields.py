@@ -104,7 +104,7 @@ def evaluate(value: Any, owner: Any) -> Any:
     if isinstance(value, Deferrable):
         return value.evaluate(owner)
     if isinstance(value, Condition):
-        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind))
+        return value.replaced(lambda c: Condition(evaluate(c.excess, owner), c.kind, c.sides))
     if isinstance(value, InitialValue):
         return InitialValue(evaluate(value.value, owner), value.fixed, evaluate(value.nominal, owner))
     if type(value) in (list, tuple):
@@ -112,13 +112,16 @@ def evaluate(value: Any, owner: Any) -> Any:
     return value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class InitialValue:
     """A start value; `fixed` makes it an equation of the initial system, otherwise it is a guess."""
 
     value: Any
     fixed: bool
     nominal: Any = None
+
+    def __repr__(self) -> str:
+        return f"{'fixed' if self.fixed else 'guess'}({self.value!r})"
 
 
 @dataclass(eq=False)

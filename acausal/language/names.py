@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Mapping
 from functools import cache
 from types import FunctionType
@@ -52,7 +53,15 @@ def refuse_annotations(cls: Any) -> None:
     """Raise DeclarationError for an annotation that looks like a field, but declares none."""
     for base in cls.__mro__:
         for name in inspect.get_annotations(base) if "_own_fields" in vars(base) else ():
-            if name in cls.fields or hasattr(cls, name) or shape_of_annotation(base, name) is None:
+            if name in cls.fields or hasattr(cls, name):
+                continue
+            if _is_call(inspect.get_annotations(base)[name]):
+                raise refused(
+                    f"{base.__name__}.{name} has no value: a `:` stands where `=` is meant. Write `{name} = ...`, or "
+                    f"`{name}: Scalar = ...` for a field.",
+                    base._line,
+                )
+            if shape_of_annotation(base, name) is None:
                 continue
             kind = inspect.get_annotations(base)[name]
             kind = kind if isinstance(kind, str) else kind.__name__
@@ -61,6 +70,12 @@ def refuse_annotations(cls: Any) -> None:
                 "parameter, input, output.",
                 base._line,
             )
+
+
+def _is_call(annotation: Any) -> bool:
+    """Whether what makes a part or a field stands as a type."""
+    made = isinstance(annotation, f.Template | f.Field)
+    return made or (isinstance(annotation, str) and re.match(r"[\w.]+\(", annotation) is not None)
 
 
 def refuse_plain(cls: Any, name: str, value: Any) -> None:

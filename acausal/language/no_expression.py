@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from inspect import isgenerator
 from types import ModuleType
@@ -45,6 +46,26 @@ def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {cut(repr(value))}."
 
 
+def decimal_point(value: Any) -> str:
+    """Return the mend where a comma was intended as decimal point, as in 1,5 and "1,5"; "" where it was not."""
+    parts = value.split(",") if isinstance(value, str) else value if isinstance(value, tuple) else ()
+    texts = [str(part).strip() for part in parts]
+    meant = len(texts) == 2 and re.fullmatch(r"[-+]?\d*", texts[0]) and re.match(r"\d+", texts[1])
+    return f"; a decimal point is a dot: {texts[0]}.{texts[1]}" if meant else ""
+
+
+def _without_quotes(text: str) -> str:
+    """Return what is meant by a text: the number in it, or a variable of its name."""
+    try:
+        float(text)
+    except ValueError:
+        if decimal_point(text):
+            return f"Write a number{decimal_point(text)}."
+        name = text if text.isidentifier() else "x"
+        return f"Write a number, or a variable without quotes: self.{name}, in the class body {name}."
+    return f"Write the number without quotes: {text.strip()}."
+
+
 def _described(value: Any) -> tuple[str, str]:
     kind = type(value).__name__
     if kind in WORDS:
@@ -52,10 +73,7 @@ def _described(value: Any) -> tuple[str, str]:
     if value is None:
         return "None", "Either a method lacks its `return`, or an optional part does not exist here."
     if isinstance(value, str):
-        return (
-            f"the text {value!r}",
-            f"Write a number, or a variable as self.{value if value.isidentifier() else 'x'}, without quotes.",
-        )
+        return f"the text {value!r}", _without_quotes(value)
     if hasattr(value, "fields") and hasattr(value, "_ports"):
         names = [n for n, field in value.fields.items() if type(field).__name__ in ("Variable", "Parameter")]
         return f"the part {value!r}", f"Name one of its values{f', such as .{names[0]}' if names else ''}."

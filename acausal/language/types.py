@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import builtins
+import difflib
 import inspect
+import re
+import sys
 from typing import TYPE_CHECKING, Any
+
+from acausal.language.arguments import refused
 
 if TYPE_CHECKING:
     Scalar = Any
@@ -11,21 +17,95 @@ if TYPE_CHECKING:
     Matrix33 = Any
 else:
 
-    class Scalar:
+    class _Type:
+        def __new__(cls, *_: Any, **__: Any) -> Any:
+            name = cls.__name__
+            raise refused(
+                f'{name} is the type of a field and takes no value: `x: {name} = variable("...")`, or parameter(...).'
+            )
+
+    class Scalar(_Type):
         """A number: shape ()."""
 
-    class Vector3:
+    class Vector3(_Type):
         """A vector of three components: shape (3,)."""
 
-    class Matrix33:
+    class Matrix33(_Type):
         """A 3 x 3 matrix: shape (3, 3)."""
 
 
 _BY_NAME = {"Scalar": (), "Vector3": (3,), "Matrix33": (3, 3)}
+_NO_TYPES = (tuple, list, int, float)
+_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a name, and what it holds or stands beside
+_REAL = ("float", "float64", "floating", "Real")
+_WHOLE = ("int", "bool", "str", "Literal", "Enum")
+_LISTED = ("list", "tuple", "ndarray", "Sequence", "Iterable", "array")
+_NEITHER = ("dict", "set", "complex", "Mapping", "None", "NoneType", "type", "object")
 
 
 def shape_of_annotation(cls: type, name: str) -> tuple[int, ...] | None:
     """Return the shape that the annotation of a field tells, or None."""
+    return _BY_NAME.get(_type_name(cls, name))
+
+
+def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
+    """Say what is wrong with the annotation of a parameter or variable, "" if nothing is.
+
+    Parameters
+    ----------
+    cls : Component class
+        Its class.
+    name : str
+        The field.
+    shape : tuple of int or callable, optional
+        As it is declared.
+    field : str
+        The function that declares it.
+    """
+    annotation = inspect.get_annotations(cls).get(name)
+    if isinstance(annotation, _NO_TYPES) or (isinstance(annotation, str) and not _READABLE.match(annotation)):
+        return (
+            f"{annotation!r} is no type: write `{name}: Scalar = {field}(...)`; shape=(3,) and unit=... are arguments."
+        )
+    kind = _type_name(cls, name)
+    a = "an" if field in ("input", "output") else "a"
+    if kind in _REAL:
+        listed = shape not in (None, ())
+        return (
+            f"{kind} is one number; with shape={shape} leave the type out, `{name} = {field}(...)`." if listed else ""
+        )
+    if kind in _WHOLE:
+        mend = f"`{name}: {kind} = structural(...)`"
+        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {mend}."
+    if kind in _LISTED:
+        mend = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
+        return f"the type {kind} does not tell how many numbers: write {mend}." if shape is None else ""
+    if kind in _NEITHER or _is_component(cls, kind):
+        what = (
+            ""
+            if kind in _NEITHER
+            else f"; a part or port stands alone, `{name} = {kind}(...)`, `{name} = port({kind})`"
+        )
+        return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
+    known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
+    near = [] if known else difflib.get_close_matches(kind, _BY_NAME, 1)
+    return f"the type {kind} is unknown; did you mean {near[0]}?" if near else ""
+
+
+def _type_name(cls: type, name: str) -> str:
+    """Name of the annotation of a field without what it holds, `list` for list[float]; what an alias stands for."""
     annotation = inspect.get_annotations(cls).get(name)
     text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
-    return _BY_NAME.get(text.rsplit(".", 1)[-1])
+    text = text.partition("[")[0].rsplit(".", 1)[-1].strip()
+    alias = None if text in _BY_NAME else _names(cls).get(text)
+    return alias.__name__ if isinstance(alias, type) and alias.__module__ == __name__ else text
+
+
+def _is_component(cls: type, name: str) -> bool:
+    found = _names(cls).get(name)
+    return isinstance(found, type) and hasattr(found, "_own_fields")
+
+
+def _names(cls: type) -> dict[str, Any]:
+    """What is known in the module of a class."""
+    return vars(sys.modules[cls.__module__]) if cls.__module__ in sys.modules else {}

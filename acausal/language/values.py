@@ -31,6 +31,8 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
+    if isinstance(field, f.Variable) and isinstance(value, list | tuple):
+        _refuse_inside(where, value, name)
     if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue):
         raise DeclarationError(
             f"{where} is a variable: write {name}=fixed({value!r}) for a value at the start, "
@@ -59,6 +61,16 @@ def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) ->
         return f"{cls.__name__} takes its values by name, and has none of this kind; {nearest_field(cls, '')}"
     written = ", ".join(f"{name}={shown(value)}" for name, value in zip(names, unnamed, strict=False))
     return f"{cls.__name__} takes its values by name, for instance {cls.__name__}({written})."
+
+
+def values_of_class(cls: Any, name: str, value: Any) -> str:
+    """Return the message for a value in the brackets of a class statement."""
+    known = isinstance(value, f.Template) or name in getattr(cls, "fields", {}) or name in cls._settings
+    line = f"{name} = {shown(value)}" if known else f'{name}: Scalar = parameter("...", default={shown(value)})'
+    bases = ", ".join(base.__name__ for base in cls.__bases__)
+    return (
+        f"class {cls.__name__}({bases}, {name}=...): values stand in the class body, in a line of their own, `{line}`."
+    )
 
 
 def refuse_decorator(cls: Any) -> None:
@@ -115,6 +127,16 @@ def holds_parts(value: Any) -> bool:
     if isinstance(value, dict):
         return holds_parts(list(value.values()))
     return isinstance(value, list | tuple | set | frozenset) and any(is_part_class(v) or holds_parts(v) for v in value)
+
+
+def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
+    """Raise DeclarationError for fixed(...) or guess(...) around single entries of a value."""
+    first = next((entry for entry in entries if isinstance(entry, f.InitialValue)), None)
+    if first is not None:
+        word = "fixed" if first.fixed else "guess"
+        inside = tuple(entry.value if isinstance(entry, f.InitialValue) else entry for entry in entries)
+        whole = repr(inside if len(inside) > 1 else inside[0])
+        raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
 
 
 def _check_part(where: str, value: Any, field: f.Part) -> Any:

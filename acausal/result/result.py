@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError, caution
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.kept import Kept, keep
@@ -136,6 +137,7 @@ class Result:
     def _ipython_key_completions_(self) -> list[str]:
         return names(self.tree)
 
+    @fitting
     @alone
     def series(self, *keys: Key) -> list[Series]:
         """Return scalars with name and unit; arrays entry by entry, `name[0]`, `name[1]`, ...
@@ -163,6 +165,7 @@ class Result:
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
         }
 
+    @fitting
     def to_csv(self, path: str | Path, *keys: Key) -> None:
         """Write a table, `time` first, then the outputs or `keys`, with all digits.
 
@@ -173,12 +176,14 @@ class Result:
         """
         write_csv(path, self._columns(keys))
 
+    @fitting
     def to_dataframe(self, *keys: Key) -> pd.DataFrame:
         """Return a table, `time` first, then the outputs or `keys`."""
         import pandas as pd
 
         return pd.DataFrame(self._columns(keys))
 
+    @fitting
     @alone
     def plot(self, *keys: Key, path: str | Path | None = None, show: bool | None = None) -> Figure:
         """Draw the outputs or `keys` over time, one axes for each unit.

@@ -203,11 +203,13 @@ class Search:
             return self.failures[-1]
         best = self.report(self.best)
         text = chosen_text(best.stats)
-        return SimulationError(
-            f"the accuracy was not reached: {reason}. The best run is kept: {text}. Ask for less, or examine "
-            "the outputs of a run with tolerance=... .",
+        refusal = SimulationError(
+            f"the accuracy was not reached: {reason}. The best run: {text}. Ask for less, or examine the outputs of a run "
+            "with tolerance=... .",
             best,
         )
+        refusal.kept = "The best run"
+        return refusal
 
 
 def chosen_text(stats: Mapping[str, Any]) -> str:

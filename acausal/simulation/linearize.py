@@ -13,6 +13,7 @@ from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.language import fields as f
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.simulation.settings import check_number, settled
@@ -75,6 +76,7 @@ class Linearization:
         return np.linalg.eig(self.A)
 
 
+@fitting
 @alone
 def linearize(
     model: Component | CompiledModel,

@@ -75,7 +75,7 @@ class Runs:
             except SimulationError as failure:
                 found = failure
             self.results[numerics] = found
-            self._note(numerics, found if isinstance(found, Result) else found.result, str(found))
+            self._note(numerics, *((found, "") if isinstance(found, Result) else (found.result, found.said())))
         return self.results[numerics]
 
     def sizes(self, number: int) -> dict[str, int]:
@@ -94,7 +94,7 @@ class Runs:
             self.compiled[number] = ready(self.model, {**self.parameters, **self.sizes(number)})
         return self.compiled[number]
 
-    def _note(self, numerics: Numerics, result: Any, text: str) -> None:
+    def _note(self, numerics: Numerics, result: Any, failed: str) -> None:
         stats = result.stats
         self.building += stats.compile_seconds - sum(self.compiled[numerics.number][0].seconds.values())
         self.done.append(
@@ -104,7 +104,7 @@ class Runs:
                 "method": stats.method,
                 "sizes": self.sizes(numerics.number),
                 **{name: stats[name] for name in COUNTS},
-                "failed": "" if isinstance(self.results[numerics], Result) else text,
+                "failed": failed,
             }
         )
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from acausal.errors import KEPT
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, infinite_slope, without_value
@@ -53,15 +52,12 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
     reached = bool(trace.pieces)
     at = problem.point(trace.pieces[-1].rows, -1) if reached else begun
     begins = failure.time <= begun.time
-    head, kept = (
-        f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:",
-        "" if begins else KEPT,
-    )
+    head = f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:"
     if failure.kind is None:
-        return f"{head} {failure.reason}. {kept}".rstrip()
+        return f"{head} {failure.reason}."
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at, left) or (left.singular and not reached):
-        return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {kept}".rstrip()])
+        return "\n".join([*lines, _fastest(problem, at), SINGULAR])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
         # What fails in the equations explains all; that no step was short enough would be a second head.
@@ -69,9 +65,8 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
         lines = (
             [f"{head} {found.removeprefix(same)}"] if found.startswith(same) else [*lines, found[0].upper() + found[1:]]
         )
-        return "\n".join(filter(None, [*lines, kept]))
-    mend = MENDS.get(failure.kind, MENDS[None])
-    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {kept}".rstrip()])
+        return "\n".join(lines)
+    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), MENDS.get(failure.kind, MENDS[None])])
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:

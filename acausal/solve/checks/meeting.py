@@ -12,7 +12,6 @@ from itertools import islice
 
 import numpy as np
 
-from acausal.errors import KEPT
 from acausal.policy import POLICY
 from acausal.solve.checks.validity import separations
 from acausal.solve.integrate.attempt import Integrator
@@ -131,5 +130,5 @@ def _search(search: _Search, rows: Rows, steps: int, text: str) -> list[Meeting]
     everywhere = n <= MEETING.few and steps > MEETING.steps_a_row * n
     for time, effect in islice(search.run(seen, everywhere), MEETING.harmless):
         if abs(effect) > least:
-            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there). {KEPT}")]
+            return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there).")]
     return []

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.errors import KEPT, InitializationError, caution
+from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
@@ -274,5 +274,5 @@ class Run:
             f"{places_text(self.integrator.compiled, guards)}\n"
             "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
             "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
-            f"without a jump (smooth=True). {KEPT}"
+            "without a jump (smooth=True)."
         )

@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.compiler import compile, model_of, values_of
 from acausal.errors import DeclarationError, SimulationError
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.simulation.asked import check_choice
@@ -32,6 +33,7 @@ from acausal.study.measuring.session import Progress
 from acausal.study.measuring.shipping import pack
 
 
+@fitting
 def effects(
     model: Component,
     *,

@@ -10,6 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.tree import join, members
 from acausal.language import fields as f
+from acausal.language.arguments import refused
 from acausal.language.component import Component
 
 # Where a model does not say which numbers of elements to try: its own, twice and four times as many.
@@ -76,6 +77,11 @@ def with_and_without(*formulations: Formulation, **switches: str) -> tuple[Formu
     **switches : str
         Word for the name and path of the switch: stiffened="beam.geometric_stiffness".
     """
+    for form in formulations or (None,):
+        if not isinstance(form, Formulation):
+            given = "none is given" if form is None else f"{form!r} is none"
+            example = 'Formulation("fine", {"beam.elements": 8})'
+            raise refused(f"with_and_without() takes formulations, such as {example}; {given}.")
     found = formulations
     for word, path in switches.items():
         pairs = [(form, on) for form in found for on in (False, True)]

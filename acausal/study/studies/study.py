@@ -14,6 +14,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, compile, model_of, values_of
 from acausal.compiler.call import Call
 from acausal.flatten.instantiate import Instantiation
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.policy import POLICY
@@ -139,6 +140,7 @@ class Study:
         return figure
 
 
+@fitting
 def study(
     model: Component,
     *,

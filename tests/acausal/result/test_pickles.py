@@ -131,7 +131,7 @@ def test_a_process_without_the_model_reads_it(tmp_path):
 def test_a_failed_simulation_keeps_its_result():
     error = ac.SimulationError("it failed", ac.simulate(Plant(), **TANK))
     again = pickle.loads(pickle.dumps(error))
-    assert str(again) == "it failed"
+    assert str(again) == "it failed\nThe result up to there is in error.result."
     np.testing.assert_array_equal(again.result["x"], error.result["x"])
 
 

@@ -1,0 +1,92 @@
+"""Numbers that a user gives: what is none, or of a wrong shape, is refused in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.language.condition import Condition
+from acausal.language.expression import Expr
+from acausal.language.fields import InitialValue
+from acausal.language.no_expression import decimal_point
+from acausal.language.symbolic import Symbolic
+from acausal.language.values import shown
+from acausal.language.written import cut
+from acausal.units import in_si
+
+
+def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray:
+    """Return a value as an array of finite numbers.
+
+    Parameters
+    ----------
+    value : object
+        Given by the user.
+    shape : tuple of int, optional
+        The shape that it must have; None for any.
+    where : str
+        What it is the value of, for messages.
+
+    Raises
+    ------
+    DeclarationError
+        If it is none.
+    """
+    single = shape == () or (shape is None and not _is_listed(value))
+    try:
+        if _has_no_number(value):
+            raise TypeError
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        wanted = "a number" if single else "an array of numbers" + (f" of shape {shape}" if shape else "")
+        si = in_si(value) if isinstance(value, str) and single else None
+        mend = (
+            f", in SI units without the unit: {si:.12g}" if si is not None else decimal_point(value) if single else ""
+        )
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{mend}.") from None
+    except OverflowError:
+        raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
+    if shape is not None and array.shape != shape:
+        raise DeclarationError(misshapen(where, value, array.shape, shape))
+    if not all(math.isfinite(x) for x in array.flat):
+        raise DeclarationError(f"{where} is {value!r}; it must be finite.")
+    return array
+
+
+def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...]) -> str:
+    """Return the message for a value of a wrong shape."""
+    if shape:
+        return f"{where} has shape {found}; it must have shape {shape}."
+    return f"{where} is {cut(repr(value))}; it must be one number{decimal_point(value)}."
+
+
+def is_symbolic(value: Any) -> bool:
+    """Whether a value is an expression or a condition, or holds one."""
+    if _is_listed(value):
+        return any(is_symbolic(item) for item in value)
+    return isinstance(value, Expr | Condition)
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, InitialValue):
+        return shown(value)
+    if callable(value):
+        return "a function"
+    return "a generator" if isinstance(value, Iterator) else repr(value)
+
+
+def _has_no_number(value: Any) -> bool:
+    if _is_listed(value):
+        return any(_has_no_number(item) for item in value)
+    return value is None or isinstance(value, bool | np.bool_ | str | Symbolic | Condition | ca.SX | ca.MX)
+
+
+def _is_listed(value: Any) -> bool:
+    """Whether a value has entries that may be no numbers."""
+    listed = isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0
+    return isinstance(value, list | tuple) or listed
