@@ -13,6 +13,7 @@ from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.homes import misplaced, returned
+from acausal.language.source import calls
 
 
 @dataclass(frozen=True)
@@ -117,8 +118,7 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
 def _refuse_elsewhere(components: list[Component]) -> None:
     """Where something is not connected: refuse connections that are stated in equations()."""
     for component in components:
-        code = getattr(type(component).equations, "__code__", None)
-        word = next((w for w in ("connect", "chain") if code and w in code.co_names), None)
+        word = calls(type(component).equations, "connect", "chain")
         if word:
             raise ConnectError(
                 f"{method_origin(component, 'equations')}: equations() yields {word}(...), which belongs to "

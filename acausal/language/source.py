@@ -1,4 +1,4 @@
-"""Slips that only the text of a class shows: what is formed and dropped, written twice, or made and not returned."""
+"""What only the text of a class or function shows: what it drops, writes twice, does not return, binds, reads and calls."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import linecache
 import warnings
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from types import FunctionType
+from types import CodeType, FunctionType
 from typing import Any, NamedTuple
 from weakref import WeakSet
 
-from acausal.errors import ConnectError, DeclarationError
+from acausal.errors import ConnectError, DeclarationError, user_line
 from acausal.language.arguments import refused
 
 ENGINE = "acausal.language.component"
@@ -62,6 +62,53 @@ def returns_nothing(function: Any) -> bool:
     return slips is not None and slips.lost
 
 
+def body_line(cls: Any, name: str) -> str:
+    """File and line where a name is written in the class body that was just executed, "" if that is not known."""
+    file, _, line = user_line().rpartition(":")
+    for node in _written(file, cls.__name__, int(line)):
+        for part in _statements(node.body):
+            if name in _bound(part):
+                return f"{file}:{part.lineno}"
+    return ""
+
+
+def body_reads(cls: Any, name: str) -> bool:
+    """Whether the body of a class, which may be under execution, reads a name; a class without a body does not."""
+    file, _, line = vars(cls).get("_line", user_line()).rpartition(":")
+    return any(_reads(node.body, name) for node in _written(file, cls.__name__, int(line)))
+
+
+def may_read(code: CodeType, name: str) -> bool:
+    """Whether a function reads an attribute, or has its name as a text: getattr(self, "name"); True if it has no text."""
+    nodes = _written(code.co_filename, code.co_name, code.co_firstlineno)
+    for n in (n for node in nodes for n in ast.walk(node)):
+        if isinstance(n, ast.AugAssign):
+            n = n.target
+        elif isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Store):
+            continue
+        if (isinstance(n, ast.Attribute) and n.attr == name) or (isinstance(n, ast.Constant) and n.value == name):
+            return True
+    return not nodes
+
+
+def calls(function: Any, *words: str) -> str:
+    """Return the first of some statements that a function forms, "" if it forms none or has no text."""
+    code = getattr(function, "__code__", None)
+    nodes = _written(code.co_filename, code.co_name, code.co_firstlineno) if code else []
+    called = {_statement(n) for node in nodes for n in ast.walk(node) if isinstance(n, ast.Call)}
+    return next((word for word in words if word in called), "")
+
+
+def _written(file: str, name: str, line: int) -> list[Any]:
+    """Classes and functions of this name that begin in this line of a file."""
+    found = []
+    for node in ast.walk(_tree(_text(file))):
+        named = "<lambda>" if isinstance(node, ast.Lambda) else node.name if isinstance(node, DEFINITIONS) else ""
+        if named == name and line in (first.lineno for first in (*getattr(node, "decorator_list", ()), node)):
+            found.append(node)
+    return found
+
+
 def _refuse(cls: Any) -> None:
     name, (file, _, line) = cls.__name__, cls._line.rpartition(":")
     codes = [value.__code__ for value in vars(cls).values() if isinstance(value, FunctionType)]
@@ -83,20 +130,30 @@ def _refuse(cls: Any) -> None:
 
 def _slips_in(file: str) -> Mapping[tuple[str, int], Slips]:
     """Slips by name and first line of all classes and functions in a file."""
-    linecache.checkcache(file)
-    return _slips_of("".join(linecache.getlines(file)))
+    return _slips_of(_text(file))
 
 
 @lru_cache(maxsize=256)
 def _slips_of(text: str) -> Mapping[tuple[str, int], Slips]:
+    return _slips_by_place(_tree(text))
+
+
+def _text(file: str) -> str:
+    """Return the text of a file, "" where it is not to be had."""
+    linecache.checkcache(file)
+    return "".join(linecache.getlines(file))
+
+
+@lru_cache(maxsize=4)  # trees are large, and of the last files alone more than one thing is asked
+def _tree(text: str) -> ast.Module:
     collects = gc.isenabled()
     gc.disable()  # a tree is many objects and no garbage: half of the time would go into looking through them
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Python has told its own when it compiled the text
-            return _slips_by_place(ast.parse(text))
+            return ast.parse(text)
     except (SyntaxError, ValueError):
-        return {}
+        return ast.Module([], [])
     finally:
         if collects:
             gc.enable()
@@ -143,10 +200,13 @@ def _dropped(node: ast.stmt) -> str:
     made = node.value if isinstance(node, ast.Expr) else None
     if isinstance(made, ast.Compare) and any(isinstance(op, ast.Eq) for op in made.ops):
         return "this equation, `... == ...`,"
-    if isinstance(made, ast.Call):
-        name = ast.unparse(made.func).removeprefix("acausal.").removeprefix("ac.")
-        return f"{name}(...)" if name in STATEMENTS else ""
-    return ""
+    name = _statement(made) if isinstance(made, ast.Call) else ""
+    return f"{name}(...)" if name in STATEMENTS else ""
+
+
+def _statement(call: ast.Call) -> str:
+    """Return the name of what is called, without the package."""
+    return ast.unparse(call.func).removeprefix("acausal.").removeprefix("ac.")
 
 
 def _loses(inside: list[ast.stmt]) -> bool:
