@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.language.written import cut
+from acausal.language.written import in_code, short
 
 
 class Condition:
@@ -67,7 +67,7 @@ class Condition:
         if not self._sides:
             return "a comparison"
         left, sign, right = self._sides
-        return f"{cut(repr(left))} {sign} {cut(repr(right))}"
+        return f"{short(left)} {sign} {short(right)}"
 
 
 class Joined(Condition):
@@ -164,5 +164,4 @@ def refuse_cases(cases: tuple[Any, ...]) -> None:
 def _shown(value: Any) -> str:
     if type(value).__name__ == "Equation":
         return f"`{value.lhs} == {value.rhs}`"
-    text = repr(value)
-    return text if len(text) <= 60 and " object at " not in text else f"this {type(value).__name__}"
+    return in_code(repr(value), f"this {type(value).__name__}")
