@@ -72,7 +72,8 @@ def refined(
     """
     t, last = rows.times, len(rows) - 1
     count = min(ENERGY.fewest, last)
-    least = tolerance * _exchanged(solver, rows)
+    exchanged = _exchanged(solver, rows)
+    least = tolerance * exchanged
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
         power = powers(solver, rows[some])
@@ -89,26 +90,30 @@ def refined(
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
     if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power, least)):
-        closer, known = between_rows(solver, rows, tolerance)
+        closer, known = between_rows(solver, rows, tolerance, exchanged)
         if known or not np.all(agree):
             return given[0] + closer, known
     steps = np.where(np.repeat(agree, np.diff(some), axis=0), np.diff(given, axis=0), np.diff(fine, axis=0))
     return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)]), True
 
 
-def between_rows(solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.ndarray, bool]:
+def between_rows(
+    solver: Consistent, rows: Rows, tolerance: float, exchanged: float | None = None
+) -> tuple[np.ndarray, bool]:
     """Work up to each row from more and more points between them, on cubics through the states, until it settles.
 
     Parameters
     ----------
     solver, rows, tolerance
         As of `refined`.
+    exchanged : float, optional
+        By how much the stored energy varies in J, if that is known.
     """
     rows, _ = solver(rows)
     t, n, agreed = rows.times, len(rows) - 1, 0
     rates = solver.rates(rows)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
-    exchanged = _exchanged(solver, rows)
+    exchanged = _exchanged(solver, rows) if exchanged is None else exchanged
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
     while n * parts <= ENERGY.most:
         inside, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
