@@ -103,9 +103,11 @@ def _written(file: str, name: str, line: int) -> list[Any]:
     """Classes and functions of this name that begin in this line of a file."""
     found = []
     for node in ast.walk(_tree(_text(file))):
-        named = "<lambda>" if isinstance(node, ast.Lambda) else node.name if isinstance(node, DEFINITIONS) else ""
-        if named == name and line in (first.lineno for first in (*getattr(node, "decorator_list", ()), node)):
-            found.append(node)
+        if isinstance(node, DEFINITIONS):
+            begins = {node.lineno, *(mark.lineno for mark in node.decorator_list)}
+            found += [node] * (node.name == name and line in begins)
+        elif isinstance(node, ast.Lambda):
+            found += [node] * (name == "<lambda>" and node.lineno == line)
     return found
 
 

@@ -15,7 +15,7 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import GOLDEN, spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import algebraic
@@ -172,7 +172,7 @@ def _halved(some: np.ndarray) -> np.ndarray:
     return np.unique([*range(0, len(some), 2), len(some) - 1])
 
 
-def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Stretch:
+def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Leg:
     """Go from output to output where there is nothing to integrate.
 
     Parameters
@@ -194,4 +194,4 @@ def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: floa
     rows, energy = Rows.within(times, np.zeros((n + 1, 0)), np.array(found), constants.vector), np.zeros((n, 2))
     if tolerance is not None and not compiled.powers.is_zero():
         energy = between_rows(solver, rows, tolerance)[0][1:]
-    return Stretch(rows[1:], energy, constants, 0)
+    return Leg(rows[1:], energy, constants, 0)
