@@ -29,6 +29,10 @@ class Condition:
         self.kind = kind
         self._sides = sides
 
+    def holds(self, excess: Any) -> Any:
+        """Whether it holds where its excess is a number, or entries of an array, or an expression."""
+        return excess < 0 if self.kind == "<" else excess <= 0
+
     @property
     def comparisons(self) -> list[Condition]:
         """The comparisons that it is made of: itself, if it is not joined."""
