@@ -16,7 +16,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.functions import PENDING, Pending
-from acausal.language.values import shown_or_kind
+from acausal.language.values import shown
 from acausal.locks import alone
 from acausal.symbols import stacked
 
@@ -100,8 +100,9 @@ def check_stop_time(value: Any, of: str = "") -> float:
     """
     number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     if not number or not np.isfinite(value) or value <= 0:
+        what = shown(value, f"a {type(value).__name__.lower()}")
         raise DeclarationError(
-            f"stop_time{of} is {shown_or_kind(value)}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
+            f"stop_time{of} is {what}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
         )
     return float(value)
 

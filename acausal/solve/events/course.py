@@ -98,7 +98,7 @@ class Course:
             self.stride.begin()
             if self.events[-1:] != [at.time]:
                 self.events.append(at.time)
-            self._refuse_chattering(at, at.time, self.guards.watched)
+            self._refuse_chattering(at.time, self.guards.watched)
         return new
 
     def _at_stop(self, at: Point, held: np.ndarray) -> None:
@@ -228,7 +228,7 @@ class Course:
             before = leg.part(0, n)
             self.integrator.trace.add(before)
             last = before.end(at)
-        self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
+        self._refuse_chattering(after.time, [int(k) for k in self.instants.watched[out]])
         gained = work_between(self.integrator, replace(last, constants=after.at.constants), after.at)
         reached = replace(after.at, time=max(label, after.time))
         new = self._jump(reached, label, gained, crossed=out)
@@ -266,7 +266,7 @@ class Course:
         change = energy(new) - energy(at) if stored else 0.0
         return new, np.array([max(change, 0.0), max(-change, 0.0)]), changed
 
-    def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
+    def _refuse_chattering(self, time: float, guards: list[int]) -> None:
         crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span
         self.recent.append(time)
         if crowded or self.weak >= INSTANTS.most:

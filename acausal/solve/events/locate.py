@@ -107,7 +107,7 @@ class Locator:
         if not content and depth == 0 and (round_about.any() or len(turning) > most):
             raise TooCoarse
         if len(turning) <= most:
-            doubtful[:end] |= self._seen_between(at, samples, level, turning, end)
+            doubtful[:end] |= self._seen_between(samples, level, turning, end)
         suspects = np.flatnonzero(doubtful)
         if len(suspects) > most:
             if not content:
@@ -135,9 +135,7 @@ class Locator:
         columns = zip(rows.times.tolist(), rows.x, rows.z, value * side, rate * side, strict=True)
         return [Sample(Point(t, x, z, at.constants, at.truth), g, d) for t, x, z, g, d in columns]
 
-    def _seen_between(
-        self, at: Point, samples: list[Sample], level: np.ndarray, turning: list[int], end: int
-    ) -> np.ndarray:
+    def _seen_between(self, samples: list[Sample], level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
         found = np.zeros(end, dtype=bool)
         todo = [(k, samples[k], samples[k + 1], level[k]) for k in turning]
