@@ -5,7 +5,6 @@ Only units of scale 1 are accepted: values are always given in SI, and an angle 
 
 from __future__ import annotations
 
-import difflib
 import re
 from fractions import Fraction
 from functools import cache
@@ -13,6 +12,7 @@ from math import pi, prod
 from typing import ClassVar
 
 from acausal.errors import DeclarationError
+from acausal.nearest import likeliest
 
 Exponent = int | Fraction
 
@@ -236,8 +236,7 @@ def _nearest(symbol: str) -> str:
     if re.fullmatch(f"(?:{known})+", symbol):
         return ".".join(re.findall(known, symbol))
     by_lower = {name.lower(): name for name in _SYMBOLS}
-    close = difflib.get_close_matches(symbol.lower(), by_lower, n=1)
-    return by_lower[close[0]] if close else ""
+    return by_lower.get(likeliest(symbol.lower(), by_lower), "")
 
 
 for _name, _definition in {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
 import sys
@@ -10,6 +9,7 @@ import traceback
 from pathlib import Path
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
+from acausal.nearest import likeliest
 
 _PACKAGES = tuple(str(Path(PACKAGE).parent / name) + os.sep for name in ("acausal", "components"))
 _NO_TEXT: dict[type[BaseException], str] = {MemoryError: "this needs more memory than there is"}
@@ -55,8 +55,8 @@ def _not_imported(error: ImportError, text: str) -> str:
     missing = _NOT_THERE.search(text)
     if missing:
         name, module = missing.groups()
-        near = difflib.get_close_matches(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"], 1)
-        mend = f"; did you mean `{near[0]}`?" if near else "."
+        near = likeliest(name, [n for n in dir(sys.modules.get(module)) if n[:1] != "_"])
+        mend = f"; did you mean `{near}`?" if near else "."
         return f"{type(error).__name__}: there is no `{name}` in {module}{mend}"
     if "relative import" in text:
         return "the file is no part of a package: write `import helper`, not `from . import helper`, for the file beside it."

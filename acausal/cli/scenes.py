@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import os
 import re
@@ -15,6 +14,7 @@ from typing import Any, TypeGuard
 from acausal.cli.faults import brief, ended, place_in
 from acausal.errors import DeclarationError
 from acausal.language.component import Component, Model
+from acausal.nearest import likeliest
 from acausal.result import shown_name
 
 FORM = "a model of your own is given as path/to/file.py:ClassName."
@@ -97,8 +97,8 @@ def _no_scene(name: str, known: list[str]) -> str:
         return f"there is no scene `{shown}`, but a file {path}.py: name its class, as in {path}.py:ClassName."
     if os.path.lexists(path) or os.sep in path or ".py" in path.lower() or ":" in name:
         return f"`{shown}` is neither a scene nor a model in a file of Python; {FORM}"
-    near = difflib.get_close_matches(name.lower().replace("_", "-"), known, 1, 0.5)
-    mend = f"; did you mean `{near[0]}`?" if near else "."
+    near = likeliest(name.lower().replace("_", "-"), known, 0.5)
+    mend = f"; did you mean `{near}`?" if near else "."
     return f"there is no scene `{shown}`{mend} Scenes: {', '.join(known)}. {FORM[0].upper()}{FORM[1:]}"
 
 

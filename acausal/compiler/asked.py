@@ -10,8 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.path import Path
-
-MOST = 60  # letters of a value that are shown
+from acausal.language.values import shown_or_kind
 
 
 def model_of(given: Any, compiled: bool = False) -> Any:
@@ -54,7 +53,7 @@ def model_of(given: Any, compiled: bool = False) -> Any:
     kind = type(given).__name__
     if any(hasattr(type(given), name) for name in ("equations", "connections")):
         raise DeclarationError(f"{kind} is no model: derive its class from Model, class {kind}(Model).")
-    raise DeclarationError(f"a model is an instance such as SpinUp(), not {_shown(given)}.")
+    raise DeclarationError(f"a model is an instance such as SpinUp(), not {shown_or_kind(given)}.")
 
 
 def values_of(given: Any) -> dict[str, Any]:
@@ -74,17 +73,12 @@ def values_of(given: Any) -> dict[str, Any]:
         return {}
     if not isinstance(given, Mapping):
         raise DeclarationError(
-            f'parameters is {_shown(given)}; it must be a dictionary of values by path, such as {{"mass.m": 2.0}}.'
+            f'parameters is {shown_or_kind(given)}; it must be a dictionary of values by path, such as {{"mass.m": 2.0}}.'
         )
     found = {}
     for key, value in given.items():
         if not isinstance(key, str | Path):
             text = f'"{key.name}"' if isinstance(key, Expr) and key.name else 'such as "mass.m"'
-            raise DeclarationError(f"{_shown(key)} is no path of a parameter; write the path as a text, {text}.")
+            raise DeclarationError(f"{shown_or_kind(key)} is no path of a parameter; write the path as a text, {text}.")
         found[str(key)] = value
     return found
-
-
-def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= MOST and "\n" not in text and "<" not in text else f"a {type(value).__name__}"

@@ -80,8 +80,7 @@ def planned_times(reduced: ReducedModel, excess: ca.SX) -> tuple[list[int], ca.S
 def truth(condition: Condition, parts: Iterator[ca.SX]) -> ca.SX:
     """Return 1 where a condition holds and 0 elsewhere; `parts` are the excesses of its comparisons, in order."""
     if not isinstance(condition, Joined):
-        e = next(parts)
-        return ca.SX(e <= 0) if condition.kind == "<=" else ca.SX(e < 0)
+        return ca.SX(condition.holds(next(parts)))
     a, b = truth(condition.a, parts), truth(condition.b, parts)
     return a * b if condition.every else ca.fmax(a, b)
 

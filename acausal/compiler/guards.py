@@ -138,8 +138,7 @@ class Guards:
 
     def _head(self) -> ca.SX:
         excesses = scalars(self._excess)[: self.n_switches]
-        inclusive = [guard.inclusive for guard in self.guards]
-        switches = [e <= 0 if inside else e < 0 for e, inside in zip(excesses, inclusive, strict=False)]
+        switches = [guard.condition.holds(e) for guard, e in zip(self.guards, excesses, strict=False)]
         discretes = [start for _, start in self.reduced.flat.discontinuities.discretes]
         return stacked([*switches, self._resolve(discretes)])
 

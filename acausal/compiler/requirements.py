@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import Any
 
@@ -11,11 +10,10 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import AcausalError, DeclarationError
-from acausal.flatten.origin import Origin, line_of, method_origin, with_place
+from acausal.flatten.origin import Origin, stated
 from acausal.flatten.tree import walk
-from acausal.language.arguments import refused
 from acausal.language.component import Component
-from acausal.language.homes import error_of, misplaced, returned
+from acausal.language.homes import error_of, misplaced
 from acausal.language.validity import Requirement
 from acausal.symbols import scalars, stacked
 
@@ -71,18 +69,11 @@ def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> l
     found: list[Stated] = []
     for component in walk(tree):
         if getattr(type(component), method) is not getattr(Component, method):
-            found += with_place(lambda c=component: list(_run(c, method, kind)), method_origin(component, method))
+            for statement, origin in stated(component, method):
+                if not isinstance(statement, kind):
+                    raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
+                found.append((statement, Origin.of(component)))
     return found
-
-
-def _run(component: Component, method: str, kind: type | tuple[type, ...]) -> Iterator[Stated]:
-    generator = getattr(component, method)()
-    if not isinstance(generator, Iterable):
-        raise DeclarationError(returned(generator, method))
-    for statement in generator:
-        if not isinstance(statement, kind):
-            raise refused(misplaced(statement, method), line_of(generator), error_of(statement))
-        yield statement, Origin.of(component)
 
 
 def refuse(stated: list[Stated], values: np.ndarray, kind: type[AcausalError]) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,7 +11,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.graph import Graph
-from acausal.flatten.origin import Origin, bounded, line_of, method_origin, refuse_endless, with_place
+from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -21,7 +19,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
-from acausal.language.homes import error_of, misplaced, returned
+from acausal.language.homes import error_of, misplaced
 from acausal.symbols import dense, scalars, vec
 
 
@@ -99,7 +97,7 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
             flows = [getattr(c, name) * sign for c, sign in balance if c in side]
             vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
-    for statement, dual in bounded(sent.residual(b), a, "residual()"):
+    for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
         number = len(found.sides)
         row = sum(r.numel() for r in found.residuals)
         found.add(statement, origin)
@@ -123,18 +121,7 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
 
 
 def _run(component: Component, method: str, found: Equations, most: int) -> None:
-    name = type(component).__name__
-    here = method_origin(component, method)
-    said = with_place(getattr(component, method), here)
-    if not isinstance(said, Iterable) or isinstance(said, Expr):
-        raise DeclarationError(f"{method_origin(component, method)}: {returned(said, method)}")
-    generator = iter(said)
-    for count in itertools.count():
-        statement = with_place(lambda: next(generator, _END), here)
-        if statement is _END:
-            return
-        origin = Origin(component._path, name, line_of(generator) or here.where)
-        refuse_endless(count, origin, f"{method}()", most)
+    for statement, origin in stated(component, method, most):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))
@@ -149,6 +136,3 @@ def _run(component: Component, method: str, found: Equations, most: int) -> None
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
                 raise DeclarationError(f"{origin}: this equation is empty: both sides are the same expression.")
         found.add(statement, origin)
-
-
-_END: Any = object()

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.flatten.origin import Origin, line_of, method_origin, refuse_endless, with_place
+from acausal.flatten.origin import Origin, entries, method_origin, with_place
 from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.homes import misplaced, returned
+from acausal.language.source import calls
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,11 @@ def build_graph(components: list[Component]) -> Graph:
     connectors = [c for c in components if isinstance(c, Connector)]
     own = {id(c) for c in connectors}
     for component in components:
-        for statement, where in _statements(component):
-            origin = Origin(component._path, type(component).__name__, where)
+        for statement, origin in _statements(component):
             if isinstance(statement, Connect | Branch | Root):
                 _refuse_strangers(statement, own, origin)
             if isinstance(statement, Connect):
-                connects.append((component, statement, where))
+                connects.append((component, statement, origin.where))
             elif isinstance(statement, Branch):
                 branches.append(statement)
             elif isinstance(statement, Root):
@@ -79,28 +78,15 @@ def build_graph(components: list[Component]) -> Graph:
     return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone)
 
 
-def _statements(component: Component) -> Iterator[tuple[Any, str]]:
-    """Yield each statement with the line that it comes from."""
-    here = Origin.of(component)
-    said = with_place(component.connections, method_origin(component, "connections"))
+def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
+    """Yield each statement with its place."""
+    here = method_origin(component, "connections")
+    said = with_place(component.connections, here)
     if said is None:
-        raise ConnectError(f"{method_origin(component, 'connections')}: {returned(said, 'connections')}")
-    stack = [iter(said if isinstance(said, _SEVERAL) else (said,))]
-    for count in itertools.count():
-        where = line_of(stack[0]) or here.where
-        refuse_endless(count, Origin(component._path, type(component).__name__, where), "connections()")
-        item = with_place(lambda: next(stack[-1], _END), here)
-        if item is _END:
-            stack.pop()
-            if not stack:
-                return
-        elif isinstance(item, _SEVERAL):
-            stack.append(iter(item))
-        else:
-            yield item, line_of(stack[0]) or here.where
+        raise ConnectError(f"{here}: {returned(said, 'connections')}")
+    return entries(said if isinstance(said, _SEVERAL) else (said,), here, "connections", nested=_SEVERAL)
 
 
-_END: Any = object()
 _SEVERAL = (Iterator, list, tuple)  # not all that Python can go through: an entry of a string is a string
 
 
@@ -117,8 +103,7 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
 def _refuse_elsewhere(components: list[Component]) -> None:
     """Where something is not connected: refuse connections that are stated in equations()."""
     for component in components:
-        code = getattr(type(component).equations, "__code__", None)
-        word = next((w for w in ("connect", "chain") if code and w in code.co_names), None)
+        word = calls(type(component).equations, "connect", "chain")
         if word:
             raise ConnectError(
                 f"{method_origin(component, 'equations')}: equations() yields {word}(...), which belongs to "

@@ -14,9 +14,9 @@ from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
-from acausal.language.nearest import missing
 from acausal.language.source import refuse_dropped, returns_nothing
 from acausal.language.values import refuse_constructor, shown
+from acausal.nearest import missing
 
 DEEPEST = 100  # parts inside parts; deeper, a component contains itself
 

@@ -16,7 +16,7 @@ from acausal.language.fields import InitialValue
 from acausal.language.no_expression import decimal_point
 from acausal.language.symbolic import Symbolic
 from acausal.language.values import shown
-from acausal.language.written import cut
+from acausal.language.written import short
 from acausal.units import in_si
 
 
@@ -62,7 +62,7 @@ def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, 
     """Return the message for a value of a wrong shape."""
     if shape:
         return f"{where} has shape {found}; it must have shape {shape}."
-    return f"{where} is {cut(repr(value))}; it must be one number{decimal_point(value)}."
+    return f"{where} is {short(value)}; it must be one number{decimal_point(value)}."
 
 
 def is_symbolic(value: Any) -> bool:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
-from acausal.errors import AcausalError, DeclarationError
+from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.raw_errors import in_words
 from acausal.language.component import Component
+from acausal.language.expression import Expr
+from acausal.language.homes import returned
 
-PACKAGE = str(Path(__file__).parents[1])
 MOST = 100_000  # statements of one generator; more are an endless loop
 
 
@@ -102,13 +103,38 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
         )
 
 
-def bounded(said: Iterable[Any], component: Component, what: str) -> Iterator[Any]:
-    """Yield from a generator of a component, up to the number that a component may need."""
-    generator = iter(said)
-    for count, item in enumerate(generator):
-        here = Origin(component._path, type(component).__name__, line_of(generator) or component._origin)
-        refuse_endless(count, here, what)
-        yield item
+def stated(component: Component, method: str, most: int = MOST) -> Iterator[tuple[Any, Origin]]:
+    """Yield what a method of a component states, each with its place."""
+    here = method_origin(component, method)
+    said = with_place(getattr(component, method), here)
+    if not isinstance(said, Iterable) or isinstance(said, Expr):
+        raise DeclarationError(f"{here}: {returned(said, method)}")
+    yield from entries(said, here, method, most)
+
+
+def entries(
+    said: Iterable[Any], here: Origin, method: str, most: int = MOST, nested: tuple[type, ...] = ()
+) -> Iterator[tuple[Any, Origin]]:
+    """Yield entries, each with its place, which is `here` if it has no line; more than `most` are refused.
+
+    Entries of the types `nested` are gone through in their turn.
+    """
+    stack = [iter(said)]
+    for count in itertools.count():
+        item = with_place(lambda: next(stack[-1], _END), here)
+        origin = replace(here, where=line_of(stack[0]) or here.where)
+        refuse_endless(count, origin, f"{method}()", most)
+        if item is _END:
+            stack.pop()
+            if not stack:
+                return
+        elif isinstance(item, nested):
+            stack.append(iter(item))
+        else:
+            yield item, origin
+
+
+_END: Any = object()
 
 
 def _place(error: BaseException, origin: Origin) -> Origin:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import traceback
 from types import FunctionType, MethodType, NoneType
@@ -13,6 +12,7 @@ from acausal.errors import PACKAGE
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.symbolic import FUNCTIONS
+from acausal.nearest import likeliest
 
 PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
 MENDS = {
@@ -52,8 +52,8 @@ def in_words(error: Exception) -> str:
     """
     if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
         names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
-        near = difflib.get_close_matches(error.name or "", names, 1)
-        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near[0]}`?" if near else ".")
+        near = likeliest(error.name or "", names)
+        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near}`?" if near else ".")
     if isinstance(error, AttributeError) and isinstance(error.obj, Component):
         return _too_early(error)
     if isinstance(error, AttributeError) and isinstance(error.obj, Expr):

@@ -16,7 +16,7 @@ from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.origin import Origin, bounded, method_origin, with_place
+from acausal.flatten.origin import Origin, method_origin, stated, with_place
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
 from acausal.language.component import Component
@@ -66,7 +66,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         equations = collect(components, graph, most)
         starts = collect_initial(components, most)
         leads = [group[0] for group in graph.same]
-        declared = [p for c in leads for p in bounded(c.declared_derivatives(), c, "declared_derivatives()")]
+        declared = [p for c in leads for p, _ in stated(c, "declared_derivatives")]
         energies = {
             name: sum(
                 (_power(c, name) for c in components if getattr(type(c), name) is not getattr(Component, name)),

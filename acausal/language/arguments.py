@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
@@ -11,6 +10,7 @@ from typing import Any, TypeVar
 
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language.written import short
+from acausal.nearest import likeliest
 
 F = TypeVar("F", bound=Callable[..., Any])
 # What users of other tools call an argument.
@@ -105,15 +105,15 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     form = f"`{name}({', '.join([*needed, *several])})`"
     unknown = next((n for n in named if n not in (*places, *other)), None)
     if unknown is not None and Parameter.VAR_KEYWORD not in kinds:
-        near = [n for n in MEANT.get(unknown, ()) if n in parameters]
-        near = near if unknown in MEANT else difflib.get_close_matches(unknown, [*places, *other], 1)
+        meant = [n for n in MEANT.get(unknown, ()) if n in parameters]
+        near = "".join(meant[:1]) if unknown in MEANT else likeliest(unknown, [*places, *other])
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
         if "parameters" in parameters:
             value = f"parameters={{{unknown!r}: {short(named[unknown])}}}"
             known = (
                 f"a value of the model is given by its path, {value}. The arguments are {', '.join([*places, *other])}."
             )
-        return f"{name}() has no argument `{unknown}`; {f'did you mean `{near[0]}`?' if near else known}"
+        return f"{name}() has no argument `{unknown}`; {f'did you mean `{near}`?' if near else known}"
     if name == "der" and len(given) > 1:
         order = "the second derivative is" if given[1] == 2 else "a further derivative is a der() around it, as"
         return f"der({', '.join(map(short, given))}): {order} der(der({short(given[0])}))."

@@ -12,7 +12,8 @@ from acausal.language import fields as f
 from acausal.language.checks import check_field
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
 from acausal.language.refusals import refuse_slips
-from acausal.language.slips import SETTABLE, body_line
+from acausal.language.slips import SETTABLE
+from acausal.language.source import body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
 

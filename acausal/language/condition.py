@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.language.written import cut
+from acausal.language.written import in_code, short
 
 
 class Condition:
@@ -28,6 +28,10 @@ class Condition:
         self.excess = excess
         self.kind = kind
         self.sides = sides
+
+    def holds(self, excess: Any) -> Any:
+        """Whether it holds where its excess is a number, or entries of an array, or an expression."""
+        return excess < 0 if self.kind == "<" else excess <= 0
 
     @property
     def comparisons(self) -> list[Condition]:
@@ -70,7 +74,7 @@ class Condition:
         if not self.sides:
             return "a condition"
         left, sign, right = self.sides
-        return f"{cut(repr(left))} {sign} {cut(repr(right))}"
+        return f"{short(left)} {sign} {short(right)}"
 
 
 class Joined(Condition):
@@ -167,5 +171,4 @@ def refuse_cases(cases: tuple[Any, ...]) -> None:
 def _shown(value: Any) -> str:
     if type(value).__name__ == "Equation":
         return f"`{value.lhs} == {value.rhs}`"
-    text = repr(value)
-    return text if len(text) <= 60 and " object at " not in text else f"this {type(value).__name__}"
+    return in_code(repr(value), f"this {type(value).__name__}")

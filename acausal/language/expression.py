@@ -65,9 +65,6 @@ class Expr(Symbolic):
     def __repr__(self) -> str:
         return self.name or written(self.sx)
 
-    def _shown(self) -> str:
-        return short(self)
-
     def __len__(self) -> int:
         return self.sx.shape[0]
 

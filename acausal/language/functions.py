@@ -89,7 +89,7 @@ class Pending:
 
 
 def _truth(condition: Condition) -> ca.SX:
-    return condition.excess.sx < 0 if condition.kind == "<" else condition.excess.sx <= 0
+    return condition.holds(condition.excess.sx)
 
 
 PENDING: ContextVar[Pending] = ContextVar("pending")

@@ -11,8 +11,7 @@ from typing import Any
 
 from acausal.language import fields as f
 from acausal.language.arguments import refused
-from acausal.language.slips import body_line
-from acausal.language.source import ENGINE
+from acausal.language.source import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.written import cut, kind_of
+from acausal.language.written import kind_of, short
 
 # By the name of the class, as these are made of expressions.
 WORDS = {
@@ -43,7 +43,7 @@ def number_of(value: Any) -> float:
 def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     """Return the message for entries of different shapes."""
     seen = " and ".join(dict.fromkeys(map(kind_of, shapes)))
-    return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {cut(repr(value))}."
+    return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {short(value)}."
 
 
 def decimal_point(value: Any) -> str:

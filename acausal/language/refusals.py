@@ -13,6 +13,7 @@ from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.slips import at_home, slip_of
+from acausal.language.source import ENGINE
 from acausal.language.values import holds_parts, nearest_field, shown
 
 
@@ -127,7 +128,7 @@ def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) 
 def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
     """Names that could have been intended for a value."""
     if inspect.isfunction(value):
-        bases = [base for base in cls.__mro__[1:] if base.__module__ == "acausal.language.component"]
+        bases = [base for base in cls.__mro__[1:] if base.__module__ == ENGINE]
         return [n for base in bases for n, v in vars(base).items() if inspect.isfunction(v) and n[0] != "_"]
     if isinstance(value, f.Part) or holds_parts(value):
         return [name for name, field in inherited.items() if isinstance(field, f.Part)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dis
 import inspect
 import re
 import sys
@@ -13,6 +12,7 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from acausal.errors import PACKAGE
+from acausal.language.source import body_reads, may_read
 
 # Attributes that `simulate` and the command line read from a model.
 SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")
@@ -67,54 +67,18 @@ def _is_near(name: str, other: str) -> bool:
 
 
 def _reads(cls: Any, name: str) -> bool:
-    """Whether the body of a class, or a function in it, reads a name."""
-    inside = ("LOAD_ATTR", "LOAD_METHOD", "LOAD_SUPER_ATTR", "LOAD_CONST")  # a constant: getattr(self, "name")
-    return any(_loads(code, name, inside) for code in _codes(cls)) or any(
-        _loads(code, name, ("LOAD_NAME",)) for code in codes_of_body(cls)
-    )
-
-
-def _loads(code: CodeType, name: str, operations: tuple[str, ...]) -> bool:
-    return any(i.argval == name and i.opname in operations for i in dis.get_instructions(code))
-
-
-def codes_of_body(cls: Any) -> list[CodeType]:
-    """Code of the class body that was just executed, none if this is no class statement."""
-    frame: Any = sys._getframe(1)
-    while frame is not None and (frame.f_code.co_filename.startswith(PACKAGE) or frame.f_code.co_name == "<genexpr>"):
-        frame = frame.f_back
-    if frame is None:
-        return []
-    found = [c for c in frame.f_code.co_consts if _is_body(c, cls)]
-    # Of several classes with one name, the last that begins before the statement that is being executed.
-    begun = [code for code in found if code.co_firstlineno <= frame.f_lineno]
-    return begun[-1:] or found[:1]
-
-
-def _is_body(const: Any, cls: Any) -> bool:
-    return isinstance(const, CodeType) and const.co_name == cls.__name__ and const.co_qualname == cls.__qualname__
-
-
-def body_line(cls: Any, name: str) -> str:
-    """File and line where a name is written in the class body that was just executed, "" if there is none."""
-    for code in codes_of_body(cls):
-        for step in dis.get_instructions(code):
-            if step.opname == "STORE_NAME" and step.argval == name and step.positions:
-                return f"{code.co_filename}:{step.positions.lineno}"
-    return ""
+    """Whether the body of a class reads a name, or a function in the class or its bases may."""
+    codes = (code for code in _codes(cls) if not code.co_filename.startswith(PACKAGE))
+    return body_reads(cls, name) or any(may_read(code, name) for code in codes)
 
 
 def _codes(cls: Any) -> Iterator[CodeType]:
-    """Code of all functions in a class and its bases, and of those inside them."""
+    """Code of all functions in a class and its bases."""
     waiting: list[Any] = [value for base in cls.__mro__ for value in vars(base).values()]
     while waiting:
         item = waiting.pop()
-        if isinstance(item, CodeType):
-            yield item
-            waiting += [const for const in item.co_consts if isinstance(const, CodeType)]
-        elif isinstance(item, FunctionType):
-            waiting.append(inspect.unwrap(item).__code__)
-            waiting.append(item.__code__)
+        if isinstance(item, FunctionType):
+            yield from (inspect.unwrap(item).__code__, item.__code__)
         elif isinstance(item, property | cached_property | staticmethod | classmethod):
             waiting += [getattr(item, name, None) for name in ("fget", "fset", "func", "__func__")]
         elif not isinstance(item, type):

@@ -1,4 +1,4 @@
-"""Slips that only the text of a class shows: what is formed and dropped, written twice, or made and not returned."""
+"""What only the text of a class or function shows: what it drops, writes twice, does not return, binds, reads and calls."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import ast
 import gc
 import linecache
 import warnings
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from types import FunctionType
-from typing import Any, NamedTuple
+from types import CodeType, FunctionType
+from typing import Any
 from weakref import WeakSet
 
-from acausal.errors import ConnectError, DeclarationError
+from acausal.errors import ConnectError, DeclarationError, user_line
 from acausal.language.arguments import refused
 
 ENGINE = "acausal.language.component"
@@ -21,24 +22,6 @@ STATEMENTS = {*CONNECTIONS, "when", "require", "expect", "apart"}
 DEFINITIONS = ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 COMPOUND = (ast.If, ast.For, ast.While, ast.With, ast.Try, ast.TryStar, ast.Match)
 _SOUND: WeakSet[type] = WeakSet()
-
-
-class Slips(NamedTuple):
-    """Slips of one class or function.
-
-    Parameters
-    ----------
-    dropped : list of (str, int)
-        What is formed and not yielded, and the line.
-    twice : list of (str, int, int)
-        Name that is bound again without being read, its first and its second line.
-    lost : bool
-        Whether something is made, and nothing is returned.
-    """
-
-    dropped: list[tuple[str, int]]
-    twice: list[tuple[str, int, int]]
-    lost: bool
 
 
 def refuse_dropped(cls: Any) -> None:
@@ -58,67 +41,97 @@ def refuse_dropped(cls: Any) -> None:
 def returns_nothing(function: Any) -> bool:
     """Whether a function makes something and returns None alone; False for what is no function, or has no text."""
     code = getattr(function, "__code__", None)
-    slips = _slips_in(code.co_filename).get((code.co_name, code.co_firstlineno)) if code else None
-    return slips is not None and slips.lost
+    return code is not None and _loses(code)
+
+
+def body_line(cls: Any, name: str) -> str:
+    """File and line where a name is written in the class body that was just executed, "" if that is not known."""
+    where = user_line()
+    parts = [part for node in _class(cls.__name__, where) for part in _statements(node.body) if name in _bound(part)]
+    return f"{where.rpartition(':')[0]}:{parts[0].lineno}" if parts else ""
+
+
+def body_reads(cls: Any, name: str) -> bool:
+    """Whether the body of a class, which may be under execution, reads a name; a class without a body does not."""
+    return any(_reads(node.body, name) for node in _class(cls.__name__, vars(cls).get("_line") or user_line()))
+
+
+def may_read(code: CodeType, name: str) -> bool:
+    """Whether a function reads an attribute, or has its name as a text: getattr(self, "name"); True if it has no text."""
+    nodes = _function(code)
+    return not nodes or any(
+        (isinstance(n, ast.Attribute) and n.attr == name and not isinstance(n.ctx, ast.Store))
+        or (isinstance(n, ast.AugAssign) and getattr(n.target, "attr", "") == name)
+        or (isinstance(n, ast.Constant) and n.value == name)
+        for node in nodes
+        for n in ast.walk(node)
+    )
+
+
+def calls(function: Any, *words: str) -> str:
+    """Return the first of some statements that a function forms, "" if it forms none or has no text."""
+    nodes = _function(function.__code__) if hasattr(function, "__code__") else []
+    called = {_statement(n) for node in nodes for n in ast.walk(node) if isinstance(n, ast.Call)}
+    return next((word for word in words if word in called), "")
 
 
 def _refuse(cls: Any) -> None:
-    name, (file, _, line) = cls.__name__, cls._line.rpartition(":")
-    codes = [value.__code__ for value in vars(cls).values() if isinstance(value, FunctionType)]
-    texts = {path: _slips_in(path) for path in {file, *(code.co_filename for code in codes)}}
-    body = texts[file].get((name, int(line)))
-    for again, first, second in body.twice if body else ():
+    name, file = cls.__name__, cls._line.rpartition(":")[0]
+    bodies = _class(name, cls._line)
+    for again, first, second in (slip for body in bodies for slip in _twice(body.body)):
         raise refused(
             f"{name}.{again} is written twice in the class body, so that only the last is kept: the first is in line "
             f"{first}. Give one of them another name, or remove it.",
             f"{file}:{second}",
         )
-    methods = [(code.co_filename, texts[code.co_filename].get((code.co_name, code.co_firstlineno))) for code in codes]
-    for path, slips in [(file, body), *methods]:
-        for what, at in slips.dropped if slips else ():
-            mend = "Yield it in equations()." if slips is body else "Write `yield` before it."
-            kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
-            raise refused(f"{name}: {what} has no effect, as it is not yielded. {mend}", f"{path}:{at}", kind)
+    codes = [value.__code__ for value in vars(cls).values() if isinstance(value, FunctionType)]
+    methods = [(code.co_filename, node) for code in codes for node in _function(code)]
+    for path, node in [*((file, body) for body in bodies), *methods]:
+        for part in _statements(node.body) if not isinstance(node, ast.Lambda) else ():
+            if what := _dropped(part):
+                mend = "Yield it in equations()." if isinstance(node, ast.ClassDef) else "Write `yield` before it."
+                kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
+                text = f"{name}: {what} has no effect, as it is not yielded. {mend}"
+                raise refused(text, f"{path}:{part.lineno}", kind)
 
 
-def _slips_in(file: str) -> Mapping[tuple[str, int], Slips]:
-    """Slips by name and first line of all classes and functions in a file."""
+def _class(name: str, where: str) -> list[Any]:
+    """What the text says of a class whose statement begins at a place."""
+    file, _, line = where.rpartition(":")
+    return _definitions(file).get((name, int(line)), [])
+
+
+def _function(code: CodeType) -> list[Any]:
+    """What the text says of a function; several may begin in one line."""
+    return _definitions(code.co_filename).get((code.co_name, code.co_firstlineno), [])
+
+
+def _definitions(file: str) -> Mapping[tuple[str, int], list[Any]]:
+    """Classes and functions of a file by name and first line, none if its text is not to be had."""
     linecache.checkcache(file)
-    return _slips_of("".join(linecache.getlines(file)))
+    return _definitions_in("".join(linecache.getlines(file)))
 
 
-@lru_cache(maxsize=256)
-def _slips_of(text: str) -> Mapping[tuple[str, int], Slips]:
+@lru_cache(maxsize=16)
+def _definitions_in(text: str) -> Mapping[tuple[str, int], list[Any]]:
+    found = defaultdict[tuple[str, int], list[Any]](list)
     collects = gc.isenabled()
     gc.disable()  # a tree is many objects and no garbage: half of the time would go into looking through them
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Python has told its own when it compiled the text
-            return _slips_by_place(ast.parse(text))
+            tree = ast.parse(text)
+        for node in ast.walk(tree):
+            if isinstance(node, DEFINITIONS | ast.Lambda):
+                # Python counts a function from its first decorator, a class from either.
+                for line in {first.lineno for first in (node, *getattr(node, "decorator_list", ()))}:
+                    found[getattr(node, "name", "<lambda>"), line].append(node)
     except (SyntaxError, ValueError):
         return {}
     finally:
         if collects:
             gc.enable()
-
-
-def _slips_by_place(tree: ast.Module) -> dict[tuple[str, int], Slips]:
-    found: dict[tuple[str, int], Slips] = {}
-    waiting: list[ast.stmt] = list(_statements(tree.body))
-    for node in waiting:
-        if isinstance(node, DEFINITIONS):
-            inside = list(_statements(node.body))
-            waiting += inside
-            is_class = isinstance(node, ast.ClassDef)
-            slips = Slips(
-                [(what, part.lineno) for part in inside if (what := _dropped(part))],
-                list(_twice(node.body)) if is_class else [],
-                not is_class and _loses(inside),
-            )
-            # Python counts a function from its first decorator, a class from either.
-            for first in (*node.decorator_list, node):
-                found[node.name, first.lineno] = slips
-    return found
+    return dict(found)
 
 
 def _statements(block: list[ast.stmt]) -> Iterator[ast.stmt]:
@@ -143,14 +156,19 @@ def _dropped(node: ast.stmt) -> str:
     made = node.value if isinstance(node, ast.Expr) else None
     if isinstance(made, ast.Compare) and any(isinstance(op, ast.Eq) for op in made.ops):
         return "this equation, `... == ...`,"
-    if isinstance(made, ast.Call):
-        name = ast.unparse(made.func).removeprefix("acausal.").removeprefix("ac.")
-        return f"{name}(...)" if name in STATEMENTS else ""
-    return ""
+    name = _statement(made) if isinstance(made, ast.Call) else ""
+    return f"{name}(...)" if name in STATEMENTS else ""
 
 
-def _loses(inside: list[ast.stmt]) -> bool:
+def _statement(call: ast.Call) -> str:
+    """Return the name of what is called, without the package."""
+    return ast.unparse(call.func).removeprefix("acausal.").removeprefix("ac.")
+
+
+@lru_cache(maxsize=256)
+def _loses(code: CodeType) -> bool:
     """Whether a function makes something and returns nothing but None."""
+    inside = [part for node in _function(code) if not isinstance(node, ast.Lambda) for part in _statements(node.body)]
     returned = [node.value for node in inside if isinstance(node, ast.Return) and node.value]
     made = any(isinstance(node, ast.Expr | ast.Assign) and isinstance(node.value, ast.Call) for node in inside)
     return made and all(isinstance(value, ast.Constant) and value.value is None for value in returned)

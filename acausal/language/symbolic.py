@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from acausal.errors import DeclarationError
+from acausal.language.written import short
 
 # numpy's functions by name, and what they are here; see `twins`.
 TWINS: dict[str, Callable[..., Any]] = {}
@@ -113,4 +114,4 @@ class Symbolic:
         raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {mend}.")
 
     def _shown(self) -> str:
-        return repr(self)
+        return short(self)

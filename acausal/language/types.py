@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import builtins
-import difflib
 import inspect
 import re
 import sys
 from typing import TYPE_CHECKING, Any
 
 from acausal.language.arguments import refused
+from acausal.nearest import likeliest
 
 if TYPE_CHECKING:
     Scalar = Any
@@ -88,8 +88,8 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
         )
         return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
     known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
-    near = [] if known else difflib.get_close_matches(kind, _BY_NAME, 1)
-    return f"the type {kind} is unknown; did you mean {near[0]}?" if near else ""
+    near = "" if known else likeliest(kind, _BY_NAME)
+    return f"the type {kind} is unknown; did you mean {near}?" if near else ""
 
 
 def _type_name(cls: type, name: str) -> str:

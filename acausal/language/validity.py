@@ -32,8 +32,7 @@ class Requirement:
     def broken(self, value: np.ndarray) -> str:
         """Return what is wrong with a value, "" if nothing is."""
         if isinstance(self.subject, Condition):
-            holds = value[0] < 0 if self.subject.kind == "<" else value[0] <= 0
-            return "" if holds else str(self.problem)
+            return "" if self.subject.holds(value[0]) else str(self.problem)
         assert callable(self.problem)
         found = self.problem(value.reshape(self.subject.shape, order="F"))
         return f"`{self.subject}` {found}" if found else ""

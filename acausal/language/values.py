@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.arguments import refused
+from acausal.language.written import in_code
+from acausal.nearest import likeliest
 
 
 def check_value(cls: Any, name: str, value: Any) -> Any:
@@ -45,8 +46,8 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
 
 def nearest_field(cls: Any, name: str) -> str:
     """Return the remedy for a name that is not a field."""
-    near = difflib.get_close_matches(name, cls.fields, 1) or _described(cls, name)
-    return f"did you mean `{near[0]}`?" if near else f"its fields are {', '.join(cls.fields)}."
+    near = likeliest(name, cls.fields) or next(iter(_described(cls, name)), "")
+    return f"did you mean `{near}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
 
 def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
@@ -135,7 +136,7 @@ def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
     if first is not None:
         word = "fixed" if first.fixed else "guess"
         inside = tuple(entry.value if isinstance(entry, f.InitialValue) else entry for entry in entries)
-        whole = repr(inside if len(inside) > 1 else inside[0])
+        whole = repr(inside if len(inside) > 1 else first.value)
         raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
 
 
@@ -159,8 +160,8 @@ def _described(cls: Any, word: str) -> list[str]:
     return [name for name, field in values.items() if word in field.description.lower().split()]
 
 
-def shown(value: Any) -> str:
-    """Return a value as it is written in code, `...` where that is long."""
+def shown(value: Any, otherwise: str = "...") -> str:
+    """Return a value as it is written in code, something else where that is long."""
     if isinstance(value, f.InitialValue):
         return f"{'fixed' if value.fixed else 'guess'}({shown(value.value)})"
     if isinstance(value, f.Template):
@@ -168,4 +169,9 @@ def shown(value: Any) -> str:
         text = f"{type(value).__name__}({', '.join(f'{name}={shown(v)}' for name, v in given)})"
     else:
         text = repr(value)
-    return text if len(text) <= 60 and "<" not in text else "..."
+    return in_code(text, otherwise)
+
+
+def shown_or_kind(value: Any) -> str:
+    """Return a value as it is written in code, its kind where that is long."""
+    return shown(value, f"a {type(value).__name__}")

@@ -1,7 +1,8 @@
-"""How expressions and shapes are written in messages."""
+"""How expressions, values and shapes are written in messages."""
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import casadi as ca
@@ -25,12 +26,13 @@ def written(sx: ca.SX) -> str:
 
 def short(value: Any) -> str:
     """Return an expression, the end of a long one left out."""
-    return cut(repr(value))
-
-
-def cut(text: str) -> str:
-    """Return a text, the end of a long one left out."""
+    text = repr(value)
     return text if len(text) <= LONG else text[: LONG - 3] + "..."
+
+
+def in_code(text: str, otherwise: str) -> str:
+    """Return what Python writes for a value, something else where it is long or cannot stand in code."""
+    return text if len(text) <= LONG and "\n" not in text and not re.search(r"<\w", text) else otherwise
 
 
 def kind_of(shape: tuple[int, ...]) -> str:

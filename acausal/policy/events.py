@@ -76,10 +76,10 @@ class Looks:
 class Locate:
     """Crossings between two rows."""
 
-    # Levels of closer looks, suspects and trials of one stretch.
+    # Levels of closer looks, suspects and tries of one leg.
     depth: int = 3
     suspects: int = 4
-    trials: int = 80
+    tries: int = 80
     trial_steps: int = 20_000
     # A condition may change within an interval that it could cross so much faster than it moves at the ends.
     reach: float = 3.0
@@ -91,9 +91,9 @@ class Locate:
     halvings: int = 40
     # Of an output interval: an event that near is on the output.
     snap: float = 0.01
-    # Times at which a stretch is checked between its rows.
+    # Times at which a leg is checked between its rows.
     looks: int = 4000
-    # Of the run: no two times of a stretch are nearer; nor are they by so many rounding errors of the time.
+    # Of the run: no two times of a leg are nearer; nor are they by so many rounding errors of the time.
     shortest: float = 1e-12
     roundings: int = 4
     # How far beside the predicted time the next look is, so that the change lies between both: as far as the prediction

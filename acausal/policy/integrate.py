@@ -114,7 +114,7 @@ class Consistent:
 class Energy:
     """Integrals of power."""
 
-    # Nodes of a spline to begin with, rows of a stretch that there must be at least, to have more, and nodes at most.
+    # Nodes of a spline to begin with, rows of a leg that there must be at least, to have more, and nodes at most.
     fewest: int = 48
     rows: int = 192
     most: int = 2**17

@@ -8,7 +8,7 @@ from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
 from acausal.language.functions import PENDING, Pending
-from acausal.language.nearest import missing
+from acausal.nearest import missing
 from acausal.result.files import shown_name
 
 FILES = (".png", ".svg", ".pdf", ".csv")

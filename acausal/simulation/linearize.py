@@ -12,7 +12,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
-from acausal.language import fields as f
+from acausal.flatten.inputs import inputs_of
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -20,7 +20,7 @@ from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.problem import Problem
 from acausal.solve.start.start import start
-from acausal.solve.start.tangent import state_matrix, tangent
+from acausal.solve.start.tangent import tangent
 from acausal.symbols import scalars
 
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
@@ -122,25 +122,23 @@ def linearize(
     values = linear(at.x, at.z, p, time, at.constants.vector, 0.0)[0]
     M = values.reshape(J.shape[::-1]).T
     nx, nz = compiled.nx, compiled.nz
-    try:
-        A = state_matrix(M[: nx + nz, : nx + nz], nx)
-    except RuntimeError:
-        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
-    gz, gu = M[nx : nx + nz, nx : nx + nz], M[nx : nx + nz, nx + nz :]
-    gx = M[nx : nx + nz, :nx]
-    zx, zu = (-np.linalg.solve(gz, g) for g in (gx, gu)) if nz else (np.zeros((0, nx)), np.zeros((0, u.numel())))
-    h = M[nx + nz :]
     if not np.all(np.isfinite(M)):
         raise InitializationError(
             f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
         )
+    by_states, by_z, by_inputs = np.split(M, (nx, nx + nz), axis=1)
+    (fx, gx, hx), (fz, gz, hz), (fu, gu, hu) = (np.split(by, (nx, nx + nz)) for by in (by_states, by_z, by_inputs))
+    try:
+        zx, zu = -np.linalg.solve(gz, gx), -np.linalg.solve(gz, gu)
+    except np.linalg.LinAlgError:
+        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
     N, chosen = tangent(problem, at)
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(
-        A=(A @ N)[chosen],
-        B=(M[:nx, nx + nz :] + M[:nx, nx : nx + nz] @ zu)[chosen],
-        C=(h[:, :nx] + h[:, nx : nx + nz] @ zx) @ N,
-        D=h[:, nx + nz :] + h[:, nx : nx + nz] @ zu,
+        A=((fx + fz @ zx) @ N)[chosen],
+        B=(fu + fz @ zu)[chosen],
+        C=(hx + hz @ zx) @ N,
+        D=hu + hz @ zu,
         states=tuple(compiled.states[k] for k in chosen),
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
@@ -149,10 +147,8 @@ def linearize(
 
 def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
     """Free parameters that stand for the inputs at the top of the model."""
-    flat = compiled.reduced.flat
-    tops = {n for n, d in compiled.tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
-    symbols = scalars(flat.parameters.symbols) if flat.parameters.symbols.numel() else []
-    return [(n, s) for n, s in zip(flat.parameters.names, symbols, strict=True) if n.split("[")[0] in tops]
+    own, inputs = compiled.reduced.flat.parameters, inputs_of(compiled.tree)
+    return [(n, s) for n, s in zip(own.names, scalars(own.symbols), strict=True) if s.element_hash() in inputs]
 
 
 def _entries(name: str, sx: ca.SX) -> list[str]:

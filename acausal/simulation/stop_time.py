@@ -16,7 +16,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.functions import PENDING, Pending
-from acausal.language.refusals import shown
+from acausal.language.values import shown
 from acausal.locks import alone
 from acausal.symbols import stacked
 
@@ -100,8 +100,9 @@ def check_stop_time(value: Any, of: str = "") -> float:
     """
     number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     if not number or not np.isfinite(value) or value <= 0:
+        what = shown(value, f"a {type(value).__name__.lower()}")
         raise DeclarationError(
-            f"stop_time{of} is {_shown(value)}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
+            f"stop_time{of} is {what}; it must be a number of seconds greater than 0, such as stop_time = 2.0."
         )
     return float(value)
 
@@ -115,11 +116,6 @@ def _number(sx: ca.SX, built: Instantiation, name: str) -> float:
         raise DeclarationError(f"{name} of {type(built.root).__name__} follows from {what}. {_MEND.format(name)}")
     function = ca.Function("own", [stacked(known.symbols)], [ca.densify(sx)])
     return float(Call(function)(np.array(known.values))[0][0])
-
-
-def _shown(value: Any) -> str:
-    text = shown(value)
-    return f"a {type(value).__name__.lower()}" if text == "..." else text
 
 
 _MEND = "Let it follow from parameters and structural fields alone, or give a number: {}=..."

@@ -17,7 +17,7 @@ from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
 from acausal.solve.events.clock_times import clock_times
-from acausal.solve.events.course import Chattering, Run
+from acausal.solve.events.course import Chattering, Course
 from acausal.solve.failed import failure_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
@@ -106,7 +106,7 @@ class _Done:
     begun: Start
     at: Point
     integrator: Integrator
-    course: Run
+    course: Course
     reason: str
     failure: BaseException | None
 
@@ -151,7 +151,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     counts = Trace()
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
-        done = _Done(begun, at, integrator, Run(integrator, plan.times, plan.ends, plan.breaks), reason, None)
+        done = _Done(begun, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None)
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:
@@ -169,8 +169,8 @@ def _raise(done: _Done, result: Result) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     failure: Any = done.failure
     if isinstance(failure, Failure):
-        run = done.integrator
-        text = failure_text(run.problem, done.at, done.begun.redundancy, run.trace, failure)
+        integrator = done.integrator
+        text = failure_text(integrator.problem, done.at, done.begun.redundancy, integrator.trace, failure)
         error = SimulationError(text, result)
         error.begun = failure.time > done.at.time
         raise error
@@ -190,8 +190,8 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 
 
 def _counted(done: _Done, plan: _Plan) -> Statistics:
-    run, trace = done.integrator, done.integrator.trace
-    compiled = run.compiled
+    integrator, trace = done.integrator, done.integrator.trace
+    compiled = integrator.compiled
     report = compiled.report_at(done.begun.found(compiled))
     return Statistics(
         equations_flat=report["equations_flat"],
@@ -205,14 +205,14 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
         residual_evaluations=trace.residual_evaluations,
         calls=trace.calls,
         choices=trace.choices,
-        max_order=run.way.order,
+        max_order=integrator.way.order,
         order_reason="; ".join([done.reason, *trace.orders]),
-        tolerance=run.settings.tolerance,
-        sizes=absolute_sizes(compiled, run.settings.nominal),
+        tolerance=integrator.settings.tolerance,
+        sizes=absolute_sizes(compiled, integrator.settings.nominal),
         method=" and ".join(trace.methods) or "none",
         method_steps=dict(trace.methods),
-        fastest_rate=run.settings.fastest,
-        constraints="none" if not run.loops else "projection" if run.way.moves else "states",
+        fastest_rate=integrator.settings.fastest,
+        constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",
         loosened_at=trace.loosened,
         break_times=plan.breaks,
         events=len(done.course.events),
@@ -223,19 +223,19 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
 
 
 def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result:
-    run = done.integrator
-    compiled, times = run.compiled, plan.times
-    rows = run.trace.rows(done.first)
+    integrator = done.integrator
+    compiled, times = integrator.compiled, plan.times
+    rows = integrator.trace.rows(done.first)
     output = rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
-    evaluate = Evaluator(output, run.consistent)
-    found = doubts(evaluate) + broken_promises(run, evaluate)
-    stats = replace(stats, doubts=[*found, *_loosened(run)])
+    evaluate = Evaluator(output, integrator.consistent)
+    found = doubts(evaluate) + broken_promises(integrator, evaluate)
+    stats = replace(stats, doubts=[*found, *_loosened(integrator)])
     if energy:
-        if run.trace.rough:
+        if integrator.trace.rough:
             caution(ROUGH)
-        stored = Evaluator(rows[[0, -1]], run.consistent)
+        stored = Evaluator(rows[[0, -1]], integrator.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
-        supplied, dissipated = run.trace.energy.tolist()
+        supplied, dissipated = integrator.trace.energy.tolist()
         stats = replace(
             stats,
             energy_supplied=supplied,
@@ -246,13 +246,13 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     return Result(output.times, evaluate, compiled.tree, compiled.outputs, stats, title=type(compiled.tree).__name__)
 
 
-def _loosened(run: Integrator) -> list[str]:
+def _loosened(integrator: Integrator) -> list[str]:
     """Say where a larger tolerance was needed."""
-    times = run.trace.loosened
+    times = integrator.trace.loosened
     if not times:
         return []
     shown = ", ".join(f"{t:.6g}" for t in times[:SHOWN]) + (", ..." if len(times) > SHOWN else "")
     return [
-        f"no step was short enough for the tolerance {run.tolerance:g} after t = {shown} s, as happens near a singular position; "
-        "a larger one was taken for one output interval each time, and the error may be larger from there on."
+        f"no step was short enough for the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a "
+        "singular position; a larger one was taken for one output interval each time, and the error may be larger from there on."
     ]

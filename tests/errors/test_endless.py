@@ -17,6 +17,7 @@ from acausal import (
     part,
     parts,
     reinit,
+    require,
     root,
     structural,
     time,
@@ -86,6 +87,12 @@ class EmptyLists(Base):
             yield []
 
 
+class SameRequirement(Base):
+    def requirements(self):
+        while True:
+            yield require(self.x < 1, "x is too large")
+
+
 class EndlessParts(Base):
     @parts
     def bodies(self):
@@ -112,6 +119,7 @@ class Deep(Model):
                 (SameConnection, r"SameConnection, .*: connections\(\) has"),
                 (SameChain, r"SameChain, .*: connections\(\) has"),
                 (SameRoot, r"SameRoot, .*: connections\(\) has"),
+                (SameRequirement, r"SameRequirement, .*: requirements\(\) has"),
                 (EmptyLists, r"EmptyLists, .*: connections\(\) has"),
             ]
         ),

@@ -112,17 +112,18 @@ def _shaft(s: Source, flange: str, depth: int = 0) -> None:
 def _train(s: Source) -> None:
     """A drive train of its own."""
     inertia = f"rotational.Inertia(J={s.number(0.01, 2)}"
-    match s.pick("free", "position", "speed"):
-        case "free":
-            rotor = s.part("rotor", f"{inertia}, phi=fixed({s.number(-1, 1)}), w=fixed({s.number(-5, 5)}))")
-        case "position":
-            drive = s.part("drive", f"rotational.Position(phi_ref={s.number(0.1, 1)} * sin({s.number(0.5, 5)} * time))")
-            rotor = s.part("rotor", f"{inertia})")
-            s.connections.append(f"chain(self.{drive}, self.{rotor})")
-        case _:
-            drive = s.part("drive", f"rotational.Speed(w_ref={_law(s, 3)}, phi=fixed(0))")
-            rotor = s.part("rotor", f"{inertia})")
-            s.connections.append(f"chain(self.{drive}, self.{rotor})")
+    kind = s.pick("free", "position", "speed")
+    if kind == "free":
+        rotor = s.part("rotor", f"{inertia}, phi=fixed({s.number(-1, 1)}), w=fixed({s.number(-5, 5)}))")
+    else:
+        law = (
+            f"rotational.Position(phi_ref={s.number(0.1, 1)} * sin({s.number(0.5, 5)} * time))"
+            if kind == "position"
+            else f"rotational.Speed(w_ref={_law(s, 3)}, phi=fixed(0))"
+        )
+        drive = s.part("drive", law)
+        rotor = s.part("rotor", f"{inertia})")
+        s.connections.append(f"chain(self.{drive}, self.{rotor})")
     s.outputs[f"angle_{rotor}"] = f"self.{rotor}.phi"
     _shaft(s, f"self.{rotor}.flange_b")
 
@@ -168,18 +169,14 @@ def _body(s: Source) -> tuple[str, bool]:
         case "rod":
             rod = s.part("rod", f"BodyRod(r={along}, m={m})")
             # A rod has no inertia about its axis.
-            disc = s.part("disc", f"Body(m=0.1, I={mass})")
-            s.connections.append(f"connect(self.{disc}.frame_a, self.{rod}.frame_b)")
-            return rod, True
+            return _loaded(s, rod, "disc", f"Body(m=0.1, I={mass})"), True
         case "box":
             return s.part("body", f"BodyBox(r={along}, width={s.number(0.05, 0.2)})"), True
         case "cylinder":
             return s.part("body", f"BodyCylinder(r={along}, diameter={s.number(0.05, 0.2)})"), True
         case "turned":
             bar = s.part("bar", f"FixedRotation(r={along}, n={s.pick(*AXES)}, angle={s.number(-3, 3)})")
-            body = s.part("body", f"Body(m={m}, I={mass})")
-            s.connections.append(f"connect(self.{bar}.frame_b, self.{body}.frame_a)")
-            return bar, True
+            return _loaded(s, bar, "body", f"Body(m={m}, I={mass})"), True
         case "flexible":
             law = f"length={s.number(0.3, 1.5)}, E={s.pick('1e8', '1e9', '7e10')}, {SECTION}"
             more = s.pick(
@@ -189,9 +186,13 @@ def _body(s: Source) -> tuple[str, bool]:
         case _:
             law = f"length={s.number(0.5, 1.5)}, E={s.pick('1e8', '1e9')}, {SECTION}"
             beam = s.part("beam", f"SubstructuredBeam({law}, volumes={s.pick('1', '2', '3')}, beta=1e-3)")
-    tip = s.part("tip", f"Body(m={m}, I={mass})")
-    s.connections.append(f"connect(self.{tip}.frame_a, self.{beam}.frame_b)")
-    return beam, True
+    return _loaded(s, beam, "tip", f"Body(m={m}, I={mass})"), True
+
+
+def _loaded(s: Source, part: str, name: str, body: str) -> str:
+    """A part with a body on its second end."""
+    s.connections.append(f"connect(self.{s.part(name, body)}.frame_a, self.{part}.frame_b)")
+    return part
 
 
 def _branch(s: Source) -> None:

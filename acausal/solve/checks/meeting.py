@@ -62,7 +62,7 @@ class _Search:
         offset = values[:, 2:]
         return _Approach(rows, values[:, 0], values[:, 1], offset, np.linalg.norm(offset, axis=1))
 
-    def run(self, seen: _Approach, everywhere: bool) -> Iterator[tuple[float, float]]:
+    def in_rows(self, seen: _Approach, everywhere: bool) -> Iterator[tuple[float, float]]:
         """Yield times of meetings in the rows of the run and effects there, in order."""
         for k in range(len(seen.rows) - 1) if everywhere else seen.suspects():
             found = list(self._between(seen, k))
@@ -128,7 +128,7 @@ def _search(search: _Search, rows: Rows, steps: int, text: str) -> list[Meeting]
     search.near = MEETING.near * float(np.max(seen.distance))
     least = MEETING.nothing * float(np.max(np.abs(seen.effect)))
     everywhere = n <= MEETING.few and steps > MEETING.steps_a_row * n
-    for time, effect in islice(search.run(seen, everywhere), MEETING.harmless):
+    for time, effect in islice(search.in_rows(seen, everywhere), MEETING.harmless):
         if abs(effect) > least:
             return [Meeting(time, f"{text.format(time)} (it is {effect:.4g} there).")]
     return []

@@ -39,21 +39,21 @@ class _Point:
 class _Look:
     """Values of the promises of a model along a run."""
 
-    def __init__(self, integrator: Integrator, run: Evaluator) -> None:
+    def __init__(self, integrator: Integrator, outputs: Evaluator) -> None:
         compiled = integrator.compiled
         self.seen = _known(compiled)
-        self.integrator, self.run = integrator, run
+        self.integrator, self.outputs = integrator, outputs
 
     def rows(self, places: np.ndarray) -> np.ndarray:
         """Values at some of the output points."""
-        return self._values(self.run.rows[places])
+        return self._values(self.outputs.rows[places])
 
     def inside(self, row: int, times: np.ndarray) -> np.ndarray:
         """Values at times between an output point and the next."""
-        return self._values(between(self.integrator, self.run.rows[row : row + 2], times).rows)
+        return self._values(between(self.integrator, self.outputs.rows[row : row + 2], times).rows)
 
     def _values(self, rows: Rows) -> np.ndarray:
-        solver = self.run.solver
+        solver = self.outputs.solver
         return solver.problem.each(self.seen.function, solver(rows, self.seen.wanted)[0])
 
 
@@ -71,20 +71,20 @@ def _known(compiled: CompiledModel) -> Watch:
     return watch(compiled, [promise for promise, _ in found], [e for _, some in found for e in some])
 
 
-def broken_promises(integrator: Integrator, run: Evaluator) -> list[str]:
+def broken_promises(integrator: Integrator, outputs: Evaluator) -> list[str]:
     """Report which laws jumped in a run although they are declared smooth.
 
     Parameters
     ----------
     integrator : Integrator
         With model, parameters and tolerance.
-    run : Evaluator
+    outputs : Evaluator
         Output points of the run.
     """
-    if not integrator.compiled.reduced.flat.discontinuities.promises or len(run.rows) < 2:
+    if not integrator.compiled.reduced.flat.discontinuities.promises or len(outputs.rows) < 2:
         return []
-    look = _Look(integrator, run)
-    rows = spread(len(run.rows), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
+    look = _Look(integrator, outputs)
+    rows = spread(len(outputs.rows), POLICY.validity.dear if look.seen.wanted else POLICY.validity.rows)
     values, first, found = look.rows(rows), 0, dict[str, str]()
     for promise in look.seen.stated:
         n = promise.step.numel()
@@ -128,7 +128,7 @@ def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed:
             _Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values[:, columns], strict=True)
         ]
 
-    a, b = points(look.run.rows.times[row : row + 2], look.rows(np.array([row, row + 1])))
+    a, b = points(look.outputs.rows.times[row : row + 2], look.rows(np.array([row, row + 1])))
     for k in range(PROMISES.closer):
         if min(_step(a, b), _jump(a, b)) <= allowed:
             return b.time, 0.0, k > 0

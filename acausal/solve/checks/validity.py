@@ -81,19 +81,19 @@ def check_start(problem: Problem, at: Point) -> None:
         refuse(found.stated, row, InitializationError)
 
 
-def doubts(run: Evaluator) -> list[str]:
+def doubts(outputs: Evaluator) -> list[str]:
     """Say what components neglected although it was not small; at most VALIDITY.rows of the points are checked.
 
     Parameters
     ----------
-    run : Evaluator
+    outputs : Evaluator
         Output points of a run.
     """
-    problem = run.solver.problem
+    problem = outputs.solver.problem
     seen = _expectations(problem.compiled)
     if not seen.stated:
         return []
-    rows = run.rows[spread(len(run.rows), VALIDITY.dear if seen.wanted else VALIDITY.rows)]
+    rows = outputs.rows[spread(len(outputs.rows), VALIDITY.dear if seen.wanted else VALIDITY.rows)]
     values = np.abs(problem.each(seen.function, rows))
     if seen.wanted:
         # The integrator's own values show at once where nothing is near its limit.
@@ -103,7 +103,7 @@ def doubts(run: Evaluator) -> list[str]:
             for (s, _), part, whole in zip(seen.stated, most[::2], most[1::2], strict=True)
         ):
             return []
-        values = np.abs(problem.each(seen.function, run.solver(rows, seen.wanted)[0]))
+        values = np.abs(problem.each(seen.function, outputs.solver(rows, seen.wanted)[0]))
     found = []
     for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
         part = np.where(np.isnan(part), 0.0, part)

@@ -22,7 +22,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage, segment
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
 from acausal.solve.start.start import places_text
@@ -34,7 +34,7 @@ class Chattering(Exception):
     """Conditions change again and again at one time; `text` is the message."""
 
 
-class Run:
+class Course:
     """Integration over all segments and events.
 
     Parameters
@@ -98,7 +98,7 @@ class Run:
             self.stride.begin()
             if self.events[-1:] != [at.time]:
                 self.events.append(at.time)
-            self._refuse_chattering(at, at.time, self.guards.watched)
+            self._refuse_chattering(at.time, self.guards.watched)
         return new
 
     def _at_stop(self, at: Point, held: np.ndarray) -> None:
@@ -133,17 +133,17 @@ class Run:
         return at
 
     def _advance(self, at: Point, end: float) -> Point:
-        """Integrate one stretch and go to its end, or to the first event in it."""
+        """Integrate one leg and go to its end, or to the first event in it."""
         grid = self.stride.grid(at.time, end)
-        run = self.integrator
-        way = replace(run.way, max_steps=run.settings.patience(run.way, grid))
-        stretch = run.attempt(at, self.stride.looks(grid), way)
-        if isinstance(stretch, Refusal):
-            return self._otherwise(at, grid, stretch)
-        if not self.stride.is_enough(stretch, grid):
+        integrator = self.integrator
+        way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, grid))
+        leg = integrator.attempt(at, self.stride.looks(grid), way)
+        if isinstance(leg, Refusal):
+            return self._otherwise(at, grid, leg)
+        if not self.stride.is_enough(leg, grid):
             return at
         try:
-            crossing = self.locator.first(at, stretch, content=self.hasty)
+            crossing = self.locator.first(at, leg, content=self.hasty)
         except TooCoarse:
             if not self.stride.look_closer():
                 self._warn_of_haste(at)
@@ -152,7 +152,7 @@ class Run:
             return self._shorter(at, grid, failure)
         if crossing is None:
             self.stride.lengthen()
-        return self._passed(at, stretch, crossing)
+        return self._passed(at, leg, crossing)
 
     def _warn_of_haste(self, at: Point) -> None:
         self.hasty = True
@@ -165,48 +165,52 @@ class Run:
 
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
         """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
-        run = self.integrator
-        if refusal.kind is Kind.STEPS and is_open(run, grid) and run.way.order == run.settings.max_order:
-            choose(run, at, grid[:2])
-            if run.way.order != run.settings.max_order:
+        integrator = self.integrator
+        if (
+            refusal.kind is Kind.STEPS
+            and is_open(integrator, grid)
+            and integrator.way.order == integrator.settings.max_order
+        ):
+            choose(integrator, at, grid[:2])
+            if integrator.way.order != integrator.settings.max_order:
                 return at
-        following = next_ways(run.way, refusal, run.settings.rescues(grid, run.loops))
+        following = next_ways(integrator.way, refusal, integrator.settings.rescues(grid, integrator.loops))
         if not following:
             return self._shorter(at, grid, Failure.of(refusal))
-        run.way = following[0]
+        integrator.way = following[0]
         return at
 
     def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:
         """Shorten the time: the law may no longer be valid beyond an event."""
-        run = self.integrator
+        integrator = self.integrator
         if self.stride.shorten(grid):
             return at
         for k in range(POLICY.locate.halvings):
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            way = replace(run.way, max_steps=POLICY.rescue.long, careful=True)
-            stretch = run.attempt(at, times, way) if k else passage(run, at, times, 1)
+            way = replace(integrator.way, max_steps=POLICY.rescue.long, careful=True)
+            leg = integrator.attempt(at, times, way) if k else passage(integrator, at, times, 1)
             try:
-                crossing = self.locator.first(at, accepted(stretch), depth=1)
+                crossing = self.locator.first(at, accepted(leg), depth=1)
             except Failure as later:
                 failure = later
                 continue
-            return self._passed(at, accepted(stretch), crossing)
+            return self._passed(at, accepted(leg), crossing)
         here = self.locator.sample(at, at)
         due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
         if not due.any():
             raise failure
         return self._jump(at, at.time, np.zeros(2), due=due)
 
-    def _passed(self, at: Point, stretch: Stretch, crossing: Crossing | None) -> Point:
-        """Keep a stretch, up to the first event in it."""
+    def _passed(self, at: Point, leg: Leg, crossing: Crossing | None) -> Point:
+        """Keep a leg, up to the first event in it."""
         if crossing:
-            return self._event(at, stretch, crossing)
-        self.integrator.trace.add(stretch)
-        return stretch.end(at)
+            return self._event(at, leg, crossing)
+        self.integrator.trace.add(leg)
+        return leg.end(at)
 
-    def _event(self, at: Point, stretch: Stretch, crossing: Crossing) -> Point:
+    def _event(self, at: Point, leg: Leg, crossing: Crossing) -> Point:
         """Keep what was before the event, apply it, and continue from it."""
         after = crossing.after
         out = after.value <= 0
@@ -218,13 +222,13 @@ class Run:
         near = times[np.argmin(np.abs(times - after.time))]
         on_output = abs(near - after.time) <= snap
         label = float(near) if on_output and near > at.time else after.time
-        n = int(np.searchsorted(stretch.times, min(label, after.time)))
+        n = int(np.searchsorted(leg.times, min(label, after.time)))
         last = at
         if n:
-            before = stretch.part(0, n)
+            before = leg.part(0, n)
             self.integrator.trace.add(before)
             last = before.end(at)
-        self._refuse_chattering(at, after.time, [int(k) for k in self.instants.watched[out]])
+        self._refuse_chattering(after.time, [int(k) for k in self.instants.watched[out]])
         gained = work_between(self.integrator, replace(last, constants=after.at.constants), after.at)
         reached = replace(after.at, time=max(label, after.time))
         new = self._jump(reached, label, gained, crossed=out)
@@ -245,7 +249,7 @@ class Run:
         if changed:
             self.events.append(at.time)
         rows = Rows.of(replace(new, time=label))
-        self.integrator.trace.add(Stretch(rows, (gained + stored)[None], new.constants, 0))
+        self.integrator.trace.add(Leg(rows, (gained + stored)[None], new.constants, 0))
         return new
 
     def _settled(self, at: Point, **causes: Any) -> tuple[Point, np.ndarray, bool]:
@@ -262,7 +266,7 @@ class Run:
         change = energy(new) - energy(at) if stored else 0.0
         return new, np.array([max(change, 0.0), max(-change, 0.0)]), changed
 
-    def _refuse_chattering(self, at: Point, time: float, guards: list[int]) -> None:
+    def _refuse_chattering(self, time: float, guards: list[int]) -> None:
         crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span
         self.recent.append(time)
         if crowded or self.weak >= INSTANTS.most:

@@ -12,7 +12,7 @@ from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import pace
 from acausal.solve.points import Point, Rows
 
@@ -44,32 +44,32 @@ class Crossing:
 
 
 class TooCoarse(Exception):
-    """Between the times of a stretch a condition may change and change back in many places."""
+    """Between the times of a leg a condition may change and change back in many places."""
 
 
 class Locator:
-    """Search along the stretches of a run.
+    """Search along the legs of a run.
 
     Parameters
     ----------
-    run : Integrator
+    integrator : Integrator
         Integrates from any point.
     instants : Instants
         Watched conditions.
     """
 
-    def __init__(self, run: Integrator, instants: Instants) -> None:
-        self.run, self.instants = run, instants
+    def __init__(self, integrator: Integrator, instants: Instants) -> None:
+        self.integrator, self.instants = integrator, instants
         self.shortest = LOCATE.shortest * instants.span
 
-    def first(self, at: Point, stretch: Stretch, depth: int = 0, content: bool = False) -> Crossing | None:
-        """Return the first change after `at` along a stretch that begins there.
+    def first(self, at: Point, leg: Leg, depth: int = 0, content: bool = False) -> Crossing | None:
+        """Return the first change after `at` along a leg that begins there.
 
         Parameters
         ----------
         at : Point
-            Where the stretch begins.
-        stretch : Stretch
+            Where the leg begins.
+        leg : Leg
             Rows after it.
         depth : int
             How often samples between samples were requested.
@@ -79,11 +79,11 @@ class Locator:
         Raises
         ------
         TooCoarse
-            If the stretch needs more samples to tell.
+            If the leg needs more samples to tell.
         Failure
             If the motion cannot be followed up to the change.
         """
-        samples = self._samples(replace(at, constants=stretch.constants), stretch.since(at))
+        samples = self._samples(replace(at, constants=leg.constants), leg.since(at))
         sides = Sides(
             np.array([r.time for r in samples]),
             np.array([r.value for r in samples]),
@@ -107,7 +107,7 @@ class Locator:
         if not content and depth == 0 and (round_about.any() or len(turning) > most):
             raise TooCoarse
         if len(turning) <= most:
-            doubtful[:end] |= self._seen_between(at, samples, level, turning, end)
+            doubtful[:end] |= self._seen_between(samples, level, turning, end)
         suspects = np.flatnonzero(doubtful)
         if len(suspects) > most:
             if not content:
@@ -128,16 +128,14 @@ class Locator:
 
     def _samples(self, at: Point, rows: Rows) -> list[Sample]:
         """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
-        problem = self.run.problem
-        rows, _ = self.run.consistent(rows, self.instants.guards.needs)
+        problem = self.integrator.problem
+        rows, _ = self.integrator.consistent(rows, self.instants.guards.needs)
         value, rate = problem.watched(rows)
         side = np.where(at.truth, -1.0, 1.0)
         columns = zip(rows.times.tolist(), rows.x, rows.z, value * side, rate * side, strict=True)
         return [Sample(Point(t, x, z, at.constants, at.truth), g, d) for t, x, z, g, d in columns]
 
-    def _seen_between(
-        self, at: Point, samples: list[Sample], level: np.ndarray, turning: list[int], end: int
-    ) -> np.ndarray:
+    def _seen_between(self, samples: list[Sample], level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
         found = np.zeros(end, dtype=bool)
         todo = [(k, samples[k], samples[k + 1], level[k]) for k in turning]
@@ -157,7 +155,7 @@ class Locator:
 
     def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
         """Rows between two others; None where the cubic does not follow the motion."""
-        found = between(self.run, Rows.of(a.at, b.at), times)
+        found = between(self.integrator, Rows.of(a.at, b.at), times)
         if np.any(found.defect > POLICY.between.faithful):
             return None
         return self._samples(a.at, found.rows)
@@ -165,7 +163,7 @@ class Locator:
     def _inside(self, a: Sample, b: Sample, depth: int) -> Crossing | None:
         """Look closer between two samples."""
         times = np.linspace(a.time, b.time, LOOKS.fine + 1)
-        return self.first(a.at, accepted(self.run.trial(a.at, times, LOCATE.trial_steps)), depth + 1)
+        return self.first(a.at, accepted(self.integrator.trial(a.at, times, LOCATE.trial_steps)), depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no sample is near.
@@ -180,7 +178,7 @@ class Locator:
         predicted, last, width = b.time, b.time, [np.inf, np.inf]
         # A time that could not be reached: perhaps the law has no value beyond the change.
         wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
-        for _ in range(LOCATE.trials):
+        for _ in range(LOCATE.tries):
             span = min(b.time, wall) - a.time
             if span <= shortest:
                 break
@@ -220,8 +218,8 @@ class Locator:
         found = self._interpolated(a, b, np.array([time]))
         if found:
             return found[0]
-        stretch = self.run.trial(a.at, np.array([a.time, time]), LOCATE.trial_steps)
-        return stretch if isinstance(stretch, Refusal) else self.sample(at, stretch.end(at))
+        leg = self.integrator.trial(a.at, np.array([a.time, time]), LOCATE.trial_steps)
+        return leg if isinstance(leg, Refusal) else self.sample(at, leg.end(at))
 
 
 def _near(samples: list[Sample], level: np.ndarray) -> list[int]:

@@ -9,14 +9,14 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import uneven
 
 LOOKS = POLICY.looks
 
 
 class Stride:
-    """Times of the next stretch.
+    """Times of the next leg.
 
     Parameters
     ----------
@@ -28,9 +28,9 @@ class Stride:
     density : int
         Pairs of looks in an interval.
     block : int
-        Intervals in a stretch; 0 for all that there are.
+        Intervals in a leg; 0 for all that there are.
     piece : float
-        Length of a stretch in s, where that is less than an interval.
+        Length of a leg in s, where that is less than an interval.
     """
 
     def __init__(self, times: np.ndarray) -> None:
@@ -57,12 +57,12 @@ class Stride:
         pairs = self.density * (min(1.0, self.piece / self.interval) if n == 1 else 1.0)
         return uneven(grid, 2 ** max(1 + int(np.ceil(np.log2(pairs))), int(np.log2(LOOKS.fine / n))))
 
-    def is_enough(self, stretch: Stretch, grid: np.ndarray) -> bool:
-        """Whether a stretch shows all that its steps do; the next one is denser or shorter if not."""
-        if stretch.steps <= LOOKS.steps_a_row * (len(stretch.times) + 3):
+    def is_enough(self, leg: Leg, grid: np.ndarray) -> bool:
+        """Whether a leg shows all that its steps do; the next one is denser or shorter if not."""
+        if leg.steps <= LOOKS.steps_a_row * (len(leg.times) + 3):
             return True
         if self.density < self.densest:
-            needed = max(LOOKS.denser * self.density, stretch.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
+            needed = max(LOOKS.denser * self.density, leg.steps / (LOOKS.steps_a_row * (len(grid) - 1)))
             while self.density < min(needed, self.densest):
                 self.density *= LOOKS.denser
             self.density = min(self.density, self.densest)

@@ -1,1 +1,1 @@
-"""Integration of one stretch of a run after the other."""
+"""Integration of one leg of a run after the other."""

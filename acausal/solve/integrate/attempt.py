@@ -16,7 +16,7 @@ from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
 from acausal.solve.integrate.methods import METHODS, Setup, rounding
 from acausal.solve.integrate.settings import Settings
-from acausal.solve.integrate.trace import Stretch, Trace
+from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
@@ -88,15 +88,13 @@ class Integrator:
         some = rows[spread(len(rows), looks)]
         return bool(np.any(worn(self.problem, some, constants) < POLICY.loops.worn))
 
-    def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Stretch | Refusal:
+    def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
         """Integrate in the current way, carefully where that fails; without works."""
         way = replace(self.way, max_steps=max_steps)
         found = self.attempt(at, times, way, works=False)
         return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found
 
-    def attempt(
-        self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False
-    ) -> Stretch | Refusal:
+    def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False) -> Leg | Refusal:
         """Integrate from a point, at times[0], through all other times in one call.
 
         Works are 0 unless requested; a refusal holds what was reached if `keep`.
@@ -127,13 +125,13 @@ class Integrator:
         except KeyboardInterrupt:
             self._keep_reached(call, setup, at, times, parts)
             raise
-        if isinstance(found, Stretch):
+        if isinstance(found, Leg):
             return self._settled(found.every(parts), way.tolerance)
         rows = self._reached(call, setup, at, times, parts) if keep else None
         settled = rows and self._settled(rows, way.tolerance)
-        return replace(found, reached=settled) if isinstance(settled, Stretch) else found
+        return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
-    def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Stretch | Refusal:
+    def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Leg | Refusal:
         """Evaluate a call; return its rows, unless it failed or left the solution."""
         c, trace, n, method = self.compiled, self.trace, len(times) - 1, METHODS[way.method]
         started = clock.perf_counter()
@@ -142,7 +140,7 @@ class Integrator:
         steps = trace.count(way.method, *method.counted(call.stats))
         if not done:
             return read(said, times[0], times[-1])
-        found = setup.stretch(call, at, times, steps)
+        found = setup.leg(call, at, times, steps)
         if self._is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, float(times[0]))
         few = POLICY.energy.resolved if method.multistep and way.order <= 2 else 1
@@ -161,16 +159,16 @@ class Integrator:
         if found and (not self.settings.energy or call.function.nnz_out("qf")):
             self.trace.add(found)
 
-    def _reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> Stretch | None:
+    def _reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> Leg | None:
         """Return the rows that a call had written before it ended, if they can be used."""
         found = reached(self.consistent, call, setup, at, times)
         if found is None or self._is_worn(found.rows, at.constants) or len(found.rows) < parts:
             return None
         return found.every(parts)
 
-    def _settled(self, stretch: Stretch, tolerance: float) -> Stretch | Refusal:
+    def _settled(self, leg: Leg, tolerance: float) -> Leg | Refusal:
         """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""
-        given = stretch.rows[-1:]
+        given = leg.rows[-1:]
         last, lost = self.consistent(given)
         end = self.problem.point(last, 0)
         q = self.problem.projected(end).x
@@ -178,7 +176,7 @@ class Integrator:
             return Refusal(Kind.APART, end.time)
         if lost and not self.consistent.holds(given, 0, tolerance):
             return Refusal(Kind.UNSOLVABLE, end.time)
-        return replace(stretch, rows=Rows.joined([stretch.rows[:-1], last]))
+        return replace(leg, rows=Rows.joined([leg.rows[:-1], last]))
 
     def report(self, time: float) -> None:
         """Report the progress."""

@@ -15,7 +15,7 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import GOLDEN, spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import algebraic
@@ -72,7 +72,8 @@ def refined(
     """
     t, last = rows.times, len(rows) - 1
     count = min(ENERGY.fewest, last)
-    least = tolerance * _exchanged(solver, rows)
+    exchanged = _exchanged(solver, rows)
+    least = tolerance * exchanged
     while True:
         some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
         power = powers(solver, rows[some])
@@ -89,26 +90,30 @@ def refined(
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
     if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power, least)):
-        closer, known = between_rows(solver, rows, tolerance)
+        closer, known = between_rows(solver, rows, tolerance, exchanged)
         if known or not np.all(agree):
             return given[0] + closer, known
     steps = np.where(np.repeat(agree, np.diff(some), axis=0), np.diff(given, axis=0), np.diff(fine, axis=0))
     return np.vstack([given[:1], given[:1] + np.cumsum(steps, axis=0)]), True
 
 
-def between_rows(solver: Consistent, rows: Rows, tolerance: float) -> tuple[np.ndarray, bool]:
+def between_rows(
+    solver: Consistent, rows: Rows, tolerance: float, exchanged: float | None = None
+) -> tuple[np.ndarray, bool]:
     """Work up to each row from more and more points between them, on cubics through the states, until it settles.
 
     Parameters
     ----------
     solver, rows, tolerance
         As of `refined`.
+    exchanged : float, optional
+        By how much the stored energy varies in J, if that is known.
     """
     rows, _ = solver(rows)
     t, n, agreed = rows.times, len(rows) - 1, 0
     rates = solver.rates(rows)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
-    exchanged = _exchanged(solver, rows)
+    exchanged = _exchanged(solver, rows) if exchanged is None else exchanged
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
     while n * parts <= ENERGY.most:
         inside, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
@@ -167,7 +172,7 @@ def _halved(some: np.ndarray) -> np.ndarray:
     return np.unique([*range(0, len(some), 2), len(some) - 1])
 
 
-def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Stretch:
+def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Leg:
     """Go from output to output where there is nothing to integrate.
 
     Parameters
@@ -189,4 +194,4 @@ def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: floa
     rows, energy = Rows.within(times, np.zeros((n + 1, 0)), np.array(found), constants.vector), np.zeros((n, 2))
     if tolerance is not None and not compiled.powers.is_zero():
         energy = between_rows(solver, rows, tolerance)[0][1:]
-    return Stretch(rows[1:], energy, constants, 0)
+    return Leg(rows[1:], energy, constants, 0)

@@ -9,11 +9,11 @@ import numpy as np
 from acausal.compiler.call import Call
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.methods import Setup
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 
 
-def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Stretch | None:
+def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Leg | None:
     """Return the rows that an interrupted call had written, up to the first change of a watched condition.
 
     An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.clear`.
@@ -31,7 +31,7 @@ def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: 
     times : array
         Its start and output times.
     """
-    found = setup.stretch(call, at, times)
+    found = setup.leg(call, at, times)
     whole = np.isfinite(np.hstack([found.rows.x, found.rows.z, found.energy])).all(axis=1)
     found = found.part(0, _leading(whole))
     if not len(found.rows):
@@ -44,7 +44,7 @@ def _leading(holds: Any) -> int:
     return len(holds) if holds.all() else int(np.argmin(holds))
 
 
-def _before_event(consistent: Consistent, at: Point, found: Stretch) -> int:
+def _before_event(consistent: Consistent, at: Point, found: Leg) -> int:
     """Number of rows before a watched condition changes: beyond, the equations would be others."""
     guards = consistent.compiled.guards
     if not guards.watched:

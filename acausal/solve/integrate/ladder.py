@@ -1,4 +1,4 @@
-"""How a stretch of a run is integrated, and what is tried next where an integrator refuses."""
+"""How a leg of a run is integrated, and what is tried next where an integrator refuses."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RESCUE = POLICY.rescue
 
 @dataclass(frozen=True)
 class Way:
-    """How to integrate a stretch.
+    """How to integrate a leg.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Refusal:
         The kind of reason.
     time : float
         Where it had got to, in s.
-    reached : Stretch or None
+    reached : Leg or None
         Rows before that, where they were asked for.
     """
 
@@ -106,7 +106,7 @@ def read(said: str, begin: float, end: float) -> Refusal:
     said : str
         Its words; time counts from 0 to 1.
     begin, end : float
-        Ends of the stretch in s.
+        Ends of the leg in s.
     """
     found = re.search(r"At t = ([-+.\deE]+)", said)
     time = begin + float(found[1]) * (end - begin) if found else begin
@@ -155,7 +155,7 @@ class Rescues:
 
 
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
-    """Return the ways to try after a refused one, in this order; none if only shorter stretches are left.
+    """Return the ways to try after a refused one, in this order; none if only shorter legs are left.
 
     A quick way gives place to the projection that moves where the chosen states became unfit, and to the next method, which
     damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What comes

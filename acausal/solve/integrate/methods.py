@@ -18,7 +18,7 @@ from acausal.compiler.dae import UNSEEN
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.settings import Settings
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 
@@ -43,13 +43,13 @@ class Setup:
                 call.inputs[k][:] = given[name]
         call.clear()
 
-    def stretch(self, call: Call, at: Point, times: np.ndarray, steps: int = 0) -> Stretch:
+    def leg(self, call: Call, at: Point, times: np.ndarray, steps: int = 0) -> Leg:
         """Return what a call from a point has found at its output times; integrals of power that it has not are 0."""
         out = dict(zip(call.function.name_out(), call.outputs, strict=True))
         n, (x_size, z_size) = call.function.size2_out("xf"), self.sizes or (1.0, 1.0)
         x, z = out["xf"].reshape(n, -1) * x_size, out["zf"].reshape(n, -1) * z_size
         energy = out["qf"].reshape(n, 2).copy() if out["qf"].size else np.zeros((n, 2))
-        return Stretch(Rows.within(times[1:], x, z, at.constants.vector), energy, at.constants, steps)
+        return Leg(Rows.within(times[1:], x, z, at.constants.vector), energy, at.constants, steps)
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def _multistep(
 def _one_step(
     problem: Problem, settings: Settings, way: Way, _at: Point, times: np.ndarray, _floor: np.ndarray
 ) -> Setup:
-    """Rosenbrock method: one run of steps across all outputs, begun with a step that the fastest vibration resolves."""
+    """Rosenbrock method: one sequence of steps across all outputs, begun with a step that the fastest vibration resolves."""
     tolerance, fastest = way.tolerance, settings.fastest
     size = settings.nominal[: problem.nx].copy()
     for coordinate, rate in problem.rates:

@@ -61,7 +61,7 @@ class Settings:
         return len(self.methods) > 1 and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
 
     def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
-        """What may be changed between tries of a stretch with these outputs."""
+        """What may be changed between tries of a leg with these outputs."""
         return Rescues(self.methods, self.constraints == "auto", loops, self.may_ring(times), self.tolerance)
 
     def patience(self, way: Way, times: np.ndarray) -> int:

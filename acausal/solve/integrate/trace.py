@@ -64,9 +64,9 @@ class Trace:
         self.methods[method] = self.methods.get(method, 0) + steps
         return steps
 
-    def add(self, stretch: Stretch) -> None:
+    def add(self, leg: Leg) -> None:
         """Append rows; integrals of power continue from the last one."""
-        self.pieces.append(Piece(stretch.rows, stretch.energy + self.energy))
+        self.pieces.append(Piece(leg.rows, leg.energy + self.energy))
 
     def put(self, piece: int, at: Point) -> None:
         """Put the values of a point into the last row of a piece, if there is one, which keeps its time."""
@@ -91,7 +91,7 @@ class Trace:
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Leg:
     """Rows of one call; integrals of power since its start, shape (n, 2); constants and steps."""
 
     rows: Rows
@@ -113,12 +113,12 @@ class Stretch:
         rows = self.rows
         return Point(float(rows.times[-1]), rows.x[-1], rows.z[-1], self.constants, at.truth)
 
-    def part(self, first: int, last: int) -> Stretch:
+    def part(self, first: int, last: int) -> Leg:
         """Return some of the rows, as if the call had begun at its start nevertheless."""
         some = slice(first, last)
         return replace(self, rows=self.rows[some], energy=self.energy[some])
 
-    def every(self, parts: int) -> Stretch:
+    def every(self, parts: int) -> Leg:
         """Return one row in so many, the last one of each."""
         some = slice(parts - 1, None, parts)
         return replace(self, rows=self.rows[some], energy=self.energy[some])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text, worst_lines
 
 NEWTON = POLICY.newton
+Solver = Callable[[np.ndarray], np.ndarray]
 
 
 class Lost(InitializationError):
@@ -88,25 +90,10 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         # Where the block is singular, the step of least norm, if there is one, leads on.
         order = "NATURAL" if free[0] == nx else "COLAMD"
         solve = factored(block, scale, POLICY.ranks.least_norm, order)
-        step = -solve(value)
-        damping = 1.0
-        while True:
-            tried = y.copy()
-            tried[free] += damping * step
-            value = residual(tried)
-            if np.all(np.isfinite(value)):
-                simplified = solve(value)
-                # The restricted monotonicity test (Deuflhard 2004, section 3.3).
-                least = (1 - damping / 4) * np.linalg.norm(step / scale) + NEWTON.floor
-                if np.linalg.norm(simplified / scale) <= least:
-                    break
-            damping /= 2
-            if damping < NEWTON.damping:
-                here = residual(y)
-                if np.all(np.abs(here) <= rounding(J[rows], y, problem.nominal)):
-                    return at.with_y(y)
-                raise lost(here)
-        y = tried
+        found = _damped(residual, solve, y, free, scale, -solve(value))
+        if found is None:
+            break
+        y, value, simplified = found
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= NEWTON.converged:
             y[free] -= simplified if change > NEWTON.rounding else 0.0
@@ -118,6 +105,25 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     if np.all(np.abs(here) <= rounding(J, y, problem.nominal)):
         return at.with_y(y)
     raise lost(here)
+
+
+def _damped(
+    residual: Solver, solve: Solver, y: np.ndarray, free: np.ndarray, scale: np.ndarray, step: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Values after as much of a step as passes the restricted test, their residuals and the next step but for its sign."""
+    damping = 1.0
+    while damping >= NEWTON.damping:
+        tried = y.copy()
+        tried[free] += damping * step
+        value = residual(tried)
+        if np.all(np.isfinite(value)):
+            simplified = solve(value)
+            # Deuflhard 2004, section 3.3.
+            least = (1 - damping / 4) * np.linalg.norm(step / scale) + NEWTON.floor
+            if np.linalg.norm(simplified / scale) <= least:
+                return tried, value, simplified
+        damping /= 2
+    return None
 
 
 def algebraic(problem: Problem, at: Point) -> Point:

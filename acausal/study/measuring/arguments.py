@@ -8,7 +8,7 @@ from typing import Any
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
-from acausal.language.refusals import shown
+from acausal.language.values import shown
 from acausal.result.lookup import find, match
 from acausal.simulation.asked import check_intervals
 from acausal.simulation.stop_time import check_stop_time, own_stop_time

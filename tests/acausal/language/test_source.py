@@ -13,7 +13,8 @@ from acausal.language.source import returns_nothing
 HEAD = """
 from typing import overload
 import acausal as ac
-from acausal import Model, Scalar, connect, der, output, part, require
+from acausal import Model, Scalar, chain, connect, der, output, part, require
+from components import Revolute, World
 from components.rotational import Inertia
 
 class M(Model):
@@ -105,3 +106,23 @@ def test_decorated_classes_and_their_bases_are_found(tmp_path: Path):
 def test_what_has_no_text_returns_something():
     assert not returns_nothing(print)
     assert not returns_nothing(lambda: print())
+
+
+def test_a_name_that_resembles_a_setting_is_refused_only_where_the_text_shows_that_nothing_reads_it():
+    with pytest.raises(ac.DeclarationError, match=r"\.py:\d+: M.stop_tme is new, .* did you mean `stop_time`"):
+        built("stop_tme = 3")
+    built("stop_tme = 3", known=False)
+    built("stop_tme = 3\ndef more(self): return self.stop_tme")
+    built("stop_tme = 3\ndef more(self): self.stop_tme += 1")
+
+
+@pytest.mark.parametrize(("known", "line"), [(True, FIRST + 1), (False, HEAD[: HEAD.index("class")].count("\n") + 1)])
+def test_a_reserved_name_is_located_as_well_as_the_text_allows(known, line):
+    with pytest.raises(ac.DeclarationError, match=rf"\.py:{line}: M.check: "):
+        built("a = 1\ncheck = 3", known)
+
+
+def test_connections_in_equations_without_a_text_leave_the_first_error():
+    text = "world = World()\nhinge = Revolute()\ndef equations(self):\n    yield chain(self.world, self.hinge)"
+    with pytest.raises(ac.ConnectError, match="neither to a root"):
+        built(text, known=False)

@@ -163,16 +163,6 @@ def equation_too_many(repaired):
     ac.compile(M())
 
 
-def speed_prescribed_twice(repaired):
-    class M(Rotor):
-        def equations(self):
-            yield from super().equations()
-            if not repaired:
-                yield self.rotor.w == 1
-
-    ac.compile(M())
-
-
 def angle_of_a_pendulum_prescribed(repaired):
     class M(Pendulum):
         def equations(self):

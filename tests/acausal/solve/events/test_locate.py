@@ -9,7 +9,7 @@ import pytest
 
 from acausal.compiler.constants import Layout
 from acausal.solve.events.locate import Locator, TooCoarse
-from acausal.solve.integrate.trace import Stretch
+from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import uneven
 from acausal.solve.points import Point, Rows
 
@@ -42,7 +42,7 @@ class Motion:
 
     def trial(self, at, times, steps):
         self.trials += 1
-        return stretch(times[1:])
+        return leg(times[1:])
 
     def watched(self, rows):
         self.looks += 1
@@ -55,17 +55,17 @@ class Motion:
         return Locator(self, SimpleNamespace(guards=guards, span=10.0, width=lambda at: width))  # type: ignore[arg-type]
 
 
-def stretch(times) -> Stretch:
+def leg(times) -> Leg:
     times = np.asarray(times, dtype=float)
     n = len(times)
-    return Stretch(Rows.within(times, times[:, None], np.zeros((n, 0)), NOTHING.vector), np.zeros((n, 2)), NOTHING, n)
+    return Leg(Rows.within(times, times[:, None], np.zeros((n, 0)), NOTHING.vector), np.zeros((n, 2)), NOTHING, n)
 
 
 def first(motion: Motion, times, truth=None, **how):
     """Look along rows at some times, the first of which is the start."""
     truth = np.zeros(len(motion.functions), dtype=bool) if truth is None else np.array(truth)
     at = Point(float(times[0]), np.array([times[0]], dtype=float), np.zeros(0), NOTHING, truth)
-    return motion.locator().first(at, stretch(times[1:]), **how)
+    return motion.locator().first(at, leg(times[1:]), **how)
 
 
 def parabola(at, depth, steep=1.0):

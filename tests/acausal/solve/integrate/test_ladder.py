@@ -103,4 +103,4 @@ def test_a_refusal_that_nothing_mends_is_a_failure():
     with pytest.raises(Failure, match="no way to go on") as raised:
         accepted(Refusal(Kind.OTHER, 1.5))
     assert raised.value.time == 1.5
-    assert accepted("a stretch") == "a stretch"
+    assert accepted("a leg") == "a leg"

@@ -20,6 +20,11 @@ def nearest(path: str, known: Sequence[str]) -> list[str]:
     return near[:3]
 
 
+def likeliest(name: str, known: Iterable[str], share: float = 0.6) -> str:
+    """Return the name that resembles another one most, "" if none resembles it by this share at least."""
+    return next(iter(difflib.get_close_matches(name, known, 1, share)), "")
+
+
 def missing(path: str, known: Sequence[str], kind: str = "") -> str:
     """Return what follows "there is no `...` in the model": names that may be meant, or those of the same part.
 
