@@ -58,7 +58,7 @@ class Shaft(Model):
 )
 def test_the_parameter_that_is_missing_is_named(cls, given, mend):
     with pytest.raises(
-        ac.UnbalancedModelError, match=f"(?s)^the model lacks .*\\nA parameter is 0, .*{mend}"
+        ac.UnbalancedModelError, match=f"(?s)^the model lacks .*\\n.* parameter is 0, .*{mend}"
     ) as caught:
         ac.compile(cls(), given)
     assert caught.value.__cause__ is None
