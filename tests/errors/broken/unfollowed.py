@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import acausal as ac
-from acausal import Model, chain, fixed
+from acausal import Model, Scalar, chain, fixed, time, variable
 from components import Body, Revolute, Spherical, Spring, World
+from tests.errors.broken.models import Decay, Pendulum
 
 
 def point_mass_on_a_ball_joint(repaired):
@@ -38,3 +39,32 @@ def point_mass_in_the_axis(repaired):
             yield chain(self.world, self.hinge, self.ball)
 
     ac.compile(M())
+
+
+def speed_of_a_body_besides_that_of_its_hinge(repaired):
+    class M(Pendulum):
+        def initial_equations(self):
+            if not repaired:
+                yield self.mass.v_0[1] == 2
+
+    ac.simulate(M(), stop_time=0.01)
+
+
+def start_that_follows_from_another(repaired):
+    class M(Decay):
+        z: Scalar = variable("z", start=2 if repaired else 3, fixed=True)
+
+        def more(self):
+            yield self.z == 2 * self.x
+
+    ac.simulate(M(), stop_time=0.01)
+
+
+def start_against_an_equation(repaired):
+    class M(Decay):
+        z: Scalar = variable("z", start=3, fixed=not repaired)
+
+        def more(self):
+            yield self.z == 2 * time
+
+    ac.simulate(M(), stop_time=0.01)
