@@ -13,7 +13,9 @@ from tests.errors.broken.models import Decay, Pendulum
 def point_mass_on_a_ball_joint(repaired):
     class M(Model):
         world, joint = World(), Spherical(angles_fixed=True, w_rel_a=fixed((0, 0, 0)))
-        ball = Body(m=1, r_CM=(0, -1, 0) if repaired else (0, 0, 0), I=0.1 * np.eye(3) if repaired else np.zeros((3, 3)))
+        ball = Body(
+            m=1, r_CM=(0, -1, 0) if repaired else (0, 0, 0), I=0.1 * np.eye(3) if repaired else np.zeros((3, 3))
+        )
 
         def connections(self):
             yield chain(self.world, self.joint, self.ball)
