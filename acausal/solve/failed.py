@@ -58,7 +58,7 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
         "" if begins else KEPT,
     )
     if failure.kind is None:
-        return f"{head} {failure.reason}. {kept}".rstrip()
+        return f"{head} {failure.reason.removesuffix('.')}. {kept}".rstrip()
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at, left) or (left.singular and not reached):
         return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {kept}".rstrip()])

@@ -26,6 +26,7 @@ from acausal.solve.integrate.trace import Stretch
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
 from acausal.solve.start.start import places_text
+from acausal.solve.undecided import Undecided, undecided
 
 INSTANTS = POLICY.instants
 
@@ -78,8 +79,17 @@ class Run:
             if at.time != self.times[0]:
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
+            self._refuse_undecided(at, end)
             at = self._segment(at, end)
         self._at_stop(at, held)
+
+    def _refuse_undecided(self, at: Point, end: float) -> None:
+        """Refuse conditions of time alone that have no value up to the next break."""
+        time = at.time + POLICY.agenda.after * (end - at.time)
+        if open_ := self.agenda.undecided(time):
+            text = undecided(self.integrator.problem, replace(at, time=time), open_)
+            if text:
+                raise Undecided(at.time, text.replace(f"{time:.6g}", f"{at.time:.6g}", 1))
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
@@ -148,6 +158,10 @@ class Run:
             if not self.stride.look_closer():
                 self._warn_of_haste(at)
             return at
+        except Undecided as failure:
+            if n := int(np.searchsorted(stretch.times, failure.time)):
+                self.integrator.trace.add(stretch.part(0, n))
+            raise
         except Failure as failure:
             return self._shorter(at, grid, failure)
         if crossing is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import acausal as ac
-from acausal import Model, Scalar, chain, fixed, time, variable
+from acausal import Model, Scalar, acos, asin, chain, der, fixed, log, piecewise, reinit, time, variable, when
 from components import Body, Revolute, Spherical, Spring, World
 from tests.errors.broken.models import Decay, Pendulum
 
@@ -70,3 +70,40 @@ def start_against_an_equation(repaired):
             yield self.z == 2 * time
 
     ac.simulate(M(), stop_time=0.01)
+
+
+def condition_of_time_without_value(repaired):
+    class M(Decay):
+        z: Scalar = variable("z", start=0, fixed=True)
+
+        def more(self):
+            yield der(self.z) == piecewise((1, time < 0.9 if repaired else log(1 - time) > -2), 0)
+
+    ac.simulate(M(), stop_time=2, intervals=10)
+
+
+def condition_of_a_variable_without_value(repaired):
+    class M(Decay):
+        z: Scalar = variable("z", start=0, fixed=True)
+
+        def more(self):
+            yield der(self.z) == piecewise((1, self.x > 0.51 if repaired else asin(2 * self.x - 2) > -1.5), 0)
+
+    ac.simulate(M(), stop_time=2, intervals=10)
+
+
+def event_without_value(repaired):
+    class M(Decay):
+        def more(self):
+            angle = acos(self.x if repaired else 2 * self.x - 1.5)
+            yield when(angle > 3.5, reinit(self.x, 1))
+
+    ac.simulate(M(), stop_time=2, intervals=10)
+
+
+def condition_without_value_at_the_start(repaired):
+    class M(Decay):
+        def more(self):
+            yield when(self.x < 1 if repaired else log(self.x - 1.5) < -1, reinit(self.x, 1.2))
+
+    ac.simulate(M(), stop_time=0.1, intervals=10)
