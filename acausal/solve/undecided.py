@@ -8,19 +8,11 @@ import numpy as np
 
 from acausal.compiler.whole import EVENT, whole
 from acausal.solve.causes import without_value
-from acausal.solve.integrate.ladder import Failure
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
 MEND = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
 NO_VALUE = "at t = {:.6g} s a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
-
-
-class Undecided(Failure):
-    """A condition has no value any more."""
-
-    def __init__(self, time: float, text: str) -> None:
-        super().__init__(time, text.removeprefix(f"at t = {time:.6g} s "))
 
 
 def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:

@@ -16,7 +16,7 @@ from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
 from acausal.solve.events.instant import Cycling, Instants
-from acausal.solve.events.locate import Crossing, Locator, TooCoarse
+from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
 from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
@@ -26,7 +26,7 @@ from acausal.solve.integrate.trace import Stretch
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
 from acausal.solve.start.start import places_text
-from acausal.solve.undecided import Undecided, undecided
+from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants
 

@@ -15,7 +15,7 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Stretch
 from acausal.solve.looks import pace
 from acausal.solve.points import Point, Rows
-from acausal.solve.undecided import Undecided, undecided
+from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
@@ -46,6 +46,13 @@ class Crossing:
 
 class TooCoarse(Exception):
     """Between the times of a stretch a condition may change and change back in many places."""
+
+
+class Undecided(Failure):
+    """A condition has no value any more."""
+
+    def __init__(self, time: float, text: str) -> None:
+        super().__init__(time, text.removeprefix(f"at t = {time:.6g} s "))
 
 
 class Locator:

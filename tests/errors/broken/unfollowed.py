@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 import acausal as ac
-from acausal import Model, Scalar, acos, asin, chain, der, fixed, log, piecewise, reinit, time, variable, when
+from acausal import Model, Scalar, Vector3, acos, asin, chain, der, fixed, log, piecewise, reinit, time, variable, when
 from components import Body, Revolute, Spherical, Spring, World
 from tests.errors.broken.models import Decay, Pendulum
 
@@ -107,3 +109,33 @@ def condition_without_value_at_the_start(repaired):
             yield when(self.x < 1 if repaired else log(self.x - 1.5) < -1, reinit(self.x, 1.2))
 
     ac.simulate(M(), stop_time=0.1, intervals=10)
+
+
+def output_without_value(repaired):
+    class M(Decay):
+        z: Scalar = variable("z")
+
+        def more(self):
+            yield self.z == (0 if repaired else log(self.x - 0.5))
+
+    _read(ac.simulate(M(), stop_time=1, intervals=10), "z")
+
+
+def output_that_is_infinite_at_an_instant(repaired):
+    class M(Decay):
+        z: Vector3 = variable("z")
+
+        def more(self):
+            yield self.z == (0, 1 / (time + 0.5 if repaired else time - 0.5), 0)
+
+    _read(ac.simulate(M(), stop_time=1, intervals=10), "z")
+
+
+def _read(result: ac.Result, path: str) -> None:
+    """Read a quantity; a warning counts as refused."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            result[path]
+        except ac.AcausalWarning as warning:
+            raise ac.AcausalError(str(warning)) from None
