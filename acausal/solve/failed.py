@@ -10,8 +10,10 @@ from acausal.errors import KEPT
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, infinite_slope, without_value
+from acausal.solve.checks.meeting import meeting_ahead
+from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
-from acausal.solve.integrate.trace import Trace
+from acausal.solve.integrate.segment import approached
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.newton import Lost, algebraic
@@ -28,30 +30,31 @@ MENDS = {
     Kind.STEPS: "Something changes ever faster, or much faster than the outputs are apart: a force that becomes infinite "
     "(1/r^2 at r = 0), a value that grows without bound, or a very stiff or very light part. Check the equations above, or "
     "let the run end earlier, stop_time=...; a run that is only long needs more intervals=....",
+    Kind.STALLED: "Something becomes infinite there: a force (1/r^2 at r = 0), or a value that grows without bound. Check the "
+    "equations above, or let the run end earlier, stop_time=....",
     Kind.ROUNDING: "Take a larger one, for instance tolerance=1e-9.",
     None: "A value that grows without bound, a force that becomes infinite, or a jump inside a function stops a run. Check "
     "the equations above; write a jump as piecewise(...) or when(...).",
 }
 
 
-def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace, failure: Failure) -> str:
+def failure_text(run: Integrator, begun: Point, left: Redundancy, failure: Failure) -> str:
     """Return the message for a run that an integrator gave up.
 
     Parameters
     ----------
-    problem : Problem
-        The model.
+    run : Integrator
+        What it computed.
     begun : Point
         Where the run began.
     left : Redundancy
         What was found about its loops there.
-    trace : Trace
-        What was computed.
     failure : Failure
         When it ended, and why.
     """
-    reached = bool(trace.pieces)
-    at = problem.point(trace.pieces[-1].rows, -1) if reached else begun
+    problem, pieces = run.problem, run.trace.pieces
+    reached = bool(pieces)
+    at = problem.point(pieces[-1].rows, -1) if reached else begun
     begins = failure.time <= begun.time
     head, kept = (
         f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:",
@@ -59,9 +62,12 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
     )
     if failure.kind is None:
         return f"{head} {failure.reason.removesuffix('.')}. {kept}".rstrip()
+    near = approached(run, at, failure.time)
+    if met := meeting_ahead(problem, near, failure.time):
+        return met
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at, left) or (left.singular and not reached):
-        return "\n".join([*lines, _fastest(problem, at), f"{SINGULAR} {kept}".rstrip()])
+        return "\n".join([*lines, _fastest(problem, near), f"{SINGULAR} {kept}".rstrip()])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
         # What fails in the equations explains all; that no step was short enough would be a second head.
@@ -71,7 +77,7 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
         )
         return "\n".join(filter(None, [*lines, kept]))
     mend = MENDS.get(failure.kind, MENDS[None])
-    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), f"{mend} {kept}".rstrip()])
+    return "\n".join([*lines, *filter(None, [_fastest(problem, near)]), f"{mend} {kept}".rstrip()])
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:

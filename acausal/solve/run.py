@@ -170,7 +170,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
     failure: Any = done.failure
     if isinstance(failure, Failure):
         run = done.integrator
-        text = failure_text(run.problem, done.at, done.begun.redundancy, run.trace, failure)
+        text = failure_text(run, done.at, done.begun.redundancy, failure)
         error = SimulationError(text, result)
         error.begun = failure.time > done.at.time
         raise error

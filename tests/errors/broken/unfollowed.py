@@ -8,7 +8,7 @@ import numpy as np
 
 import acausal as ac
 from acausal import Model, Scalar, Vector3, acos, asin, chain, der, fixed, log, piecewise, reinit, time, variable, when
-from components import Body, Revolute, Spherical, Spring, World
+from components import Body, FixedTranslation, Prismatic, Revolute, Spherical, Spring, World
 from tests.errors.broken.models import Decay, Pendulum
 
 
@@ -129,6 +129,32 @@ def output_that_is_infinite_at_an_instant(repaired):
             yield self.z == (0, 1 / (time + 0.5 if repaired else time - 0.5), 0)
 
     _read(ac.simulate(M(), stop_time=1, intervals=10), "z")
+
+
+def fall_into_the_centre_of_gravity(repaired):
+    class M(Model):
+        world = World(gravity="point", mu=1)
+        ball = Body(
+            m=1,
+            I=np.eye(3),
+            r_0=fixed((1, 0.3, 0.2)),
+            v_0=fixed((-0.3, 1, 0) if repaired else (0, 0, 0)),
+            w_a=fixed((0, 0, 0)),
+            angles_fixed=True,
+        )
+
+    ac.simulate(M(), stop_time=3, intervals=2)
+
+
+def guided_fall_into_the_centre_of_gravity(repaired):
+    class M(Model):
+        world = World(gravity="point", mu=1)
+        start, guide, ball = FixedTranslation(r=(2, 0, 0)), Prismatic(s=fixed(0), v=fixed(0)), Body(m=1)
+
+        def connections(self):
+            yield chain(self.world, self.start, self.guide, self.ball)
+
+    ac.simulate(M(), stop_time=2 if repaired else 4, intervals=4)
 
 
 def _read(result: ac.Result, path: str) -> None:
