@@ -17,6 +17,7 @@ from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
+from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
@@ -94,7 +95,7 @@ class Run:
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
         if at.time in self.found and bool((on != held).any()):
-            self.events.append(at.time)
+            self._count(at.time, [self.guards.timed[k] for k in np.flatnonzero(on != held)])
             self.stride.begin()
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
@@ -107,7 +108,7 @@ class Run:
         if acted and plan and plan[0] <= at.time + self.agenda.near:
             self.stride.begin()
             if self.events[-1:] != [at.time]:
-                self.events.append(at.time)
+                self._count(at.time, self.guards.watched)
             self._refuse_chattering(at, at.time, self.guards.watched)
         return new
 
@@ -126,6 +127,12 @@ class Run:
                 # What acts is kept from becoming true.
                 new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
+
+    def _count(self, time: float, guards: list[int]) -> None:
+        """Note an event at which some conditions change."""
+        self.events.append(time)
+        if len(self.events) == INSTANTS.many:
+            warn_of_many(self.integrator.compiled, time, self.times, guards)
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
@@ -257,7 +264,8 @@ class Run:
         """Let everything happen at an event; record the values after it and what energy was gained since the last row."""
         new, stored, changed = self._settled(at, **causes)
         if changed:
-            self.events.append(at.time)
+            crossed = causes.get("crossed", causes.get("due"))
+            self._count(at.time, self.guards.watched if crossed is None else self.instants.watched[crossed].tolist())
         rows = Rows.of(replace(new, time=label))
         self.integrator.trace.add(Stretch(rows, (gained + stored)[None], new.constants, 0))
         return new
