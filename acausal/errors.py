@@ -120,6 +120,7 @@ def caution(text: str) -> None:
         What is doubtful, in the user's names; where; the remedy.
     """
     level, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
+    # numpy decorates some of our functions.
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__, "numpy"):
         level, frame = level + 1, frame.f_back
     warnings.warn(AcausalWarning(text), stacklevel=level)

@@ -12,6 +12,7 @@ from acausal import (
     Matrix33,
     Scalar,
     Vector3,
+    apart,
     cross,
     dot,
     effect,
@@ -22,6 +23,7 @@ from acausal import (
     port,
     potential_root,
     require,
+    sqrt,
     structural,
     variable,
 )
@@ -101,6 +103,18 @@ class Body(Component):
                 dot(centre, centre) > 0,
                 f"{name} starts at the origin of the world, where gravity of a point is infinite; start it elsewhere, "
                 "for instance r_0=fixed((7e6, 0, 0)), or take World(gravity=None)",
+            )
+
+    def validity(self):
+        if self.world.gravity == "point":
+            centre, velocity = self._centre(), self.v_0 + resolve1(self.frame_a.R, cross(self.w_a, self.r_CM))
+            distance = sqrt(dot(centre, centre))
+            yield apart(
+                centre,
+                dot(centre, velocity) / distance,
+                self.m * self.world.mu / dot(centre, centre),
+                "it reaches the origin of the world, where gravity of a point is infinite. Let the run end before, "
+                "stop_time=..., or let the body pass beside it: v_0=fixed(...) across the line to the origin",
             )
 
     def initial_equations(self):

@@ -62,9 +62,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
         mend = mend_of_zeros(model, parameters, flat, error)
-        if mend:
-            why = "\n".join(line for line in why.splitlines() if line.startswith("Nothing determines"))
-        raise type(error)("\n".join(filter(None, (what, mend, why)))) from None
+        raise type(error)("\n".join(filter(None, (what, mend or why)))) from None
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")

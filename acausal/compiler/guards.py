@@ -92,14 +92,18 @@ class Guards:
 
     @cached_property
     def holds_at(self) -> Call:
-        """Function of parameters, time and a span: 1 for each timed guard that holds.
+        """Function of parameters, time and a span: 1 for each timed guard that holds, nan where it has no value.
 
         A comparison that would be 0 within the span of time is 0.
         """
         near, excess = ca.SX.sym("near"), self._all[self._decided]
         reach = ca.fabs(ca.jtimes(excess, time.sx, ca.SX(1))) * near
         parts = iter(scalars(ca.if_else(ca.fabs(excess) <= reach, 0, excess)))
-        held = [truth(self.guards[k].condition, parts) for k in self.timed]
+        known = [ca.logic_or(e <= 0, e > 0) for e in scalars(self._excess[self.timed])]
+        held = [
+            ca.if_else(is_known, truth(self.guards[k].condition, parts), np.nan)
+            for k, is_known in zip(self.timed, known, strict=True)
+        ]
         given = [self.reduced.p, time.sx, near]
         return Call(ca.Function("holds_at", given, [ca.densify(stacked(held))]))
 

@@ -4,18 +4,32 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from acausal.errors import AcausalError, StructurallySingularError, UnbalancedModelError
 from acausal.flatten import FlatModel, flatten
+from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.reduce import plan_of
+from acausal.symbols import scalars, vec
 
 MOST, SECONDS = 12, 5.0  # parameters that are tried, and how long
+SHORT = 3  # unknowns that are named
+
+
+@dataclass(frozen=True)
+class _Zero:
+    """A parameter that is 0: who has it, another value, and the remedy."""
+
+    component: Component
+    other: np.ndarray
+    mend: str
 
 
 def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: FlatModel, error: AcausalError) -> str:
@@ -33,12 +47,12 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
         Why its structure was refused, raised while a StructuralSingularity was handled.
     """
     zeros = _zeros(flat, getattr(error.__context__, "under", ()))
-    ends = clock.perf_counter() + SECONDS
+    ends, completed = clock.perf_counter() + SECONDS, dict[tuple[str, ...], FlatModel]()
 
     def completes(*tried: str) -> bool | None:
         """Whether the model has as many equations as it needs, None where it rejects the values."""
         try:
-            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path][0] for path in tried}})
+            tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].other for path in tried}})
         except AcausalError:
             return None
         try:
@@ -47,6 +61,7 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
             return False
         except AcausalError:
             return None
+        completed[tried] = tried_flat
         return True
 
     found = {path: completes(path) for path in zeros if clock.perf_counter() < ends}
@@ -57,14 +72,52 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     for path in () if alone else tuple(needed):
         if clock.perf_counter() < ends and completes(*(rest := [p for p in needed if p != path])):
             needed = rest
-    lines = [f"  {zeros[path][1]}" for path in alone or needed]
-    which = " one of" if len(alone) > 1 else ""
-    return f"A parameter is 0, so the terms that it multiplies were removed. The model is complete with{which}:\n" + (
-        "\n".join(lines)
+    ways = [(path,) for path in alone] or [tuple(needed)]
+    gained = [_gained(flat, completed[way], [zeros[path] for path in way]) for way in ways]
+    return _told([zeros[path].mend for path in alone or needed], bool(alone), gained)
+
+
+def _told(mends: list[str], alone: bool, gained: list[dict[str, str]]) -> str:
+    """The message: what each way gained that all of them did, and the mends, of which one is enough if `alone`."""
+    common = [words for name, words in gained[0].items() if all(name in other for other in gained)]
+    what = ", ".join(list(dict.fromkeys(common or gained[0].values()))[:SHORT])
+    head = f"Nothing determines {what}: a" if what else "A"
+    which = " one of" if alone and len(mends) > 1 else ""
+    lines = "\n".join(f"  {mend}" for mend in mends)
+    return (
+        f"{head} parameter is 0, so the terms that it multiplies were removed. The model is complete with{which}:\n{lines}\n"
+        "or where a connection or an equation determines it."
     )
 
 
-def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
+def _gained(flat: FlatModel, completed: FlatModel, zeros: list[_Zero]) -> dict[str, str]:
+    """What terms hold that a model lacked: unknowns, and what they are called where the zeros are."""
+    before, after = _inside(flat), _inside(completed)
+    new = {name for origin, names in after.items() for name in names - before.get(origin, set())}
+    wanted = {name.removeprefix("der(").removesuffix(")") for name in new}
+    paths, eliminated = {zero.component._path for zero in zeros}, completed.unknowns.eliminated
+    words = {}
+    for component in walk(completed.tree):
+        for name, declared in component.fields.items() if component._path in paths else ():
+            if isinstance(declared, f.Variable):
+                column = ca.substitute([vec(getattr(component, name).sx)], [eliminated[0]], [eliminated[1]])[0]
+                text = f"`{join(component._path, name)}` ({declared.description})"
+                words |= {s.element_hash(): text for s in scalars(column)}
+    own = zip(scalars(completed.unknowns.symbols), completed.unknowns.names, strict=True)
+    return {name: words.get(s.element_hash(), f"`{name}`") for s, name in own if name in wanted}
+
+
+def _inside(flat: FlatModel) -> dict[str, set[str]]:
+    """Names of unknowns in the equations of each place."""
+    names = {s.element_hash(): n for s, n in zip(scalars(flat.unknowns.symbols), flat.unknowns.names, strict=True)}
+    found: dict[str, set[str]] = {}
+    for residual, origin in zip(scalars(flat.equations.residuals), flat.equations.origins, strict=True):
+        held = (names.get(s.element_hash(), "") for s in ca.symvar(residual))
+        found.setdefault(str(origin), set()).update(held)
+    return found
+
+
+def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
     """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the remedy."""
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
@@ -79,9 +132,9 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, tuple[Any, str]]:
         for name, declared in component.fields.items():
             whole = join(path, name)
             if isinstance(declared, f.Parameter) and whole in set_ and whole not in some and len(found) < MOST:
-                where = f"{path}: " if path else ""
+                where = f"{Origin.of(component)}: " if path else ""
                 mend = f"{where}{type(component).__name__}({name}=...), {declared.description}"
-                found[whole] = (_other(getattr(component, name).shape), mend)
+                found[whole] = _Zero(component, _other(getattr(component, name).shape), mend)
     return found
 
 

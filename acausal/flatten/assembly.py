@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -266,7 +266,7 @@ class Assembly:
         fixed = [a for a in self.raw.arrays if a.fixed]
         residuals = [vec(a.expr.sx - a.start.sx) for a in fixed] + [self.initial_residuals]
         texts = [
-            (f"{name} = {entry}", Origin(a.owner._path, type(a.owner).__name__, a.owner._origin))
+            (f"{name} = {entry}", replace(Origin.of(a.owner), where=a.said))
             for a in fixed
             for name, entry in zip(a.names, scalars(a.start.sx), strict=True)
         ]

@@ -42,6 +42,12 @@ class VariableArray:
         n, unit = self.expr.sx.numel(), self.expr.unit
         return list(unit) * (n // max(1, len(unit))) if isinstance(unit, tuple) else [unit] * n
 
+    @property
+    def said(self) -> str:
+        """File and line where its start value is given: with the component, or in its class."""
+        is_given = self.path.rpartition(".")[2] in self.owner._values
+        return self.owner._origin if is_given else self.declared.where
+
     @cached_property
     def names(self) -> list[str]:
         """Names of the entries in the user's words."""

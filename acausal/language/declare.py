@@ -195,7 +195,7 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
     shape : tuple of int, optional
         Shape where the annotation does not tell.
     start : float, array or expression of other fields
-        Value at the start, such as sign(w_rel).
+        Value at the start, such as sign(w_rel); 0 if not given.
     """
     return Variable(description, unit, shape, start=start, causality="discrete")
 

@@ -15,6 +15,8 @@ class Meeting:
     nothing: float = 1e-4
     # Points may move so much faster between two rows than at them.
     reach: float = 3.0
+    # The same where a run was given up: when it was is known to some digits only.
+    ahead: float = 30.0
     # Parts of an interval; shortest part of the run.
     parts: int = 8
     shortest: float = 1e-13

@@ -23,6 +23,9 @@ class Instants:
     # Events within that part of the run, or without any motion between them, that are chattering.
     most: int = 100
     window: float = 1e-9
+    # Events after which a run is told that as many to its end, more than the second, takes half a minute and more.
+    many: int = 200
+    dear: int = 5_000
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,8 @@ class Agenda:
     apart: float = 1e-12
     # Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
     added: float = 1e-11
+    # Of the time between two breaks: so far behind the first one, what holds between them does.
+    after: float = 1e-6
     # Of the time: a break and an output are one.
     same: float = 1e-13
 
@@ -43,6 +48,8 @@ class Clock:
 
     # Intervals to begin with, and most at once.
     first: int = 64
+    # Intervals at whose ends conditions are asked whether they have a value.
+    looks: int = 512
     most: int = 50_000
     # Of the greatest time.
     shortest: float = 1e-14

@@ -60,6 +60,11 @@ class Rescue:
     # Steps in each of the last tries, and by how much the tolerance is loosened in them, and at most to what: near a
     # singular position of a loop long steps get past what short ones cannot (n-four-bar, the folding four-bar).
     patient: int = 20_000
+    # Looks at the end of a run that was given up: each so many times nearer, and how many.
+    nearer: float = 4.0
+    approaches: int = 9
+    # Of a stretch: what that many more steps bring it forward at least, unless they tend to 0.
+    stalled: float = 1e-6
     looser: tuple[float, ...] = (1.0, 1e2, 1e4)
     loosest: float = 1e-4
 

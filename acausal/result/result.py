@@ -220,8 +220,26 @@ class Result:
         for quantity, array in found:
             if quantity.name not in self._told and not np.isfinite(array).all():
                 self._told.add(quantity.name)
-                caution(_no_numbers(quantity, array, self.time))
+                caution(self._no_numbers(quantity, array))
         return found
+
+    def _no_numbers(self, quantity: Quantity, array: np.ndarray) -> str:
+        """Describe where a quantity stops being a number, and why."""
+        wrong, n = ~np.isfinite(array), self.time.size
+        rows = wrong.reshape(n, -1).any(axis=1)
+        row = int(np.argmax(rows))
+        name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
+        nan = bool(np.isnan(array[wrong]).any())
+        what = "not a number (NaN)" if nan else "infinite"
+        cause = (
+            "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
+        )
+        why = getattr(self._evaluate, "why", None) if quantity.declared else None
+        mend = (why and why(row)) or f"Check the equation that gives it: {cause}."
+        return (
+            f"`{name}` is {what} at t = {self.time[row]:.6g} s for the first time, at {rows.sum()} of {n} times in all. "
+            f"{mend[0].upper()}{mend[1:]}"
+        )
 
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
@@ -259,21 +277,6 @@ def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
 def _has_time(tree: Any) -> bool:
     """Whether the model has something of its own by the name of time."""
     return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)
-
-
-def _no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray) -> str:
-    """Describe where a quantity stops being a number."""
-    wrong = ~np.isfinite(array)
-    row = int(np.argmax(wrong.reshape(time.size, -1).any(axis=1)))
-    name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
-    nan = bool(np.isnan(array[wrong]).any())
-    what = "not a number (NaN)" if nan else "infinite"
-    count = int(wrong.reshape(time.size, -1).any(axis=1).sum())
-    cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
-    return (
-        f"`{name}` is {what} at t = {time[row]:.6g} s for the first time, at {count} of {time.size} times in all. "
-        f"Check the equation that gives it: {cause}."
-    )
 
 
 def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:

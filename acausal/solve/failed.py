@@ -9,8 +9,10 @@ import numpy as np
 from acausal.flatten.origin import Origin
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, infinite_slope, without_value
+from acausal.solve.checks.meeting import meeting_ahead
+from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind
-from acausal.solve.integrate.trace import Trace
+from acausal.solve.integrate.segment import approached
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.newton import Lost, algebraic
@@ -27,37 +29,41 @@ MENDS = {
     Kind.STEPS: "Something changes ever faster, or much faster than the outputs are apart: a force that becomes infinite "
     "(1/r^2 at r = 0), a value that grows without bound, or a very stiff or very light part. Check the equations above, or "
     "let the run end earlier, stop_time=...; a run that is only long needs more intervals=....",
+    Kind.STALLED: "Something becomes infinite there: a force (1/r^2 at r = 0), or a value that grows without bound. Check the "
+    "equations above, or let the run end earlier, stop_time=....",
     Kind.ROUNDING: "Take a larger one, for instance tolerance=1e-9.",
     None: "A value that grows without bound, a force that becomes infinite, or a jump inside a function stops a run. Check "
     "the equations above; write a jump as piecewise(...) or when(...).",
 }
 
 
-def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace, failure: Failure) -> str:
+def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure: Failure) -> str:
     """Return the message for a run that an integrator gave up.
 
     Parameters
     ----------
-    problem : Problem
-        The model.
+    integrator : Integrator
+        What it computed.
     begun : Point
         Where the run began.
     left : Redundancy
         What was found about its loops there.
-    trace : Trace
-        What was computed.
     failure : Failure
         When it ended, and why.
     """
-    reached = bool(trace.pieces)
-    at = problem.point(trace.pieces[-1].rows, -1) if reached else begun
+    problem, pieces = integrator.problem, integrator.trace.pieces
+    reached = bool(pieces)
+    at = problem.point(pieces[-1].rows, -1) if reached else begun
     begins = failure.time <= begun.time
     head = f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:"
     if failure.kind is None:
-        return f"{head} {failure.reason}."
+        return f"{head} {failure.reason.removesuffix('.')}."
+    near = approached(integrator, at, failure.time)
+    if met := meeting_ahead(problem, near, failure.time):
+        return met
     lines = [f"{head} {failure.reason}."]
     if is_singular(problem, at, left) or (left.singular and not reached):
-        return "\n".join([*lines, _fastest(problem, at), SINGULAR])
+        return "\n".join([*lines, _fastest(problem, near), SINGULAR])
     found = _cause(problem, at, failure.time, begun.time)
     if found:
         # What fails in the equations explains all; that no step was short enough would be a second head.
@@ -66,7 +72,8 @@ def failure_text(problem: Problem, begun: Point, left: Redundancy, trace: Trace,
             [f"{head} {found.removeprefix(same)}"] if found.startswith(same) else [*lines, found[0].upper() + found[1:]]
         )
         return "\n".join(lines)
-    return "\n".join([*lines, *filter(None, [_fastest(problem, at)]), MENDS.get(failure.kind, MENDS[None])])
+    mend = MENDS.get(failure.kind, MENDS[None])
+    return "\n".join([*lines, *filter(None, [_fastest(problem, near)]), mend])
 
 
 def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:

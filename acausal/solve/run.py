@@ -16,8 +16,9 @@ from acausal.result.statistics import Statistics
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import check_start, doubts
+from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
-from acausal.solve.events.course import Chattering, Course
+from acausal.solve.events.course import Course
 from acausal.solve.failed import failure_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
@@ -169,8 +170,7 @@ def _raise(done: _Done, result: Result) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     failure: Any = done.failure
     if isinstance(failure, Failure):
-        integrator = done.integrator
-        text = failure_text(integrator.problem, done.at, done.begun.redundancy, integrator.trace, failure)
+        text = failure_text(done.integrator, done.at, done.begun.redundancy, failure)
         error = SimulationError(text, result)
         error.begun = failure.time > done.at.time
         raise error

@@ -30,6 +30,7 @@ SOLVE = (
     "looks",
     "guesses",
     "causes",
+    "undecided",
     "start",
     "integrate",
     "events",

@@ -18,6 +18,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Refusal
 from acausal.solve.looks import pace
 from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
 
 MEETING = POLICY.meeting
 
@@ -121,6 +122,27 @@ def first_meeting(integrator: Integrator, first: Point) -> Meeting | None:
         search = _Search(aside, columns)
         found += _search(search, rows, steps, f"{origin}: at t = {{:.6g}} s {separation.text}")
     return min(found, key=lambda meeting: meeting.time, default=None)
+
+
+def meeting_ahead(problem: Problem, at: Point, time: float) -> str:
+    """Say which points, seen from a point shortly before a run was given up, meet then; "" if none do.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Near the end of the run.
+    time : float
+        When it was given up, in s.
+    """
+    watch, column = separations(problem.compiled), 0
+    values = problem.each(watch.function, Rows.of(at))[0] if watch.stated else np.empty(0)
+    for separation, origin in watch.stated:
+        rate, effect, *offset = values[column : (column := column + 2 + separation.offset.sx.numel())]
+        if effect and np.linalg.norm(offset) <= MEETING.ahead * -rate * (time - at.time):
+            return f"{origin}: at t = {time:.6g} s {separation.text}."
+    return ""
 
 
 def _search(search: _Search, rows: Rows, steps: int, text: str) -> list[Meeting]:

@@ -40,7 +40,19 @@ def clock_times(compiled: CompiledModel, p: np.ndarray, start: float, stop: floa
                 f"{origin}: the condition changes too often to find every instant; one that changes and changes back "
                 f"within {missed:.3g} s may be missed. Simulate a shorter time, or compare a variable."
             )
+    if found:
+        found.append(_without_value(compiled, p, start, stop))
     return np.unique(np.concatenate([[], *found])).tolist()
+
+
+def _without_value(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> np.ndarray:
+    """Instants from which on conditions have no value, or have one again."""
+
+    def lost(times: np.ndarray) -> np.ndarray:
+        return np.array([np.isnan(compiled.guards.holds_at(p, t, 0.0)[0]).any() for t in times])
+
+    times = np.linspace(start, stop, CLOCK.looks + 1)
+    return _halve(lost, times[:-1], times[1:])
 
 
 def _changes(

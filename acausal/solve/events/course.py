@@ -15,8 +15,10 @@ from acausal.policy import POLICY
 from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.between import work_between
+from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.instant import Cycling, Instants
-from acausal.solve.events.locate import Crossing, Locator, TooCoarse
+from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
+from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
@@ -25,13 +27,9 @@ from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
-from acausal.solve.start.start import places_text
+from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants
-
-
-class Chattering(Exception):
-    """Conditions change again and again at one time; `text` is the message."""
 
 
 class Course:
@@ -78,13 +76,22 @@ class Course:
             if at.time != self.times[0]:
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
+            self._refuse_undecided(at, end)
             at = self._segment(at, end)
         self._at_stop(at, held)
+
+    def _refuse_undecided(self, at: Point, end: float) -> None:
+        """Refuse conditions of time alone that have no value up to the next break."""
+        time = at.time + POLICY.agenda.after * (end - at.time)
+        if open_ := self.agenda.undecided(time):
+            text = undecided(self.integrator.problem, replace(at, time=time), open_)
+            if text:
+                raise Undecided(at.time, text.replace(f"{time:.6g}", f"{at.time:.6g}", 1))
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
         if at.time in self.found and bool((on != held).any()):
-            self.events.append(at.time)
+            self._count(at.time, [self.guards.timed[k] for k in np.flatnonzero(on != held)])
             self.stride.begin()
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
@@ -97,7 +104,7 @@ class Course:
         if acted and plan and plan[0] <= at.time + self.agenda.near:
             self.stride.begin()
             if self.events[-1:] != [at.time]:
-                self.events.append(at.time)
+                self._count(at.time, self.guards.watched)
             self._refuse_chattering(at.time, self.guards.watched)
         return new
 
@@ -116,6 +123,12 @@ class Course:
                 # What acts is kept from becoming true.
                 new = self.instants.settle(replace(at, truth=at.truth | acts), constants=constants, due=acts)[0]
                 self.integrator.trace.put(-1, new)
+
+    def _count(self, time: float, guards: list[int]) -> None:
+        """Note an event at which some conditions change."""
+        self.events.append(time)
+        if len(self.events) == INSTANTS.many:
+            warn_of_many(self.integrator.compiled, time, self.times, guards)
 
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
@@ -148,6 +161,10 @@ class Course:
             if not self.stride.look_closer():
                 self._warn_of_haste(at)
             return at
+        except Undecided as failure:
+            if n := int(np.searchsorted(leg.times, failure.time)):
+                self.integrator.trace.add(leg.part(0, n))
+            raise
         except Failure as failure:
             return self._shorter(at, grid, failure)
         if crossing is None:
@@ -247,7 +264,8 @@ class Course:
         """Let everything happen at an event; record the values after it and what energy was gained since the last row."""
         new, stored, changed = self._settled(at, **causes)
         if changed:
-            self.events.append(at.time)
+            crossed = causes.get("crossed", causes.get("due"))
+            self._count(at.time, self.guards.watched if crossed is None else self.instants.watched[crossed].tolist())
         rows = Rows.of(replace(new, time=label))
         self.integrator.trace.add(Leg(rows, (gained + stored)[None], new.constants, 0))
         return new
@@ -257,7 +275,7 @@ class Course:
         try:
             new, changed = self.instants.settle(at, **causes)
         except Cycling as cycling:
-            raise Chattering(self._text(at.time, cycling.guards, "switch back and forth")) from None
+            raise Chattering(self.integrator.compiled, at.time, cycling.guards, "switch back and forth") from None
         except InitializationError as error:
             why = cause(self.integrator.problem, error.at) if isinstance(error, Lost) else ""
             raise Failure(at.time, f"the equations have no solution after an event: {why or error}") from None
@@ -270,13 +288,5 @@ class Course:
         crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span
         self.recent.append(time)
         if crowded or self.weak >= INSTANTS.most:
-            raise Chattering(self._text(time, guards, f"changed {INSTANTS.most} times with hardly any motion between"))
-
-    def _text(self, time: float, guards: list[int], what: str) -> str:
-        return (
-            f"at t = {time:.6g} s events repeat without end; these conditions {what}:\n"
-            f"{places_text(self.integrator.compiled, guards)}\n"
-            "A body whose bounces die out, or a force that changes sign with the speed, causes this. Let a discrete "
-            "variable hold it at rest (see rotational.Friction), add compliance (a spring and a damper), or use a law "
-            "without a jump (smooth=True)."
-        )
+            what = f"changed {INSTANTS.most} times with hardly any motion between"
+            raise Chattering(self.integrator.compiled, time, guards, what)

@@ -15,6 +15,7 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import pace
 from acausal.solve.points import Point, Rows
+from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
@@ -45,6 +46,13 @@ class Crossing:
 
 class TooCoarse(Exception):
     """Between the times of a leg a condition may change and change back in many places."""
+
+
+class Undecided(Failure):
+    """A condition has no value any more."""
+
+    def __init__(self, time: float, text: str) -> None:
+        super().__init__(time, text.removeprefix(f"at t = {time:.6g} s "))
 
 
 class Locator:
@@ -84,6 +92,14 @@ class Locator:
             If the motion cannot be followed up to the change.
         """
         samples = self._samples(replace(at, constants=leg.constants), leg.since(at))
+        known, text = self._known(samples)
+        if not text:
+            return self._change(at, samples, depth, content)
+        found = self._change(at, samples[:known], depth, content) if known > 1 else None
+        return found or self._to_undecided(at, samples, known, text)
+
+    def _change(self, at: Point, samples: list[Sample], depth: int, content: bool) -> Crossing | None:
+        """The first change along samples whose conditions have values."""
         sides = Sides(
             np.array([r.time for r in samples]),
             np.array([r.value for r in samples]),
@@ -121,6 +137,38 @@ class Locator:
         if end == len(out):
             return None
         return self._narrow(at, samples[end], samples[end + 1], LOCATE.level * width, peak[end])
+
+    def _known(self, samples: list[Sample]) -> tuple[int, str]:
+        """How many samples have conditions with values, and what to say of the next; "" if what has none does not matter."""
+        lost = np.isnan([r.value for r in samples])
+        rows = np.flatnonzero(lost.any(axis=1))
+        for k in rows[[0, -1]] if rows.size else ():
+            if text := undecided(self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()):
+                return int(rows[0] if k == rows[0] else k), text
+        return len(samples), ""
+
+    def _to_undecided(self, at: Point, samples: list[Sample], known: int, text: str) -> Crossing:
+        """A change just before a condition has no value any more.
+
+        Raises
+        ------
+        Undecided
+            If there is none.
+        """
+        a, b = samples[max(known - 1, 0)], samples[known]
+        slack = LOCATE.level * self.instants.width(at)
+        while b.time - a.time > self.shortest:
+            middle = self._between(at, a, b, (a.time + b.time) / 2)
+            if isinstance(middle, Refusal):
+                raise Failure.of(middle)
+            without = self._known([middle])[1]
+            if without:
+                b, text = middle, without
+            elif np.any(middle.value < np.minimum(a.value, 0.0) - np.where(a.value > 0, 0.0, slack)):
+                return self._narrow(at, a, middle, slack, a.value)
+            else:
+                a = middle
+        raise Undecided(b.time, text)
 
     def sample(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""

@@ -9,8 +9,11 @@ from acausal.compiler.call import Call
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
+from acausal.solve.causes import without_value
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.points import Rows
+
+MEND = "Say what holds there: piecewise((value, condition), ..., otherwise)."
 
 
 class Evaluator:
@@ -51,6 +54,12 @@ class Evaluator:
             raise
         p = np.tile(self.solver.problem.p, n)
         return call(rows.x.ravel(), rows.z.ravel(), p, rows.times, rows.constants.ravel())[0].reshape(n, -1).copy()
+
+    def why(self, row: int) -> str:
+        """Say which equations have no value at one of the times, "" if all have one."""
+        problem = self.solver.problem
+        at = problem.point(self.rows, row)
+        return without_value(problem, at, mend=MEND).removeprefix(f"at t = {at.time:.6g} s ")
 
     def _solve(self, wanted: set[int]) -> None:
         """Solve for some algebraic unknowns, and all that they need."""

@@ -50,6 +50,7 @@ class Kind(Enum):
     """Why an integrator gave up."""
 
     STEPS = "it took more steps than are allowed between two outputs"
+    STALLED = "the steps became ever shorter, until time no longer went on"
     CORRECTOR = "the equations could not be solved, however short the step"
     ERROR_TEST = "no step was short enough for the tolerance"
     ROUNDING = "the tolerance is smaller than rounding errors"
@@ -147,7 +148,7 @@ class Rescues:
 
     def wears(self, refusal: Refusal) -> bool:
         """Whether another choice of states may help."""
-        return self.loops and refusal.kind is not Kind.STEPS
+        return self.loops and refusal.kind not in (Kind.STEPS, Kind.STALLED)
 
     def after(self, method: str) -> str:
         """Return the next method; the last one stays."""
@@ -171,11 +172,13 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
         What may be changed.
     """
     if way.careful:
-        looser = (min(factor * rescues.tolerance, max(RESCUE.loosest, rescues.tolerance)) for factor in RESCUE.looser)
+        most = max(RESCUE.loosest, rescues.tolerance)
+        looser = (min(float(f"{factor * rescues.tolerance:.6g}"), most) for factor in RESCUE.looser)
         return tuple(
             replace(way, method=method, tolerance=tolerance, max_steps=RESCUE.patient)
             for tolerance in dict.fromkeys(looser)
             for method in reversed(rescues.methods)
+            if (method, tolerance) != (way.method, way.tolerance)
         )
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way

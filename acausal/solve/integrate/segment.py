@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Refusal, Way, accepted, next_ways
+from acausal.solve.integrate.ladder import Kind, Refusal, Way, accepted, next_ways
 from acausal.solve.integrate.order_trial import settle
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
@@ -37,12 +37,12 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
     for first in range(0, n, size):
         part = times[first : first + size + 1]
         way = replace(integrator.way, careful=True, max_steps=RESCUE.hopeless // (len(part) - 1))
-        found = integrator.attempt(at, part, way)
+        found = _patiently(integrator, at, part, way)
         if isinstance(found, Leg):
             integrator.trace.add(found)
             at = found.end(at)
         else:
-            at = _creep(integrator, at, part, n)
+            at = _creep(integrator, at, part, n, found)
         integrator.report(part[-1])
     return at
 
@@ -59,16 +59,31 @@ def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | Refus
         integrator.way = following[0]
 
 
-def _creep(integrator: Integrator, at: Point, times: np.ndarray, outputs: int) -> Point:
-    """Go from output to output, until the failure if there is one; return the last point."""
+def _patiently(integrator: Integrator, at: Point, times: np.ndarray, way: Way) -> Leg | Refusal:
+    """Integrate with as many steps as a way allows, unless twice as many came no further: where steps tend to 0."""
+    reached = None
+    for most in (RESCUE.patient, 2 * RESCUE.patient, way.max_steps):
+        found = integrator.attempt(at, times, replace(way, max_steps=min(most, way.max_steps)))
+        if isinstance(found, Leg) or found.kind is not Kind.STEPS or most >= way.max_steps:
+            break
+        if reached is not None and found.time - reached <= RESCUE.stalled * (times[-1] - times[0]):
+            return replace(found, kind=Kind.STALLED)
+        reached = found.time
+    return found
+
+
+def _creep(integrator: Integrator, at: Point, times: np.ndarray, outputs: int, refusal: Refusal) -> Point:
+    """Go from output to output, until the failure if there is one, after a refused call; return the last point."""
     for k in range(len(times) - 1):
-        found = accepted(passage(integrator, at, times[k : k + 2], outputs))
+        found = accepted(passage(integrator, at, times[k : k + 2], outputs, refusal if len(times) == 2 else None))
         integrator.trace.add(found)
         at = found.end(at)
     return at
 
 
-def passage(integrator: Integrator, at: Point, times: np.ndarray, outputs: int) -> Leg | Refusal:
+def passage(
+    integrator: Integrator, at: Point, times: np.ndarray, outputs: int, refusal: Refusal | None = None
+) -> Leg | Refusal:
     """Integrate one interval where a call over many failed, by every means.
 
     That is new choices of states on the way, the other method, and a larger tolerance.
@@ -83,11 +98,13 @@ def passage(integrator: Integrator, at: Point, times: np.ndarray, outputs: int) 
         Its ends in s.
     outputs : int
         Number of outputs that share the steps.
+    refusal : Refusal, optional
+        That of a careful call over the same interval, which need not be repeated.
     """
     # Loops that get stuck beside a singular position do so for ever.
     most = RESCUE.long if integrator.loops else RESCUE.hopeless // min(outputs, RESCUE.hopeless // RESCUE.long)
     way = replace(integrator.way, careful=True, max_steps=most)
-    found = _stride(integrator, at, times, way, RESCUE.halvings)
+    found = _stride(integrator, at, times, way, RESCUE.halvings, refusal)
     if isinstance(found, Leg):
         return found
     for loose in next_ways(way, found, integrator.settings.rescues(times, integrator.loops)):
@@ -98,9 +115,11 @@ def passage(integrator: Integrator, at: Point, times: np.ndarray, outputs: int) 
     return found
 
 
-def _stride(integrator: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int) -> Leg | Refusal:
+def _stride(
+    integrator: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int, refusal: Refusal | None = None
+) -> Leg | Refusal:
     """Go to the next output, with new choices of states on the way where one does not last."""
-    found = integrator.attempt(at, times, way)
+    found = refusal or _patiently(integrator, at, times, way)
     if isinstance(found, Leg) or not halvings or not integrator.settings.rescues(times, integrator.loops).wears(found):
         return found
     middle = (times[0] + times[1]) / 2
@@ -109,3 +128,15 @@ def _stride(integrator: Integrator, at: Point, times: np.ndarray, way: Way, halv
         return first
     last = _stride(integrator, first.end(at), np.array([middle, times[1]]), way, halvings - 1)
     return last if isinstance(last, Refusal) else replace(last, energy=last.energy + first.energy[-1])
+
+
+def approached(run: Integrator, at: Point, time: float) -> Point:
+    """Return the point nearest to a time at which a run was given up, as far as it can be reached from its last row."""
+    times = at.time + (time - at.time) * (1 - RESCUE.nearer ** -np.arange(RESCUE.approaches))
+    if not np.all(np.diff(times) > 0):
+        return at
+    aside = run.aside()
+    way = replace(aside.way, method=run.settings.methods[0], careful=True, max_steps=RESCUE.patient)
+    found = aside.attempt(at, times, way, works=False, keep=True)
+    rows = found.reached if isinstance(found, Refusal) else found
+    return rows.end(at) if rows else at

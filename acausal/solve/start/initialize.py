@@ -19,6 +19,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.complete import closed_guess, ranked
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
+from acausal.solve.start.opponents import opponents
 from acausal.solve.start.redundancy import Redundancy
 from acausal.solve.start.steady import Equilibrium
 from acausal.solve.start.words import contradiction_text, missing_text
@@ -257,5 +258,6 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
         value = local.value[problem.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:
-            raise InitializationError(contradiction_text(problem.compiled, value, wrong))
+            others = opponents(problem, system, at, wrong)
+            raise InitializationError(contradiction_text(problem.compiled, value, wrong, others))
     return at

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.whole import EQUATION, EVENT, START
+from acausal.compiler.whole import EQUATION, START
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
@@ -18,6 +18,7 @@ from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
+from acausal.solve.undecided import undecided
 
 STAGES = (EQUATION, START)
 NOT_FINITE = "the equations have no value at the start; check the start values."
@@ -88,8 +89,8 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     if not guards.watched:
         return np.zeros(0, dtype=bool)
     value = problem.watched(Rows.of(at))[0][0]
-    if np.any(np.isnan(value)):
-        raise InitializationError(without_value(problem, at, kinds=(EVENT,)) or NOT_FINITE)
+    if text := undecided(problem, at, np.array(guards.watched)[np.isnan(value)].tolist()):
+        raise InitializationError(text)
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])

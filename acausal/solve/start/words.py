@@ -13,6 +13,8 @@ from acausal.flatten.tree import walk
 from acausal.language.component import Component, Connector
 from acausal.language.fields import InitialValue
 
+MOST = 10  # conditions that are named
+
 
 def missing_text(compiled: CompiledModel, free: list[int]) -> str:
     """List the undetermined states, and what would fix each."""
@@ -21,7 +23,7 @@ def missing_text(compiled: CompiledModel, free: list[int]) -> str:
         f"{len(free)} start value{'s are' if len(free) > 1 else ' is'} missing (the model itself is complete). "
         "Fix for instance:",
     ]
-    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled, name) for name in names))[:10]]
+    lines += [f"  {line}" for line in list(dict.fromkeys(_line(compiled, name) for name in names))[:MOST]]
     lines.append('or start from the guesses: simulate(..., initial="guesses"), on the command line --initial guesses.')
     return "\n".join(lines)
 
@@ -86,14 +88,18 @@ def _member(owner: Component, text: str) -> Any:
     return value[int(index.removesuffix("]"))] if index else value
 
 
-def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[int]) -> str:
-    """List the conditions that contradict the rest."""
-    flat, nz = compiled.reduced.flat, compiled.nz
-    lines = ["the initial conditions contradict the equations of the model or each other:"]
-    for k in wrong[:10]:
-        condition = flat.equations.initial[k - nz]
+def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[int], others: list[int]) -> str:
+    """List the conditions that contradict others, and these; the equations of the model if there are none."""
+    conditions, nz = compiled.reduced.flat.equations.initial, compiled.nz
+    lines = [f"the initial conditions contradict {'each other' if others else 'the equations of the model'}:"]
+    for k in wrong[:MOST]:
+        condition = conditions[k - nz]
         lines.append(f"  {condition.text}: off by {value[k]:.4g} ({condition.origin})")
-    lines.append("Remove one of them, or make it a guess: guess(...) instead of fixed(...).")
+    if others:
+        lines.append("if these hold:")
+        lines += [f"  {c.text} ({c.origin})" for c in (conditions[k - nz] for k in others[:MOST])]
+    which = "one of them" if others or len(wrong) > 1 else "it"
+    lines.append(f"Remove {which}, or make a guess of it: guess(...) instead of fixed(...), no fixed=True.")
     return "\n".join(lines)
 
 

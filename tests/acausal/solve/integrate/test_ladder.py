@@ -53,7 +53,7 @@ def test_any_number_of_methods_follow_each_other():
         taken.append(way.method)
     assert taken == ["b", "c"]
     found = next_ways(replace(way, careful=True), Refusal(Kind.OTHER, 0.5), three)
-    assert [way.method for way in found] == ["c", "b", "a"] * 3
+    assert [way.method for way in found] == ["b", "a", "c", "b", "a"]
 
 
 @pytest.mark.parametrize("kind", list(Kind))
@@ -65,9 +65,10 @@ def test_quick_ways_come_to_an_end(kind):
 
 
 def test_careful_ways_take_the_other_method_and_then_longer_steps():
-    found = next_ways(replace(QUICK, careful=True), Refusal(Kind.ERROR_TEST, 0.5), replace(AUTO, tolerance=1e-10))
-    assert [way.method for way in found] == ["rosenbrock", "idas"] * 3
-    assert [way.tolerance for way in found] == pytest.approx([1e-10, 1e-10, 1e-8, 1e-8, 1e-6, 1e-6])
+    way = replace(QUICK, careful=True, tolerance=1e-10)
+    found = next_ways(way, Refusal(Kind.ERROR_TEST, 0.5), replace(AUTO, tolerance=1e-10))
+    assert [way.method for way in found] == ["rosenbrock", *["rosenbrock", "idas"] * 2]
+    assert [way.tolerance for way in found] == pytest.approx([1e-10, 1e-8, 1e-8, 1e-6, 1e-6])
     assert all(way.careful for way in found)
 
 
@@ -75,9 +76,8 @@ def test_careful_ways_take_the_other_method_and_then_longer_steps():
 def test_no_tolerance_becomes_smaller_or_looser_than_1e_4(tolerance):
     rescues = replace(AUTO, methods=("idas",), tolerance=tolerance)
     found = next_ways(replace(QUICK, careful=True, tolerance=tolerance), Refusal(Kind.OTHER, 0.5), rescues)
-    assert [way.tolerance for way in found] == sorted({way.tolerance for way in found})
-    assert found[0].tolerance == tolerance
-    assert found[-1].tolerance <= max(tolerance, 1e-4)
+    assert [way.tolerance for way in found] == sorted({way.tolerance for way in found} - {tolerance})
+    assert all(tolerance < way.tolerance <= 1e-4 for way in found)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,46 @@
+"""Conditions that have no value, such as sqrt(x) > 1 where x is negative, so that nothing tells what holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from acausal.compiler.whole import EVENT, whole
+from acausal.solve.causes import without_value
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+
+MEND = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
+NO_VALUE = "at t = {:.6g} s a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
+
+
+def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
+    """Say which of some conditions without a value matter at a point, "" if none does.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Where.
+    guards : iterable of int
+        Conditions that have no value there.
+    """
+    if not any(_matters(problem, at, k) for k in guards):
+        return ""
+    return without_value(problem, at, kinds=(EVENT,), mend=MEND) or NO_VALUE.format(at.time)
+
+
+def _matters(problem: Problem, at: Point, guard: int) -> bool:
+    """Whether an equation says something else where a condition holds; what acts at an instant always matters."""
+    compiled = problem.compiled
+    if guard >= compiled.guards.n_switches:
+        return True
+    own = whole(compiled)
+    unknowns = own.unknowns(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)[0].copy()
+    found = []
+    for holds in (False, True):
+        constants = at.constants.switched([guard], [holds]).vector
+        found.append(own.values(unknowns, problem.p, at.time, constants, 0.0)[0].copy())
+    return not np.array_equal(*found, equal_nan=True)
