@@ -27,6 +27,7 @@ from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
+from acausal.solve.start.start import places_text
 from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants
