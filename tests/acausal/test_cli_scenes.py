@@ -22,7 +22,10 @@ def test_list_has_a_line_for_each_scene():
     assert all(named.values())
 
 
-@pytest.mark.parametrize("scene", CONTRACT)
+LONG = ("slider-crank", "squeezer", "bricard", "four-bar-spatial", "car-axis")
+
+
+@pytest.mark.parametrize("scene", [pytest.param(s, marks=pytest.mark.slow if s in LONG else ()) for s in CONTRACT])
 def test_columns_and_rows(scene, tmp_path):
     path = tmp_path / "a.csv"
     short = ("--stop-time", 0.02) if scene in ("pendulum", "free-vibration") else ()

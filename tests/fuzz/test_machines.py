@@ -17,25 +17,25 @@ def _elsewhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@effort(12)
+@effort(8)
 @given(machines())
 def test_machine_gives_a_right_result(source):
     assert outcome(source) == "right", source
 
 
-@effort(30)
+@effort(15)
 @given(damaged())
 def test_damaged_machine_says_where(source):
     outcome(source)
 
 
-@effort(30)
+@effort(15)
 @given(constructed())
 def test_component_of_any_values_says_what_is_wrong(source):
     outcome(source)
 
 
-@effort(30)
+@effort(15)
 @given(options())
 def test_simulation_with_any_options_says_what_is_wrong(source):
     outcome(source)

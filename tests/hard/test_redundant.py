@@ -48,6 +48,7 @@ class Parallel(FourBar):
         yield chain(self.b1, self.up, self.j2_b, self.b2_b, self.j4_b, self.down.frame_b)
 
 
+@pytest.mark.slow
 def test_two_identical_loops_in_parallel():
     result = ac.simulate(Parallel(), stop_time=2.0, tolerance=1e-8, intervals=40)
     expected = TwoCouplers().simulate(result.time)

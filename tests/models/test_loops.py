@@ -104,7 +104,8 @@ for N in (1, 2, 5, 10):
         parallel_gap,
         1e-3,
     )
-NAMES = {name: pytest.param(name, marks=pytest.mark.slow if name == "n-four-bar, N=10" else ()) for name in CASES}
+LONG = ("n-four-bar, N=5", "n-four-bar, N=10", "slider-crank, loaded")
+NAMES = {name: pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in CASES}
 every = pytest.mark.parametrize("name", list(NAMES.values()))
 
 

@@ -23,7 +23,7 @@ def matrix(values: np.ndarray, row: np.ndarray, start: np.ndarray) -> scipy.spar
     return scipy.sparse.csc_matrix((values, row, start), shape=(len(start) - 1,) * 2)
 
 
-@pytest.mark.parametrize("n", [1, 2, 5, 30, 200])
+@pytest.mark.parametrize("n", [1, 2, 5, 30, pytest.param(200, marks=pytest.mark.slow)])
 def test_random_matrices_are_solved_or_refused_as_singular(n):
     random = np.random.default_rng(n)
     regular = 0

@@ -100,7 +100,7 @@ def test_a_turned_flat_four_bar_that_takes_its_guesses_is_refused(method: str) -
 
 
 @pytest.mark.parametrize("method", ["auto", "rosenbrock"])
-@pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
+@pytest.mark.parametrize("angle", [0.3, *(pytest.param(angle, marks=pytest.mark.slow) for angle in (0.0, 2.0))])
 def test_a_speed_leads_on_from_a_turned_flat_position(method: str, angle: float) -> None:
     model = Turned(angle=angle, speed=(1.0, 1.0), gravity=0.0)
     result = ac.simulate(model, stop_time=0.5, method=method, tolerance=1e-8)
