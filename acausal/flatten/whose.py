@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Iterable
+from types import FunctionType
 
 from acausal.errors import PACKAGE
 from acausal.flatten.origin import Origin
@@ -22,8 +22,9 @@ def is_users(tree: Component, origin: Origin) -> bool:
     origin : Origin
         Of the equation.
     """
-    files = {inspect.getsourcefile(c) for c in type(tree).__mro__ if c is not object}
-    return origin.where.rpartition(":")[0] in {f for f in files if f and not f.startswith(PACKAGE)}
+    methods = [value for c in type(tree).__mro__ for value in vars(c).values() if isinstance(value, FunctionType)]
+    files = {method.__code__.co_filename for method in methods}
+    return origin.where.rpartition(":")[0] in {f for f in files if not f.startswith(PACKAGE)}
 
 
 def contradiction_text(tree: Component, wrong: list[tuple[Origin, float]], others: Iterable[Origin]) -> str:
