@@ -11,7 +11,8 @@ from components.rotational.compliant import Compliant
 class Slipping(Compliant):
     """Base of dry friction: sticks up to one torque, slides against another.
 
-    While it sticks, tau is what keeps w_rel constant; it breaks away where that exceeds `holding()`.
+    While it sticks, tau is what keeps w_rel constant; it breaks away where that exceeds `holding()`. So nothing determines
+    tau where both ends have a given motion that comes to rest, as between a `Speed` and a wall.
     """
 
     mode: Scalar = discrete("1 slides forward, 0 sticks, -1 slides backward", unit="1", start=sign(Compliant.w_rel))

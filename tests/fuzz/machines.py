@@ -75,10 +75,11 @@ def _law(s: Source, size: float) -> str:
     return s.pick(f"{s.number(-size, size)}", f"{s.number(-size, size)} * sin({s.number(0.5, 9)} * time)")
 
 
-def _shaft(s: Source, flange: str, depth: int = 0) -> None:
-    """Something on a shaft."""
+def _shaft(s: Source, flange: str, depth: int = 0, moved: bool = False) -> None:
+    """Something on a shaft; friction has no torque of sticking where the motion of the shaft is given."""
     inertia = f"rotational.Inertia(J={s.number(0.01, 2)}"
-    match s.pick("torque", "spring", "damper", "inertia", "friction", "clutch", "train" if depth < 2 else "torque"):
+    dry, last = "spring" if moved else "friction", "train" if depth < 2 else "torque"
+    match s.pick("torque", "spring", "damper", "inertia", dry, "clutch", last):
         case "torque":
             s.connections.append(
                 f"connect(self.{s.part('torque', f'rotational.Torque(tau={_law(s, 5)})')}.flange, {flange})"
@@ -125,7 +126,7 @@ def _train(s: Source) -> None:
         rotor = s.part("rotor", f"{inertia})")
         s.connections.append(f"chain(self.{drive}, self.{rotor})")
     s.outputs[f"angle_{rotor}"] = f"self.{rotor}.phi"
-    _shaft(s, f"self.{rotor}.flange_b")
+    _shaft(s, f"self.{rotor}.flange_b", moved=kind != "free")
 
 
 def _joint(s: Source) -> str | None:
