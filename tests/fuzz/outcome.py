@@ -15,6 +15,7 @@ from itertools import count
 import numpy as np
 
 import acausal as ac
+from acausal.errors import PACKAGE
 from tests.shared import worst_equation
 
 NAMES = count()
@@ -72,8 +73,11 @@ def outcome(source: str, stop_time: float = 0.3) -> str:
     except Wrong as wrong:
         raise Wrong(f"{wrong}\n{source}") from wrong
     except Exception as error:
-        # What Python itself refuses, a name that does not exist in the user's line or an argument, needs no words of ours.
-        if traceback.extract_tb(error.__traceback__)[-1].filename == name or SIGNATURE.search(str(error)):
+        # What Python or another package refuses in the user's line, a name that does not exist or an argument, needs no words
+        # of ours.
+        frames = [frame.filename for frame in traceback.extract_tb(error.__traceback__)]
+        after = frames[len(frames) - frames[::-1].index(name) :] if name in frames else frames
+        if not any(PACKAGE in file for file in after) or SIGNATURE.search(str(error)):
             return f"Python: {error}"
         raise Wrong(f"{type(error).__name__}: {error}\n{source}") from error
     finally:

@@ -25,5 +25,7 @@ class M(ac.Model):
 def test_the_users_equation_is_named_first_in_a_session():
     space = {"__name__": "a session"}
     exec(compile(SESSION, "<stdin>", "exec"), space)
-    with pytest.raises(ac.UnbalancedModelError, match=r"(?s)contradicts others.*\n  M, <stdin>:13\nThe others:\n  held"):
+    with pytest.raises(
+        ac.UnbalancedModelError, match=r"(?s)contradicts others.*\n  M, <stdin>:13\nThe others:\n  held"
+    ):
         ac.compile(space["M"]())
