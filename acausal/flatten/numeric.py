@@ -19,6 +19,8 @@ from acausal.language.values import shown
 from acausal.language.written import short
 from acausal.units import in_si
 
+LARGEST = float(np.sqrt(np.finfo(float).max))
+
 
 def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray:
     """Return a value as an array of finite numbers.
@@ -55,6 +57,10 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
         raise DeclarationError(misshapen(where, value, array.shape, shape))
     if not all(math.isfinite(x) for x in array.flat):
         raise DeclarationError(f"{where} is {value!r}; it must be finite.")
+    if np.any(np.abs(array) > LARGEST):
+        raise DeclarationError(
+            f"{where} is {short(value)}; its square is infinite: give it a size that parts can have."
+        )
     return array
 
 

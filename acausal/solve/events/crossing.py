@@ -68,6 +68,10 @@ def root(times: tuple[float, float], value: tuple[float, float], rate: tuple[flo
     h = times[1] - times[0]
     (a, b), (da, db) = value, (rate[0] * h, rate[1] * h)
     c3, c2 = coefficients(a, b, da, db)
-    if b >= 0:
+
+    def value_at(s: float) -> float:
+        return ((c3 * s + c2) * s + da) * s + a
+
+    if b >= 0 or not value_at(1.0) < 0:  # where rates are so large that they hide b
         return times[1]
-    return times[0] + h * float(scipy.optimize.brentq(lambda s: ((c3 * s + c2) * s + da) * s + a, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]
+    return times[0] + h * float(scipy.optimize.brentq(value_at, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]

@@ -5,6 +5,7 @@ from acausal import (
     Model,
     Scalar,
     acos,
+    chain,
     cos,
     der,
     fixed,
@@ -344,3 +345,15 @@ def nothing_studied(repaired):
 def effects_of_a_class(repaired):
     if not repaired:
         ac.effects(Pendulum, stop_time=0.1)
+
+
+def friction_without_limit(repaired):
+    class Brake(Model):
+        rotor = rotational.Inertia(J=1, phi=fixed(0), w=fixed(1))
+        brake = rotational.Friction(tau_sliding=1e3 if repaired else 1e300)
+        wall = rotational.Fixed()
+
+        def connections(self):
+            yield chain(self.rotor.flange_b, self.brake, self.wall.flange)
+
+    run(Brake())
