@@ -78,7 +78,7 @@ def _loaded() -> ctypes.CDLL | str:
     platform = own_platform()
     path = file_of(platform)
     if not path.exists():
-        return f"it was not built for {platform}; install a C compiler, or `pip install ziglang`, and install acausal again"
+        return f"it was not built for {platform}; install a C compiler, and acausal again"
     try:
         found = ctypes.CDLL(str(path))
         for name, (result, arguments) in _FUNCTIONS.items():

@@ -1,6 +1,7 @@
 """Build backend: setuptools, and the library compiled first.
 
-Without a compiler it asks for `ziglang`, a package that holds one. With ACAUSAL_WITHOUT_CORE set it does neither.
+It takes the machine's C compiler, or the one of the package `ziglang` where that is installed. Without either, and with
+ACAUSAL_WITHOUT_CORE set, acausal is installed without its core.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ from compiling import compile_core, own_compiler, own_platform, ziglang
 from setuptools import build_meta
 from setuptools.build_meta import (
     build_sdist,
+    get_requires_for_build_editable,
     get_requires_for_build_sdist,
+    get_requires_for_build_wheel,
     prepare_metadata_for_build_editable,
     prepare_metadata_for_build_wheel,
 )
@@ -31,32 +34,14 @@ __all__ = [
 ]
 
 
-def _wanted() -> bool:
-    return not os.environ.get("ACAUSAL_WITHOUT_CORE")
-
-
 def _compile() -> None:
     """Compile the library of this platform; everything works without it, slower."""
     compiler = own_compiler() or ziglang()
     try:
-        if _wanted() and compiler:
+        if compiler and not os.environ.get("ACAUSAL_WITHOUT_CORE"):
             compile_core(own_platform(), compiler)
     except (subprocess.CalledProcessError, OSError) as error:
         print(f"acausal is installed without its core: {error}\n{getattr(error, 'stderr', '')}", file=sys.stderr)
-
-
-def _requires(own: list[str]) -> list[str]:
-    return own if own_compiler() or not _wanted() else [*own, "ziglang"]
-
-
-def get_requires_for_build_wheel(config_settings: Any = None) -> list[str]:
-    """Return what setuptools requires, and a compiler."""
-    return _requires(build_meta.get_requires_for_build_wheel(config_settings))
-
-
-def get_requires_for_build_editable(config_settings: Any = None) -> list[str]:
-    """Return what setuptools requires, and a compiler."""
-    return _requires(build_meta.get_requires_for_build_editable(config_settings))
 
 
 def build_wheel(wheel_directory: str, config_settings: Any = None, metadata_directory: str | None = None) -> str:
