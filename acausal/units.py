@@ -149,7 +149,7 @@ def parse(text: str) -> Dimension:
         If the unit is unknown, not of scale 1, or ambiguous.
     """
     if text and text.isspace():
-        raise DeclarationError('the unit is blank: write "1" for a pure number, or leave the unit out.')
+        raise DeclarationError('the unit is blank: write "1" for a pure number.')
     above, *below = _SLASH.split(text.replace("**", "^").strip())
     dimension = _parse_product(above, text) if above else DIMENSIONLESS
     for divisor in map(str.strip, below):

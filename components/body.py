@@ -113,8 +113,8 @@ class Body(Component):
                 centre,
                 dot(centre, velocity) / distance,
                 self.m * self.world.mu / dot(centre, centre),
-                "it reaches the origin of the world, where gravity of a point is infinite. Let the run end before, "
-                "stop_time=..., or let the body pass beside it: v_0=fixed(...) across the line to the origin",
+                "it reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
+                "or let the body pass beside it: v_0=fixed(...) at right angles to the line to the origin",
             )
 
     def initial_equations(self):

@@ -82,11 +82,11 @@ def _told(mends: list[str], alone: bool, gained: list[dict[str, str]]) -> str:
     common = [words for name, words in gained[0].items() if all(name in other for other in gained)]
     what = ", ".join(list(dict.fromkeys(common or gained[0].values()))[:SHORT])
     head = f"Nothing determines {what}: a" if what else "A"
-    which = " one of" if alone and len(mends) > 1 else ""
+    which = "this" if len(mends) == 1 else "one of these" if alone else "these"
     lines = "\n".join(f"  {mend}" for mend in mends)
     return (
-        f"{head} parameter is 0, so the terms that it multiplies were removed. The model is complete with{which}:\n{lines}\n"
-        "or where a connection or an equation determines it."
+        f"{head} parameter is 0, so the terms that it multiplies were removed. Give {which}:\n{lines}\n"
+        "or a connection or an equation that determines it."
     )
 
 

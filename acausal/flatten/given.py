@@ -125,8 +125,8 @@ class Given:
         value = self._given(bound, name, declared)
         if is_symbolic(value):
             raise DeclarationError(
-                f"{where} is structural: it cannot depend on {value!r}, which may change after compiling. Declare what it "
-                "follows from structural(...) as well."
+                f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
+                "later. Give numbers, or declare the parameter that it follows from by structural(...)."
             )
         if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
             raise DeclarationError(f"{where} is {value!r}; it must be {one_of(declared.choices)}.")
@@ -154,8 +154,8 @@ class Given:
                 raise DeclarationError(misshapen(where, value, given.shape, shape or ()))
             if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
                 raise DeclarationError(
-                    f"{Origin.of(bound)}: `{name}` follows from others, but not to a finite number: one that divides is 0"
-                    f"{_zeros_of(bound)}. Give it another value."
+                    f"{Origin.of(bound)}: `{name}` is not a finite number: it is divided by a parameter that is 0"
+                    f"{_zeros_of(bound)}. Give that another value."
                 )
             if ca.depends_on(given.sx, time.sx):
                 raise DeclarationError(

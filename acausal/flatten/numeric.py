@@ -58,9 +58,7 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
     if not all(math.isfinite(x) for x in array.flat):
         raise DeclarationError(f"{where} is {value!r}; it must be finite.")
     if np.any(np.abs(array) > LARGEST):
-        raise DeclarationError(
-            f"{where} is {short(value)}; its square is infinite: give it a size that parts can have."
-        )
+        raise DeclarationError(f"{where} is {short(value)}; its square is infinite: give a realistic value.")
     return array
 
 

@@ -86,9 +86,7 @@ def _read(
     """Read one attribute of a class body; `old` is the inherited field of this name."""
     where = f"{cls.__name__}.{name}"
     if any(isinstance(getattr(value, inner, None), f.Field) for inner in ("__func__", "fget", "func")):
-        raise DeclarationError(
-            f"{where}: leave out @{type(value).__name__}: the other mark stands alone above the method."
-        )
+        raise DeclarationError(f"{where}: leave out @{type(value).__name__}: its mark stands alone above the method.")
     second = isinstance(value, f.Field) and _is_second_name(cls, value, name, own)
     if second and old is None and name in cls._settings and name not in SETTABLE:
         return  # a setting that follows from a field

@@ -133,7 +133,7 @@ def _wrong_value(field: f.Field) -> str:
     if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
         return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
     if isinstance(field, f.Parameter) and not isinstance(field.positive, bool):
-        return f"positive={shown(field.positive)} must be True or False; the least value is minimum=..."
+        return f"positive={shown(field.positive)} must be True or False; a lower bound is minimum=..."
     if inspect.isfunction(default) and not _takes_self(default):
         return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
     if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
@@ -162,12 +162,10 @@ def _wrong_part(field: f.Part) -> str:
     if inspect.isfunction(make) and not _takes_self(make):
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
     if inspect.isgeneratorfunction(make) and not field.many:
-        what = (
-            "@port marks a method that returns one port"
-            if field.is_port
-            else "@part marks a method that returns one part"
+        mark, several = (
+            ("port", "") if field.is_port else ("part", " Several parts are made by a method marked @parts.")
         )
-        return f"{what}: write `return`, not `yield`. Several parts are made by a method marked @parts."
+        return f"@{mark} marks a method that returns one {mark}: write `return`, not `yield`.{several}"
     return ""
 
 

@@ -43,7 +43,7 @@ def number_of(value: Any) -> float:
 def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     """Return the message for entries of different shapes."""
     seen = " and ".join(dict.fromkeys(map(kind_of, shapes)))
-    return f"the entries of a vector are scalars, and the rows of a matrix have one length; here are {seen}: {short(value)}."
+    return f"the entries of a vector are scalars, and the rows of a matrix are equally long; here are {seen}: {short(value)}."
 
 
 def decimal_point(value: Any) -> str:
@@ -51,7 +51,7 @@ def decimal_point(value: Any) -> str:
     parts = value.split(",") if isinstance(value, str) else value if isinstance(value, tuple) else ()
     texts = [str(part).strip() for part in parts]
     meant = len(texts) == 2 and re.fullmatch(r"[-+]?\d*", texts[0]) and re.match(r"\d+", texts[1])
-    return f"; a decimal point is a dot: {texts[0]}.{texts[1]}" if meant else ""
+    return f"; with a decimal point: {texts[0]}.{texts[1]}" if meant else ""
 
 
 def _without_quotes(text: str) -> str:
@@ -71,7 +71,10 @@ def _described(value: Any) -> tuple[str, str]:
     if kind in WORDS:
         return WORDS[kind]
     if value is None:
-        return "None", "Either a method lacks its `return`, or an optional part does not exist here."
+        return (
+            "None",
+            "Write a number; if you did not write None, a method lacks its `return`, or an optional part does not exist here.",
+        )
     if isinstance(value, str):
         return f"the text {value!r}", _without_quotes(value)
     if hasattr(value, "fields") and hasattr(value, "_ports"):

@@ -64,9 +64,12 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
     """
     annotation = inspect.get_annotations(cls).get(name)
     if isinstance(annotation, _NO_TYPES) or (isinstance(annotation, str) and not _READABLE.match(annotation)):
-        return (
-            f"{annotation!r} is no type: write `{name}: Scalar = {field}(...)`; shape=(3,) and unit=... are arguments."
-        )
+        form = f"{name}: Scalar = {field}(...)"
+        if isinstance(annotation, tuple):
+            form = f"{name} = {field}(..., shape={annotation!r})"
+        elif isinstance(annotation, str):
+            form = f"{name}: Scalar = {field}(...)`, where a unit is `unit=..."
+        return f"{annotation!r} is no type: write `{form}`."
     kind = _type_name(cls, name)
     a = "an" if field in ("input", "output") else "a"
     if kind in _REAL:

@@ -237,7 +237,7 @@ class Result:
         why = getattr(self._evaluate, "why", None) if quantity.declared else None
         mend = (why and why(row)) or f"Check the equation that gives it: {cause}."
         return (
-            f"`{name}` is {what} at t = {self.time[row]:.6g} s for the first time, at {rows.sum()} of {n} times in all. "
+            f"`{name}` is {what} at {rows.sum()} of {n} times, first at t = {self.time[row]:.6g} s. "
             f"{mend[0].upper()}{mend[1:]}"
         )
 

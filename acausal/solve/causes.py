@@ -284,4 +284,7 @@ def _named(operand: Any, value: float) -> str:
     text = str(operand)
     text = text[1:-1] if text.startswith("(") and text.count("(") == 1 else text
     is_short = len(text) <= CAUSES.text and "@" not in text and not operand.is_constant()
-    return f"{text} = {value:.4g}" if is_short else f"{value:.4g}"
+    number = f"{value:.4g}"
+    if abs(float(number)) == 1 != abs(value):  # rounding would take it back into its range
+        number = f"a little {'more' if value > 0 else 'less'} than {number}"
+    return f"{text} = {number}" if is_short else number

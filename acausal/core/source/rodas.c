@@ -185,6 +185,9 @@ static void write(ac_rodas *r, double h, int last) {
     const ac_request *q = &r->request;
     const size_t nx = (size_t)r->of.nx, nz = (size_t)r->of.nz;
     const int32_t n = r->n;
+    int32_t *written = &r->progress.written;
+    const int due = *written < q->outputs && (last || q->time[*written + 1] <= r->t + h);
+    if (!due && !r->of.powers) return;
     for (int32_t j = 0; j < 3; j++) {
         double *d = r->dense + (size_t)j * (size_t)n;
         memset(d, 0, (size_t)n * sizeof *d);
@@ -193,7 +196,6 @@ static void write(ac_rodas *r, double h, int last) {
         }
     }
     double from = 0;
-    int32_t *written = &r->progress.written;
     while (*written < q->outputs && (last || q->time[*written + 1] <= r->t + h)) {
         const double s = fmin((q->time[*written + 1] - r->t) / h, 1);
         if (r->of.powers) gather(r, from, s, h);

@@ -33,5 +33,5 @@ def warn_of_many(compiled: CompiledModel, time: float, times: np.ndarray, guards
             f"{INSTANTS.many} events up to t = {time:.6g} s, {pace} if it goes on like that, and the integration begins anew "
             f"after each: it will take long. What changes so often:\n{places_text(compiled, guards)}\n"
             "If only the mean effect matters, use that instead of the switching; else simulate a shorter time, stop_time=.... "
-            "Interrupting the run (Ctrl-C) keeps what was computed."
+            "Ctrl-C keeps what was computed, in the `result` of the KeyboardInterrupt."
         )

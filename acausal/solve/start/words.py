@@ -99,7 +99,9 @@ def contradiction_text(compiled: CompiledModel, value: np.ndarray, wrong: list[i
         lines.append("if these hold:")
         lines += [f"  {c.text} ({c.origin})" for c in (conditions[k - nz] for k in others[:MOST])]
     which = "one of them" if others or len(wrong) > 1 else "it"
-    lines.append(f"Remove {which}, or make a guess of it: guess(...) instead of fixed(...), no fixed=True.")
+    lines.append(
+        f"Remove {which}, or turn a fixed value into a guess: guess(...) in place of fixed(...), or without fixed=True."
+    )
     return "\n".join(lines)
 
 

@@ -49,11 +49,11 @@ class Shaft(Model):
 @pytest.mark.parametrize(
     ("cls", "given", "mend"),
     [
-        (Held, {}, r"complete with:\n  tip .*: Body\(I=\.\.\.\), inertia tensor about the centre of mass\n"),
-        (Hung, {}, r"complete with one of:\n.*  tip .*: Body\(r_CM=.*\n  tip .*: Body\(I="),
-        (Two, {}, r"complete with:\n.*  end .*: Body\(m=.*\n  end .*: Body\(I="),
-        (Shaft, {}, r"complete with:\n  Shaft\(size=\.\.\.\), inertia of the wheel"),
-        (Held, {"tip.m": 2.0}, r"complete with:\n  tip .*: Body\(I="),
+        (Held, {}, r"Give this:\n  tip .*: Body\(I=\.\.\.\), inertia tensor about the centre of mass\n"),
+        (Hung, {}, r"Give one of these:\n.*  tip .*: Body\(r_CM=.*\n  tip .*: Body\(I="),
+        (Two, {}, r"Give these:\n.*  end .*: Body\(m=.*\n  end .*: Body\(I="),
+        (Shaft, {}, r"Give this:\n  Shaft\(size=\.\.\.\), inertia of the wheel"),
+        (Held, {"tip.m": 2.0}, r"Give this:\n  tip .*: Body\(I="),
     ],
 )
 def test_the_parameter_that_is_missing_is_named(cls, given, mend):
