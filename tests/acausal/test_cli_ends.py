@@ -242,9 +242,7 @@ def test_values_that_are_no_numbers(run):
     warnings = [line for line in done.stderr.splitlines() if line.startswith("Warning")]
     assert len(warnings) == 2
     assert "`z` is not a number (NaN) at 123 of 401 times, first at t = 0.695 s" in warnings[0]
-    assert "123 of 401" in warnings[0]
-    assert "`pair[1]` is infinite at t = 0 s" in warnings[1]
-    assert "1 of 401" in warnings[1]
+    assert "`pair[1]` is infinite at 1 of 401 times, first at t = 0 s" in warnings[1]
 
 
 def test_values_that_are_numbers(run):
