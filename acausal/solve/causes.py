@@ -78,7 +78,12 @@ def cause(
 
 
 def without_value(
-    problem: Problem, at: Point, flag: float = 0.0, kinds: Iterable[str] = (EQUATION,), mend: str = ELSEWHERE
+    problem: Problem,
+    at: Point,
+    flag: float = 0.0,
+    kinds: Iterable[str] = (EQUATION,),
+    mend: str = ELSEWHERE,
+    timed: bool = True,
 ) -> str:
     """Say which equations have no value at a point, "" if all have one.
 
@@ -94,6 +99,8 @@ def without_value(
         Rows that count, see `Row`.
     mend : str
         What to do where no parameter is the cause; "" for what suits guesses and start values.
+    timed : bool
+        Whether to begin with the time.
     """
     there = _There.of(problem, at, flag)
     rows = [row for row in there.failing() if row.kind in kinds]
@@ -105,7 +112,8 @@ def without_value(
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
     what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
     own = _mend(problem, there, rows, found[0][2])
-    return "\n".join([f"at t = {at.time:.6g} s {what} no value:", *lines, own or mend or mend_of(problem, found[0][2])])
+    head = f"at t = {at.time:.6g} s " if timed else ""
+    return "\n".join([f"{head}{what} no value:", *lines, own or mend or mend_of(problem, found[0][2])])
 
 
 def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:

@@ -12,11 +12,11 @@ from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
 MEND = "Nothing tells whether it holds. Compare what always has a value, such as x > 1 in place of sqrt(x) > 1."
-NO_VALUE = "at t = {:.6g} s a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
+NO_VALUE = "a condition has no value; check what it divides by, and the arguments of sqrt, log, acos"
 
 
 def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
-    """Say which of some conditions without a value matter at a point, "" if none does.
+    """Say which of some conditions without a value matter at a point, "" if none does; the time is not told.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def undecided(problem: Problem, at: Point, guards: Iterable[int]) -> str:
     """
     if not any(_matters(problem, at, k) for k in guards):
         return ""
-    return without_value(problem, at, kinds=(EVENT,), mend=MEND) or NO_VALUE.format(at.time)
+    return without_value(problem, at, kinds=(EVENT,), mend=MEND, timed=False) or NO_VALUE
 
 
 def _matters(problem: Problem, at: Point, guard: int) -> bool:

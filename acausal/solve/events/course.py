@@ -84,10 +84,9 @@ class Course:
     def _refuse_undecided(self, at: Point, end: float) -> None:
         """Refuse conditions of time alone that have no value up to the next break."""
         time = at.time + POLICY.agenda.after * (end - at.time)
-        if open_ := self.agenda.undecided(time):
-            text = undecided(self.integrator.problem, replace(at, time=time), open_)
-            if text:
-                raise Undecided(at.time, text.replace(f"{time:.6g}", f"{at.time:.6g}", 1))
+        open_ = self.agenda.undecided(time)
+        if open_ and (text := undecided(self.integrator.problem, replace(at, time=time), open_)):
+            raise Undecided(at.time, text)
 
     def _at_break(self, at: Point, on: np.ndarray, held: np.ndarray) -> Point:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""

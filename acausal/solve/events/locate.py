@@ -51,9 +51,6 @@ class TooCoarse(Exception):
 class Undecided(Failure):
     """A condition has no value any more."""
 
-    def __init__(self, time: float, text: str) -> None:
-        super().__init__(time, text.removeprefix(f"at t = {time:.6g} s "))
-
 
 class Locator:
     """Search along the legs of a run.

@@ -58,8 +58,7 @@ class Evaluator:
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""
         problem = self.solver.problem
-        at = problem.point(self.rows, row)
-        return without_value(problem, at, mend=MEND).removeprefix(f"at t = {at.time:.6g} s ")
+        return without_value(problem, problem.point(self.rows, row), mend=MEND, timed=False)
 
     def _solve(self, wanted: set[int]) -> None:
         """Solve for some algebraic unknowns, and all that they need."""

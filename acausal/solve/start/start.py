@@ -90,7 +90,7 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
         return np.zeros(0, dtype=bool)
     value = problem.watched(Rows.of(at))[0][0]
     if text := undecided(problem, at, np.array(guards.watched)[np.isnan(value)].tolist()):
-        raise InitializationError(text)
+        raise InitializationError(f"at t = {at.time:.6g} s {text}")
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])
