@@ -46,15 +46,14 @@ def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationErr
 def told(function: F) -> F:
     """Decorate a public function: an error names the line of the call, and wrong arguments are an error of ours."""
 
+    checked = fitting(function)
+
     @wraps(function)
     def call(*given: Any, **named: Any) -> Any:
         try:
-            return function(*given, **named)
+            return checked(*given, **named)
         except AcausalError as error:
             error.line = error.line or user_line()
-            raise
-        except TypeError:
-            _refuse_misfit(function, given, named)
             raise
 
     return call  # type: ignore[return-value]
@@ -68,7 +67,8 @@ def fitting(function: F) -> F:
         try:
             return function(*given, **named)
         except TypeError:
-            _refuse_misfit(function, given, named)
+            if wrong := _misfit(function, given, named):
+                raise refused(wrong) from None
             raise
 
     return call  # type: ignore[return-value]
@@ -78,13 +78,6 @@ def brackets(mark: str) -> str:
     """Return the message for a mark above a method that is called instead."""
     form = "def ...(self): return ..."
     return f"@{mark} marks a method: it stands alone, without brackets, above `{form}`, whose docstring describes it."
-
-
-def _refuse_misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> None:
-    """Raise DeclarationError if the arguments of a call are wrong."""
-    wrong = _misfit(function, given, named)
-    if wrong:
-        raise refused(wrong) from None
 
 
 def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> str:
