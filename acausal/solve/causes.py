@@ -47,7 +47,7 @@ class _There:
 
     @classmethod
     def of(cls, problem: Problem, at: Point, flag: float) -> _There:
-        return cls(whole(problem.compiled), problem.p, at, flag, unknowns_at(problem, at, flag))
+        return cls(whole(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
 
     @property
     def arguments(self) -> tuple[Any, ...]:
@@ -65,12 +65,6 @@ class _There:
         p = self.p.copy()
         p[k] = value
         return replace(self, p=p)
-
-
-def unknowns_at(problem: Problem, at: Point, flag: float = 0.0) -> np.ndarray:
-    """Return all unknowns of a model as it was stated; `flag` is 1 while the initial system holds."""
-    own = whole(problem.compiled)
-    return own.unknowns(at.x, at.z, problem.p, at.time, at.constants.vector, flag)[0].copy()
 
 
 def cause(

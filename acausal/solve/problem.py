@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.compiled_model import Local
 from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.whole import whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 
@@ -65,6 +66,10 @@ class Problem:
     def local(self, at: Point, flag: float = 0.0) -> Local:
         """Return the same with their Jacobian by states and algebraic unknowns."""
         return self.compiled.at(at.x, at.z, self.p, at.time, at.constants.vector, flag)
+
+    def unknowns(self, at: Point, flag: float = 0.0) -> np.ndarray:
+        """Return all unknowns of the model as it was stated, those that are solved explicitly too."""
+        return whole(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
 
     def constraints(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Return the residuals of the constraints and their Jacobian by the states."""

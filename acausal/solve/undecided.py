@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from acausal.compiler.whole import EVENT, whole
-from acausal.solve.causes import unknowns_at, without_value
+from acausal.solve.causes import without_value
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 
@@ -37,7 +37,7 @@ def _matters(problem: Problem, at: Point, guard: int) -> bool:
     compiled = problem.compiled
     if guard >= compiled.guards.n_switches:
         return True
-    own, unknowns = whole(compiled), unknowns_at(problem, at)
+    own, unknowns = whole(compiled), problem.unknowns(at)
     found = []
     for holds in (False, True):
         constants = at.constants.switched([guard], [holds]).vector
