@@ -2,18 +2,19 @@
 
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
-from acausal.core.rodas import End, Equations, Found, Rodas, make_equations
+from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
 from acausal.core.tape import Tape, make_tape
 
 __all__ = [
     "LU",
     "End",
     "Equations",
-    "Found",
+    "Outputs",
     "Rodas",
     "Tape",
     "library",
     "make_equations",
     "make_tape",
     "why_not",
+    "with_powers",
 ]

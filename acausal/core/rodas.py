@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from ctypes import byref, pointer
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
 
@@ -16,12 +17,16 @@ from acausal.symbols import dense
 
 
 class End(IntEnum):
-    """How an integration ended: at its last output, after the steps it was given, with steps too short, without memory."""
+    """How an integration ended: at its last output, after the steps it was given, where no step was short enough.
+
+    That is for the tolerance (`SHORT`), or for the equations to have a value and a regular Jacobian (`UNSOLVED`).
+    """
 
     DONE = 0
     MORE = 1
     SHORT = 2
-    MEMORY = 3
+    UNSOLVED = 3
+    MEMORY = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +65,7 @@ class Equations:
         )
 
 
-def make_equations(
-    x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX, powers: ca.SX | None = None
-) -> Equations:
+def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
     """Return equations as tapes.
 
     Parameters
@@ -71,8 +74,6 @@ def make_equations(
         States, algebraic unknowns, time, parameters and constants of a segment.
     ode, alg : casadi.SX
         Derivatives of the states, and residuals.
-    powers : casadi.SX, optional
-        At most two expressions to integrate.
     """
     nx, nz = x.numel(), z.numel()
     y, F = ca.vertcat(x, z), ca.vertcat(dense(ode), dense(alg))
@@ -84,37 +85,37 @@ def make_equations(
     slopes = ca.vertcat(entries, ca.densify(by_time)) if by_time.nnz() else entries
     arguments = [x, z, t, p, c]
 
-    def tape(name: str, column: ca.SX) -> Tape:
-        return make_tape(ca.Function(name, arguments, [ca.densify(ca.cse(column))]), early=(3, 4))
-
     start, row = (np.array(part, dtype=np.int32) for part in (pattern.colind(), pattern.row()))
     diagonal = np.array([pattern.get_nz(k, k) for k in range(nx)], dtype=np.int32)
     return Equations(
         *(nx, nz, p.numel(), c.numel()),
-        *(tape("values", F), tape("slopes", slopes), None if powers is None else tape("powers", powers)),
+        *(_tape("values", arguments, F), _tape("slopes", arguments, slopes), None),
         *(start, row, diagonal),
     )
 
 
+def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX) -> Equations:
+    """Return equations with at most two expressions in x, z, t, p, c that are integrated besides."""
+    return replace(equations, powers=_tape("powers", arguments, powers))
+
+
+def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
+    return make_tape(ca.Function(name, list(arguments), [ca.densify(ca.cse(column))]), early=(3, 4))
+
+
 @dataclass(frozen=True)
-class Found:
-    """What an integration has found at the outputs that it reached.
+class Outputs:
+    """Values at the outputs of an integration; those that it has not reached are nan.
 
     Attributes
     ----------
     x, z, integral : arrays, shapes (n, nx), (n, nz), (n, 2)
         States, algebraic unknowns as they are interpolated, integrals of the powers.
-    end : End
-        How it ended.
-    progress : Progress
-        Counts, and the time that was reached.
     """
 
     x: np.ndarray
     z: np.ndarray
     integral: np.ndarray
-    end: End
-    progress: Progress
 
 
 class Rodas:
@@ -124,6 +125,11 @@ class Rodas:
     ----------
     equations : Equations
         What is integrated.
+
+    Attributes
+    ----------
+    progress : Progress
+        Counts since it began, and the time that was reached.
     """
 
     def __init__(self, equations: Equations) -> None:
@@ -131,12 +137,14 @@ class Rodas:
         self._memory = self._library.ac_rodas_make(byref(equations.data))
         if not self._memory:
             raise MemoryError
+        self.progress = Progress()
+        self._request: tuple[object, ...] = ()
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
             self._library.ac_rodas_free(self._memory)
 
-    def integrate(
+    def begin(
         self,
         times: np.ndarray,
         x: np.ndarray,
@@ -147,10 +155,8 @@ class Rodas:
         size: np.ndarray,
         tolerance: float,
         first_step: float = 0.0,
-        max_steps: int = 1_000_000,
-        at_once: int = 1000,
-    ) -> Found:
-        """Integrate from the first of some times to the last.
+    ) -> Outputs:
+        """Prepare an integration from the first of some times to the last; return what `go` fills.
 
         Parameters
         ----------
@@ -164,25 +170,29 @@ class Rodas:
             Relative tolerance.
         first_step : float, optional
             Length of the first step that is tried; chosen if 0.
-        max_steps : int, optional
-            Steps at most, refused ones among them.
-        at_once : int, optional
-            Steps of one call of the library: an interrupt waits for its end.
         """
         e, n = self.equations, len(times) - 1
-        found = np.zeros((n, e.nx)), np.zeros((n, e.nz)), np.zeros((n, 2))
+        found = Outputs(*(np.full((n, columns), np.nan) for columns in (e.nx, e.nz, 2)))
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
-        places = (array.ctypes.data for array in (times, *found))
+        places = (array.ctypes.data for array in (times, found.x, found.z, found.integral))
         request = RequestData(tolerance, first_step, size.ctypes.data, n, *places)
-        given = (array.ctypes.data for array in (x, z, p, c))
-        self._library.ac_rodas_begin(self._memory, byref(request), *given)
-        progress, end, left = Progress(), End.MORE, max_steps
-        while end == End.MORE and left > 0:
-            end = End(self._library.ac_rodas_go(self._memory, min(at_once, left), byref(progress)))
-            left = max_steps - progress.steps - progress.refused
+        # The library keeps the addresses of these.
+        self._request = (times, size, found)
+        self.progress = Progress()
+        self._library.ac_rodas_begin(self._memory, byref(request), *(array.ctypes.data for array in (x, z, p, c)))
+        return found
+
+    def go(self, steps: int) -> End:
+        """Take some steps at most, refused ones among them; an interrupt waits for their end.
+
+        Returns
+        -------
+        End
+            `MORE` where outputs are left.
+        """
+        end = End(self._library.ac_rodas_go(self._memory, steps, byref(self.progress)))
         if end == End.MEMORY:
             raise MemoryError
-        x, z, integral = (array[: progress.written] for array in found)
-        return Found(x, z, integral, end, progress)
+        return end

@@ -90,6 +90,8 @@ class Calls:
     # this fraction of the tolerance.
     first: float = 1e-2
     gentle: float = 0.1
+    # Operations of the core before Python looks for an interrupt, some hundredths of a second: 10 evaluations a step.
+    at_once: int = 3_000_000
     # Digits to which two relative grids are the same integrator.
     digits: int = 12
     # Of the time, and of the run: a call that begins so near the last row goes on from it.

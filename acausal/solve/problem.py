@@ -59,6 +59,11 @@ class Problem:
         found = ((v, projected.get(rate, rate)) for v, rate in pairs)
         return [(place[v], place[rate]) for v, rate in found if rate in place]
 
+    @cached_property
+    def hoisted(self) -> np.ndarray:
+        """What the integrated equations need of the parameters."""
+        return self.compiled.hoist(self.p)[0].copy()
+
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
         """Return ode, alg and conditions; `flag` is 1 while the initial system holds. Overwritten by the next call."""
         return self.compiled.values(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0]

@@ -61,7 +61,8 @@ typedef struct {
     double *x, *z, *integral;      /* (outputs, ...) what is found */
 } ac_request;
 
-enum { AC_DONE, AC_MORE, AC_SHORT, AC_MEMORY };
+/* How it ended; steps too short for the tolerance, or for the equations to be solved. */
+enum { AC_DONE, AC_MORE, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
 
 /* Counts of one integration. */
 typedef struct {

@@ -24,7 +24,7 @@ struct ac_rodas {
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
     double t, h, gathered[2];
-    int32_t reached, refused;
+    int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
     ac_request request;
     ac_progress progress;
 };
@@ -95,7 +95,8 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
     r->gathered[0] = r->gathered[1] = 0;
-    r->refused = 0;
+    r->refused = r->unsolved = 0;
+    r->stale = 1;
 }
 
 /* Root mean square of changes of the states over tolerance (size + |x|). */
@@ -218,7 +219,7 @@ static int all_finite(const double *y, int32_t n) {
 /* Go on for some steps at most; AC_MORE where there is more to do. */
 int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
     const double end = r->request.time[r->request.outputs];
-    int32_t found = AC_DONE, fresh = 1;
+    int32_t found = AC_DONE;
     const int64_t most = r->progress.steps + r->progress.refused + steps;
     if (!(r->h > 0)) r->h = first_step(r);
     while (r->progress.written < r->request.outputs) {
@@ -230,13 +231,13 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         const int last = r->h >= left * (1 - 1e-10);
         const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : r->h;
         if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
-            found = AC_SHORT;
+            found = r->unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
         }
-        if (fresh) {
+        if (r->stale) {
             evaluate(r, r->of.slopes, r->slopes, r->y, r->t);
             r->progress.slopes++;
-            fresh = 0;
+            r->stale = 0;
         }
         const int32_t failed = factorise(r, h);
         if (failed < 0) {
@@ -248,7 +249,8 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             stages(r, h);
             if (all_finite(r->next, r->n)) error = norm(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n);
         }
-        const double change = isfinite(error) ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
+        r->unsolved = !isfinite(error);
+        const double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
         if (!(error <= 1)) {
             r->progress.refused++;
             r->refused = 1;
@@ -261,7 +263,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : MOST));
         r->refused = 0;
         r->progress.steps++;
-        fresh = 1;
+        r->stale = 1;
     }
     int64_t counts[4];
     ac_lu_counts(r->lu, counts);

@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from acausal.compiler.call import Call
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import everywhere, refined
+from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.interrupted import reached
-from acausal.solve.integrate.ladder import Kind, Refusal, Way, read
-from acausal.solve.integrate.methods import METHODS, Setup, rounding
+from acausal.solve.integrate.ladder import Kind, Refusal, Way
+from acausal.solve.integrate.methods import METHODS, rounding
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.looks import spread
@@ -40,7 +40,6 @@ class Integrator:
 
     def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
         self.problem, self.compiled, self.settings, self.span = problem, problem.compiled, settings, span
-        self.hoisted = self.compiled.hoist(problem.p)[0].copy()
         self.trace = before.emptied()
         self.consistent = Consistent(problem)
         self.way = settings.way
@@ -109,60 +108,60 @@ class Integrator:
             more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
             parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
-        span = times[-1] - times[0]
-        grid = tuple(np.round((times[1:] - times[0]) / span, POLICY.calls.digits).tolist())
-        setup = METHODS[way.method].set_up(self.problem, self.settings, way, at, times, self.rounding(at))
+        request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at))
         started = clock.perf_counter()
         try:
-            call = c.integrator(setup.plugin, grid, setup.options, works, way.moves, setup.sizes is not None)
+            integration = METHODS[way.method].prepare(request)
         except RuntimeError:
             # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
             return Refusal(Kind.UNSOLVABLE, at.time)
         self.trace.building += clock.perf_counter() - started
-        setup.give(call, at, np.concatenate([[times[0], span], self.hoisted, at.constants.vector]))
         try:
-            found = self._outcome(call, setup, way, at, times)
+            found = self._outcome(integration)
         except KeyboardInterrupt:
-            self._keep_reached(call, setup, at, times, parts)
+            self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
             return self._settled(found.every(parts), way.tolerance)
-        rows = self._reached(call, setup, at, times, parts) if keep else None
+        rows = self._reached(integration, parts) if keep else None
         settled = rows and self._settled(rows, way.tolerance)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
-    def _outcome(self, call: Call, setup: Setup, way: Way, at: Point, times: np.ndarray) -> Leg | Refusal:
-        """Evaluate a call; return its rows, unless it failed or left the solution."""
-        c, trace, n, method = self.compiled, self.trace, len(times) - 1, METHODS[way.method]
+    def _outcome(self, integration: Integration) -> Leg | Refusal:
+        """Integrate; return the rows, unless that failed or left the solution."""
+        request, trace = integration.request, self.trace
+        way, at, n = request.way, request.at, len(request.times) - 1
         started = clock.perf_counter()
-        done, said = call.attempt()
+        refusal = integration.go()
         trace.seconds += clock.perf_counter() - started
-        steps = trace.count(way.method, *method.counted(call.stats))
-        if not done:
-            return read(said, times[0], times[-1])
-        found = setup.leg(call, at, times, steps)
+        steps = trace.count(way.method, *integration.counts)
+        if refusal:
+            return refusal
+        found = integration.leg()
         if self._is_worn(found.rows, at.constants):
-            return Refusal(Kind.WORN, float(times[0]))
-        few = POLICY.energy.resolved if method.multistep and way.order <= 2 else 1
-        if call.function.nnz_out("qf") and not c.powers.is_zero() and steps < n * few:
+            return Refusal(Kind.WORN, at.time)
+        few = POLICY.energy.resolved if METHODS[way.method].multistep and way.order <= 2 else 1
+        if request.works and not self.compiled.powers.is_zero() and steps < n * few:
             given = np.vstack([np.zeros((1, 2)), found.energy])
             work, known = refined(self.consistent, found.since(at), given, way.tolerance, steps < n)
             found, trace.rough = replace(found, energy=work[1:]), trace.rough or not known
         return found
 
-    def _keep_reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> None:
-        """Keep the rows that an interrupted call had written, unless it was a trial on the way."""
+    def _keep_reached(self, integration: Integration, parts: int) -> None:
+        """Keep the rows that an interrupted integration had written, unless it was a trial on the way."""
         begin, end = self.span
         last = self.trace.pieces[-1].rows.times[-1] if self.trace.pieces else begin
-        here = np.isclose(at.time, last, rtol=POLICY.calls.here, atol=POLICY.calls.here * (end - begin))
-        found = self._reached(call, setup, at, times, parts) if here else None
-        if found and (not self.settings.energy or call.function.nnz_out("qf")):
+        here = np.isclose(
+            integration.request.at.time, last, rtol=POLICY.calls.here, atol=POLICY.calls.here * (end - begin)
+        )
+        found = self._reached(integration, parts) if here else None
+        if found and (not self.settings.energy or integration.request.works):
             self.trace.add(found)
 
-    def _reached(self, call: Call, setup: Setup, at: Point, times: np.ndarray, parts: int) -> Leg | None:
-        """Return the rows that a call had written before it ended, if they can be used."""
-        found = reached(self.consistent, call, setup, at, times)
-        if found is None or self._is_worn(found.rows, at.constants) or len(found.rows) < parts:
+    def _reached(self, integration: Integration, parts: int) -> Leg | None:
+        """Return the rows that an integration had written before it ended, if they can be used."""
+        found = reached(self.consistent, integration)
+        if found is None or self._is_worn(found.rows, found.constants) or len(found.rows) < parts:
             return None
         return found.every(parts)
 

@@ -1,4 +1,4 @@
-"""What a call of an integrator had reached when it was interrupted."""
+"""What an integration had reached when it was interrupted."""
 
 from __future__ import annotations
 
@@ -6,32 +6,23 @@ from typing import Any
 
 import numpy as np
 
-from acausal.compiler.call import Call
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.methods import Setup
+from acausal.solve.integrate.integration import Integration
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 
 
-def reached(consistent: Consistent, call: Call, setup: Setup, at: Point, times: np.ndarray) -> Leg | None:
-    """Return the rows that an interrupted call had written, up to the first change of a watched condition.
-
-    An integrator writes a row as soon as it is there; those it did not reach are NaN, see `Call.clear`.
+def reached(consistent: Consistent, integration: Integration) -> Leg | None:
+    """Return the rows that an integration had written when it ended, up to the first change of a watched condition.
 
     Parameters
     ----------
     consistent : Consistent
         Solver for algebraic unknowns.
-    call : Call
-        The interrupted call.
-    setup : Setup
-        How it integrates.
-    at : Point
-        Where it began.
-    times : array
-        Its start and output times.
+    integration : Integration
+        It writes a row as soon as it is there; those that it did not reach are nan.
     """
-    found = setup.leg(call, at, times)
+    found, at = integration.leg(), integration.request.at
     whole = np.isfinite(np.hstack([found.rows.x, found.rows.z, found.energy])).all(axis=1)
     found = found.part(0, _leading(whole))
     if not len(found.rows):

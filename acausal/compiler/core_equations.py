@@ -1,0 +1,32 @@
+"""The equations of a model as the core takes them."""
+
+from __future__ import annotations
+
+import casadi as ca
+
+from acausal.compiler.compiled_model import CompiledModel
+from acausal.compiler.once import once
+from acausal.core import Equations, make_equations, with_powers
+from acausal.language.functions import time
+
+
+@once
+def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equations:
+    """Return the equations that are integrated.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    works : bool
+        Whether to integrate the powers.
+    moves : bool
+        Whether the projection of closed loops moves.
+    """
+    r = compiled.reduced
+    arguments = (r.x, r.z, time.sx, r.p, r.constants)
+    if works:
+        powers = ca.substitute(compiled.powers, r.projections.moves, moves)
+        return with_powers(core_equations(compiled, False, moves), arguments, powers)
+    ode, alg = (ca.substitute(column, r.projections.moves, moves) for column in (r.running.ode, r.running.alg))
+    return make_equations(*arguments, ode, alg)

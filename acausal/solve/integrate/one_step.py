@@ -1,0 +1,29 @@
+"""The one-step method: L-stable, of order 5; on the core, or CasADi's where that is missing.
+
+It sees rates only as far as they change coordinates: their size in the error test is that of the coordinate times the
+fastest eigenvalue. Vibrations too small to be seen in the coordinates are then damped instead of followed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.policy import POLICY
+from acausal.solve.integrate.integration import Request
+
+CALLS = POLICY.calls
+
+
+def sizes(request: Request) -> np.ndarray:
+    """Return the sizes of the states in the error test."""
+    problem = request.problem
+    size = request.settings.nominal[: problem.nx].copy()
+    for coordinate, rate in problem.rates:
+        size[rate] = max(size[rate], size[coordinate] * request.settings.fastest)
+    return size
+
+
+def first_step(request: Request) -> float:
+    """Return a first step that the fastest vibration resolves, as a fraction of the leg; 0 where there is none."""
+    fastest = request.settings.fastest
+    return min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * request.span))) if fastest > 0 else 0.0
