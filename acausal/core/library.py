@@ -39,6 +39,8 @@ class RequestData(Structure):
         ("tolerance", c_double),
         ("first_step", c_double),
         ("size", c_void_p),
+        ("smooth", c_void_p),
+        ("most", c_int64),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral")),
     )

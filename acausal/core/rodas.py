@@ -17,16 +17,18 @@ from acausal.symbols import dense
 
 
 class End(IntEnum):
-    """How an integration ended: at its last output, after the steps it was given, where no step was short enough.
+    """How an integration ended.
 
-    That is for the tolerance (`SHORT`), or for the equations to have a value and a regular Jacobian (`UNSOLVED`).
+    At its last output; after the steps it was given; with too many between two outputs; where no step was short enough,
+    for the tolerance (`SHORT`) or for the equations to have a value and a regular Jacobian (`UNSOLVED`); without memory.
     """
 
     DONE = 0
     MORE = 1
-    SHORT = 2
-    UNSOLVED = 3
-    MEMORY = 4
+    MANY = 2
+    SHORT = 3
+    UNSOLVED = 4
+    MEMORY = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +157,8 @@ class Rodas:
         size: np.ndarray,
         tolerance: float,
         first_step: float = 0.0,
+        smooth: np.ndarray | None = None,
+        most: int = 2**62,
     ) -> Outputs:
         """Prepare an integration from the first of some times to the last; return what `go` fills.
 
@@ -170,6 +174,10 @@ class Rodas:
             Relative tolerance.
         first_step : float, optional
             Length of the first step that is tried; chosen if 0.
+        smooth : array, shape (nx,), optional
+            States whose error leaves out vibrations that a step does not resolve.
+        most : int, optional
+            Steps between two outputs.
         """
         e, n = self.equations, len(times) - 1
         found = Outputs(*(np.full((n, columns), np.nan) for columns in (e.nx, e.nz, 2)))
@@ -177,9 +185,18 @@ class Rodas:
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
         places = (array.ctypes.data for array in (times, found.x, found.z, found.integral))
-        request = RequestData(tolerance, first_step, size.ctypes.data, n, *places)
+        chosen = None if smooth is None else np.ascontiguousarray(smooth, dtype=np.int32)
+        request = RequestData(
+            tolerance,
+            first_step,
+            size.ctypes.data,
+            chosen.ctypes.data if chosen is not None else None,
+            most,
+            n,
+            *places,
+        )
         # The library keeps the addresses of these.
-        self._request = (times, size, found)
+        self._request = (times, size, chosen, found)
         self.progress = Progress()
         self._library.ac_rodas_begin(self._memory, byref(request), *(array.ctypes.data for array in (x, z, p, c)))
         return found

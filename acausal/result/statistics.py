@@ -21,9 +21,9 @@ class Statistics(Mapping[str, Any]):
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
         Seconds; the first are those of the model and of the integrators that the run made, the last those inside them.
-    method, method_steps, max_order, order_reason, tolerance, fastest_rate, constraints
-        What was chosen: the methods with their steps, the order limit, the tolerance, the size of the fastest eigenvalue at
-        the start in 1/s, and how loops stayed closed.
+    method, method_reason, method_steps, damped, max_order, order_reason, tolerance, fastest_rate, constraints
+        What was chosen and why: the methods with their steps, whether vibrations that positions do not show were damped, the
+        order limit, the tolerance, the size of the fastest eigenvalue at the start in 1/s, and how loops stayed closed.
     sizes : dict of str to float
         Least size of the states of each unit: below it the tolerance is absolute.
     break_times, event_times, loosened_at : list of float
@@ -62,7 +62,9 @@ class Statistics(Mapping[str, Any]):
     tolerance: float = 0.0
     sizes: dict[str, float] = field(default_factory=dict)
     method: str = ""
+    method_reason: str = ""
     method_steps: dict[str, int] = field(default_factory=dict)
+    damped: bool = False
     fastest_rate: float = 0.0
     constraints: str = "none"
     loosened_at: list[float] = field(default_factory=list)

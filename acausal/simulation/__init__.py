@@ -2,6 +2,5 @@
 
 from acausal.simulation.linearize import Linearization, linearize
 from acausal.simulation.simulate import simulate
-from acausal.solve.integrate.methods import METHODS
 
-__all__ = ["METHODS", "Linearization", "linearize", "simulate"]
+__all__ = ["Linearization", "linearize", "simulate"]

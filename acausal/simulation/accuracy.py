@@ -18,7 +18,7 @@ from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.simulation.estimate import Estimate, estimate
 from acausal.simulation.runs import Numerics, Runs
-from acausal.solve.integrate.methods import METHODS, chosen
+from acausal.solve.integrate.methods import chosen
 
 ACCURACY = POLICY.accuracy
 
@@ -123,11 +123,10 @@ class Search:
         The multistep method then takes about a step for each radian of the fastest vibration, whatever the tolerance.
         """
         task, coarse = self.runs.task, self.runs(numerics)
-        if isinstance(coarse, SimulationError) or task.max_order or not METHODS[chosen(task.method)[0]].multistep:
+        if isinstance(coarse, SimulationError) or task.max_order or task.method == "rosenbrock":
             return numerics
-        follows = coarse.stats.max_order == POLICY.order.highest and all(
-            METHODS[m].multistep for m in coarse.stats.method_steps
-        )
+        low = "idas" in coarse.stats.method_steps and coarse.stats.max_order < POLICY.order.highest
+        follows = not coarse.stats.damped and not low
         turns = coarse.stats.fastest_rate * (task.stop_time - task.start_time)
         if follows or ACCURACY.growth * _work(coarse) < ACCURACY.anew * turns:
             return numerics
@@ -235,7 +234,7 @@ def _what(path: str) -> str:
 
 def _work(run: Result) -> int:
     """Return the steps, those of the one-step method counted several times."""
-    return sum(n * (1 if METHODS[name].multistep else ACCURACY.one_step) for name, n in run.stats.method_steps.items())
+    return sum(n * (1 if name == "idas" else ACCURACY.one_step) for name, n in run.stats.method_steps.items())
 
 
 def _tenth(tolerance: float, k: int) -> float:

@@ -12,12 +12,11 @@ from acausal.errors import DeclarationError
 from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.simulation.settings import check_number, settled
-from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task
 from acausal.solve.start.initialize import INITIAL
 
-CHOICES = ("auto", *METHODS, "resolve")
+CHOICES = ("auto", "idas", "rosenbrock", "resolve")
 CONSTRAINTS = ("auto", "states", "projection")
 CHOOSE = {"method": CHOICES, "constraints": CONSTRAINTS, "initial": INITIAL}
 MOST = 100_000_000  # points of a run

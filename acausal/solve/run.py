@@ -23,7 +23,7 @@ from acausal.solve.failed import failure_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure
-from acausal.solve.integrate.methods import chosen
+from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
@@ -79,7 +79,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
-    result = _result(done, plan, replace(_counted(done, plan), solve_seconds=seconds), task.energy)
+    result = _result(done, plan, replace(_counted(done, plan, task), solve_seconds=seconds), task.energy)
     if met:
         raise SimulationError(met.text, result)
     if done.failure is not None:
@@ -137,7 +137,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     at, span = go_on(problem, begun), task.stop_time - task.start_time
     rates = eigenvalues_of(problem, at)
     max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
-    fastest = float(np.max(np.abs(rates), initial=0.0))
+    fastest, vibration = (float(np.max(np.abs(some), initial=0.0)) for some in (rates, rates[np.imag(rates) != 0]))
     settings = Settings(
         nominal=problem.nominal,
         tolerance=task.tolerance,
@@ -145,8 +145,9 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
         energy=task.energy,
         progress=task.progress,
         constraints=task.constraints,
-        methods=chosen(task.method),
+        methods=chosen(task.method, task.max_order),
         fastest=fastest,
+        vibration=vibration,
         order_is_open=task.max_order is None and max_order < POLICY.order.highest,
     )
     counts = Trace()
@@ -189,10 +190,13 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     return found
 
 
-def _counted(done: _Done, plan: _Plan) -> Statistics:
+def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled = integrator.compiled
     report = compiled.report_at(done.begun.found(compiled))
+    steps: dict[str, int] = {}
+    for key, n in trace.methods.items():
+        steps[METHODS[key].name] = steps.get(METHODS[key].name, 0) + n
     return Statistics(
         equations_flat=report["equations_flat"],
         equations_reduced=report["equations_reduced"],
@@ -209,8 +213,10 @@ def _counted(done: _Done, plan: _Plan) -> Statistics:
         order_reason="; ".join([done.reason, *trace.orders]),
         tolerance=integrator.settings.tolerance,
         sizes=absolute_sizes(compiled, integrator.settings.nominal),
-        method=" and ".join(trace.methods) or "none",
-        method_steps=dict(trace.methods),
+        method=" and ".join(steps) or "none",
+        method_reason="; ".join([why_first(task.method, task.max_order), *trace.changes]),
+        method_steps=steps,
+        damped=any(METHODS[name].damps for name in trace.methods),
         fastest_rate=integrator.settings.fastest,
         constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",
         loosened_at=trace.loosened,

@@ -56,13 +56,15 @@ typedef struct {
 typedef struct {
     double tolerance, first_step;  /* first step 0: chosen */
     const double *size;            /* (nx) sizes of the states in the error test */
+    const int32_t *smooth;         /* (nx) whether vibrations that a step does not resolve are left out of the error; NULL: none */
+    int64_t most;                  /* steps between two outputs */
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */
     double *x, *z, *integral;      /* (outputs, ...) what is found */
 } ac_request;
 
-/* How it ended; steps too short for the tolerance, or for the equations to be solved. */
-enum { AC_DONE, AC_MORE, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
+/* How it ended: more steps to do, too many between two outputs; steps too short for the tolerance, or for the equations to be solved. */
+enum { AC_DONE, AC_MORE, AC_MANY, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
 
 /* Counts of one integration. */
 typedef struct {

@@ -24,6 +24,7 @@ struct ac_rodas {
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
     double t, h, gathered[2];
+    int64_t written_at; /* steps at the last output */
     int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
     ac_request request;
     ac_progress progress;
@@ -97,6 +98,7 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->gathered[0] = r->gathered[1] = 0;
     r->refused = r->unsolved = 0;
     r->stale = 1;
+    r->written_at = 0;
 }
 
 /* Root mean square of changes of the states over tolerance (size + |x|). */
@@ -108,6 +110,19 @@ static double norm(const ac_rodas *r, const double *change) {
         sum += part * part;
     }
     return r->of.nx ? sqrt(sum / r->of.nx) : 0;
+}
+
+/* Errors of a step, in b: where it is asked for, without vibrations that it does not resolve. Of one of frequency omega
+   (I - h gamma J)^-1 leaves 1 / |1 + i h gamma omega| (Shampine, Hosea 1996). */
+static const double *smoothed(ac_rodas *r, const double *change, double h) {
+    const int32_t *smooth = r->request.smooth;
+    if (!smooth) return change;
+    for (int32_t k = 0; k < r->n; k++) r->b[k] = k < r->of.nx ? change[k] / (h * GAMMA) : 0;
+    ac_lu_solve(r->lu, r->b);
+    for (int32_t k = 0; k < r->of.nx; k++) {
+        if (!smooth[k]) r->b[k] = change[k];
+    }
+    return r->b;
 }
 
 /* First step in which an explicit step would change the states by a hundredth of themselves (Hairer, Norsett, Wanner, II.4). */
@@ -227,6 +242,10 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             found = AC_MORE;
             break;
         }
+        if (r->progress.steps - r->written_at >= r->request.most) {
+            found = AC_MANY;
+            break;
+        }
         const double left = end - r->t;
         const int last = r->h >= left * (1 - 1e-10);
         const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : r->h;
@@ -247,7 +266,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         double error = INFINITY;
         if (!failed) {
             stages(r, h);
-            if (all_finite(r->next, r->n)) error = norm(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n);
+            if (all_finite(r->next, r->n)) error = norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
         }
         r->unsolved = !isfinite(error);
         const double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
@@ -257,7 +276,9 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             r->h = h * fmax(LEAST, fmin(change, SAFETY));
             continue;
         }
+        const int32_t written = r->progress.written;
         write(r, h, last);
+        if (r->progress.written > written) r->written_at = r->progress.steps;
         memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
         r->t = last ? end : r->t + h;
         r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : MOST));

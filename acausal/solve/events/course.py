@@ -194,7 +194,7 @@ class Course:
         following = next_ways(integrator.way, refusal, integrator.settings.rescues(grid, integrator.loops))
         if not following:
             return self._shorter(at, grid, Failure.of(refusal))
-        integrator.way = following[0]
+        integrator.take(following[0], refusal)
         return at
 
     def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:

@@ -69,6 +69,14 @@ class Integrator:
             self._floor = rounding(self.problem, at) if near else np.zeros(c.nx + c.nz)
         return self._floor
 
+    def take(self, way: Way, refusal: Refusal) -> None:
+        """Go on in another way, as the present one was refused."""
+        if way.method != self.way.method:
+            method = METHODS[way.method]
+            damped = ", which damps vibrations that positions do not show" if method.damps else ""
+            self.trace.changes.append(f"{method.name} from t = {refusal.time:.6g} s on{damped}: {refusal.kind.value}")
+        self.way = way
+
     def _choose(self, at: Point, moves: bool) -> Point:
         """Restart from where the constraints hold, with a projection that suits the position."""
         if not self.loops:

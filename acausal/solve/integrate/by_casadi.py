@@ -41,7 +41,7 @@ class ByCasadi(Integration):
         counted: tuple[str, str, str],
         seen: tuple[np.ndarray, np.ndarray] | None = None,
     ) -> None:
-        self.request, self.counts = request, (0, 0, 0)
+        self.request = request
         self._counted, self._seen = counted, seen or (1.0, 1.0)
         problem, at, times = request.problem, request.at, request.times
         grid = tuple(np.round((times[1:] - times[0]) / request.span, CALLS.digits).tolist())
@@ -55,12 +55,17 @@ class ByCasadi(Integration):
                 self._call.inputs[k][:] = given[name]
         self._call.clear()
 
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """Steps, factorisations and evaluations of the equations so far."""
+        stats = self._call.stats
+        steps, factorisations, evaluations = (int(stats.get(name, 0)) for name in self._counted)
+        return steps, factorisations, evaluations
+
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
         done, said = self._call.attempt()
-        stats, times = self._call.stats, self.request.times
-        steps, factorisations, evaluations = (int(stats.get(name, 0)) for name in self._counted)
-        self.counts = steps, factorisations, evaluations
+        times = self.request.times
         return None if done else read(said, times[0], times[-1])
 
     def leg(self) -> Leg:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from acausal.compiler.core_equations import core_equations
 from acausal.core import End, Rodas
 from acausal.policy import POLICY
@@ -10,7 +12,7 @@ from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import first_step, sizes
 from acausal.solve.integrate.trace import Leg
 
-REFUSALS = {End.MORE: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
+REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
 
 
 class ByCore(Integration):
@@ -20,20 +22,26 @@ class ByCore(Integration):
     ----------
     request : Request
         What it is asked for.
+    damps : bool
+        Whether it sees rates only as far as they change coordinates, see `sizes`; else errors of rates count, but for
+        vibrations that its steps do not resolve.
     """
 
-    def __init__(self, request: Request) -> None:
+    def __init__(self, request: Request, damps: bool) -> None:
         self.request = request
         problem, way, at = request.problem, request.way, request.at
         equations = core_equations(problem.compiled, request.works, way.moves)
-        self._rodas = Rodas(equations)
-        self._most = max(POLICY.rescue.fewest_long, way.max_steps) * (len(request.times) - 1)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
+        is_rate = np.zeros(problem.nx, dtype=np.int32)
+        is_rate[[rate for _, rate in problem.rates]] = 1
+        self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
-            size=sizes(request),
+            size=sizes(request) if damps else request.settings.nominal[: problem.nx],
             tolerance=way.tolerance,
             first_step=first_step(request) * request.span,
+            smooth=None if damps else is_rate,
+            most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
         )
 
     @property
@@ -44,10 +52,10 @@ class ByCore(Integration):
 
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
-        end, progress = End.MORE, self._rodas.progress
-        while end == End.MORE and (left := self._most - progress.steps - progress.refused) > 0:
-            end = self._rodas.go(min(left, self._at_once))
-        return None if end == End.DONE else Refusal(REFUSALS[end], progress.time)
+        end = End.MORE
+        while end == End.MORE:
+            end = self._rodas.go(self._at_once)
+        return None if end == End.DONE else Refusal(REFUSALS[end], self._rodas.progress.time)
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

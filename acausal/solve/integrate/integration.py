@@ -62,12 +62,14 @@ class Integration(ABC):
     ----------
     request : Request
         What it was asked for.
-    counts : (int, int, int)
-        Steps, factorisations and evaluations of the equations so far.
     """
 
     request: Request
-    counts: tuple[int, int, int]
+
+    @property
+    @abstractmethod
+    def counts(self) -> tuple[int, int, int]:
+        """Steps, factorisations and evaluations of the equations so far."""
 
     @abstractmethod
     def go(self) -> Refusal | None:

@@ -128,8 +128,8 @@ class Rescues:
     Attributes
     ----------
     methods : tuple of str
-        Methods that may be taken, the first one first; each damps vibrations that the one before it follows, or solves
-        where that does not converge.
+        Methods that may be taken, the first one first; each may solve where the one before it does not, and the last one
+        damps vibrations that the others follow.
     projects : bool
         Whether the projection may move where the chosen states become unsuitable.
     loops : bool
@@ -150,9 +150,10 @@ class Rescues:
         """Whether another choice of states may help."""
         return self.loops and refusal.kind not in (Kind.STEPS, Kind.STALLED)
 
-    def after(self, method: str) -> str:
-        """Return the next method; the last one stays."""
-        return self.methods[min(self.methods.index(method) + 1, len(self.methods) - 1)]
+    def after(self, method: str, refusal: Refusal) -> str:
+        """Return the method that follows a refused one: the last one where there are too many steps; that one stays."""
+        next_one = self.methods.index(method) + 1
+        return self.methods[-1] if refusal.kind is Kind.STEPS else self.methods[min(next_one, len(self.methods) - 1)]
 
 
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
@@ -183,5 +184,5 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
     if stuck or (refusal.kind is Kind.STEPS and rescues.damps):
-        changed = replace(changed, method=rescues.after(way.method))
+        changed = replace(changed, method=rescues.after(way.method, refusal))
     return () if changed == way else (changed,)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acausal.core import library
+from acausal.core import library, why_not
 from acausal.policy import POLICY
 from acausal.solve.integrate.by_casadi import by_idas, by_rosenbrock
 from acausal.solve.integrate.by_core import ByCore
@@ -24,28 +24,56 @@ class Method:
 
     Attributes
     ----------
+    name : str
+        What it is called in `simulate` and in results.
     prepare : callable
         Returns the integration of a request.
     multistep : bool
-        Whether its order has a limit. Such methods follow every vibration, steps of the others cost several times as much.
+        Whether its order has a limit. Steps of the others cost several times as much.
+    damps : bool
+        Whether it leaves vibrations out that coordinates do not show, in place of following them.
     """
 
+    name: str
     prepare: Callable[[Request], Integration]
-    multistep: bool
+    multistep: bool = False
+    damps: bool = False
 
 
-def _one_step(request: Request) -> Integration:
-    return ByCore(request) if library() else by_rosenbrock(request)
+def _damping(request: Request) -> Integration:
+    return ByCore(request, damps=True) if library() else by_rosenbrock(request)
 
 
 # In the order in which they are taken: each leaves less to follow, or less to solve, than the one before it.
-METHODS = {"idas": Method(by_idas, multistep=True), "rosenbrock": Method(_one_step, multistep=False)}
+METHODS = {
+    "following": Method("rosenbrock", lambda request: ByCore(request, damps=False)),
+    "idas": Method("idas", by_idas, multistep=True),
+    "rosenbrock": Method("rosenbrock", _damping, damps=True),
+}
 
 
-def chosen(method: str) -> tuple[str, ...]:
-    """Return the methods that a run may take, the first one first, by the name that `simulate` was given."""
-    own = {"auto": tuple(METHODS), "resolve": tuple(name for name, m in METHODS.items() if m.multistep)}
-    return own.get(method, (method,))
+def chosen(method: str, max_order: int | None = None) -> tuple[str, ...]:
+    """Return the methods that a run may take, the first one first.
+
+    Parameters
+    ----------
+    method, max_order
+        As of `simulate`: a limit of the order asks for the multistep method.
+    """
+    if method == "auto":
+        return tuple(METHODS) if library() and max_order is None else ("idas", "rosenbrock")
+    return ("idas",) if method == "resolve" else (method,)
+
+
+def why_first(method: str, max_order: int | None) -> str:
+    """Say why the first of the methods is taken first."""
+    if method != "auto":
+        return "given"
+    if max_order is not None:
+        return "idas, whose order has a limit, as one is given"
+    if why := why_not():
+        return f"idas, as the core is missing: {why}"
+    return "rosenbrock takes less time at equal error"
 
 
 def rounding(problem: Problem, at: Point) -> np.ndarray:

@@ -1,7 +1,7 @@
 """The one-step method: L-stable, of order 5; on the core, or CasADi's where that is missing.
 
-It sees rates only as far as they change coordinates: their size in the error test is that of the coordinate times the
-fastest eigenvalue. Vibrations too small to be seen in the coordinates are then damped instead of followed.
+Where it damps, it sees rates only as far as they change coordinates: their size in the error test is that of the
+coordinate times the fastest eigenvalue that oscillates. Vibrations too small to be seen in the coordinates are then damped instead of followed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def sizes(request: Request) -> np.ndarray:
     problem = request.problem
     size = request.settings.nominal[: problem.nx].copy()
     for coordinate, rate in problem.rates:
-        size[rate] = max(size[rate], size[coordinate] * request.settings.fastest)
+        size[rate] = max(size[rate], size[coordinate] * request.settings.vibration)
     return size
 
 

@@ -53,10 +53,12 @@ def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | Refus
     while True:
         way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, times))
         found = integrator.attempt(at, times, way)
-        following = next_ways(way, found, rescues) if isinstance(found, Refusal) else ()
+        if isinstance(found, Leg):
+            return found
+        following = next_ways(way, found, rescues)
         if not following:
             return found
-        integrator.way = following[0]
+        integrator.take(following[0], found)
 
 
 def _patiently(integrator: Integrator, at: Point, times: np.ndarray, way: Way) -> Leg | Refusal:

@@ -35,8 +35,8 @@ class Settings:
         Methods that may be taken, the first one first.
     constraints : str
         As of `simulate`.
-    fastest : float
-        Size of the largest eigenvalue at the start in 1/s.
+    fastest, vibration : float
+        Size of the largest eigenvalue at the start in 1/s, and of the largest that oscillates.
     order_is_open : bool
         Whether a trial may decide on the highest order.
     """
@@ -49,6 +49,7 @@ class Settings:
     progress: Progress | None = None
     constraints: str = "auto"
     fastest: float = 0.0
+    vibration: float = 0.0
     order_is_open: bool = False
 
     @property
@@ -58,7 +59,7 @@ class Settings:
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
-        return len(self.methods) > 1 and self.fastest * float(np.max(np.diff(times))) > 2 * np.pi
+        return len(self.methods) > 1 and self.vibration * float(np.max(np.diff(times))) > 2 * np.pi
 
     def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
         """What may be changed between tries of a leg with these outputs."""

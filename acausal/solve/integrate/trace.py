@@ -34,6 +34,7 @@ class Trace:
     methods: dict[str, int] = field(default_factory=dict)
     loosened: list[float] = field(default_factory=list)
     orders: list[str] = field(default_factory=list)
+    changes: list[str] = field(default_factory=list)
     rough: bool = False
 
     def emptied(self) -> Trace:

@@ -11,7 +11,6 @@ import numpy as np
 from acausal.errors import DeclarationError, SimulationError
 from acausal.policy import POLICY
 from acausal.result.tables import Columns, column_names, read_csv
-from acausal.simulation import METHODS
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
 from acausal.study.studies.formulation import Formulation
@@ -225,7 +224,7 @@ def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference
         name = "projection" if best.constraints == "states" else "states"
         other = measure([replace(best.case, constraints=name)])[0]
     else:
-        name = next(name for name in reversed(METHODS) if name != best.method)
+        name = "idas" if best.method == "rosenbrock" else "rosenbrock"
         other = measure([replace(best.case, method=name)])[0]
     if other.error:
         return replace(found, text=f"{found.text} (no check by {name}: {other.error})")
