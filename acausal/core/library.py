@@ -43,15 +43,18 @@ class RequestData(Structure):
         ("most", c_int64),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral")),
+        ("room", c_int32),
+        *((name, c_void_p) for name in ("step_time", "step_x")),
     )
 
 
 class Progress(Structure):
-    """Counts of an integration, written outputs, and the time that was reached."""
+    """Counts of an integration, written outputs, kept steps, and the time that was reached."""
 
     _fields_ = (
         *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
         ("written", c_int32),
+        ("kept", c_int32),
         ("time", c_double),
     )
 

@@ -141,6 +141,7 @@ class Rodas:
             raise MemoryError
         self.progress = Progress()
         self._request: tuple[object, ...] = ()
+        self._steps = np.empty(0), np.empty((0, equations.nx))
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
@@ -159,6 +160,7 @@ class Rodas:
         first_step: float = 0.0,
         smooth: np.ndarray | None = None,
         most: int = 2**62,
+        room: int = 0,
     ) -> Outputs:
         """Prepare an integration from the first of some times to the last; return what `go` fills.
 
@@ -178,6 +180,8 @@ class Rodas:
             States whose error leaves out vibrations that a step does not resolve.
         most : int, optional
             Steps between two outputs.
+        room : int, optional
+            Even number of steps that are kept, see `steps`.
         """
         e, n = self.equations, len(times) - 1
         found = Outputs(*(np.full((n, columns), np.nan) for columns in (e.nx, e.nz, 2)))
@@ -185,6 +189,8 @@ class Rodas:
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
         places = (array.ctypes.data for array in (times, found.x, found.z, found.integral))
+        steps = np.empty(room), np.empty((room, e.nx))
+        kept = (array.ctypes.data for array in steps)
         chosen = None if smooth is None else np.ascontiguousarray(smooth, dtype=np.int32)
         request = RequestData(
             tolerance,
@@ -194,9 +200,12 @@ class Rodas:
             most,
             n,
             *places,
+            room,
+            *kept,
         )
         # The library keeps the addresses of these.
         self._request = (times, size, chosen, found)
+        self._steps = steps
         self.progress = Progress()
         self._library.ac_rodas_begin(self._memory, byref(request), *(array.ctypes.data for array in (x, z, p, c)))
         return found
@@ -213,3 +222,9 @@ class Rodas:
         if end == End.MEMORY:
             raise MemoryError
         return end
+
+    @property
+    def steps(self) -> tuple[np.ndarray, np.ndarray]:
+        """Times and states at the ends of the steps that were kept: all, or evenly chosen ones where there were more."""
+        times, x = self._steps
+        return times[: self.progress.kept], x[: self.progress.kept]

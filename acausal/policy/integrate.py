@@ -48,7 +48,12 @@ class Rescue:
     # Steps for all outputs together before vibrations count as in the way; steps before a run counts as long.
     short: int = 40_000
     long: int = 100_000
+    # The same for the one-step method that follows them, times the root of the tolerance: its steps between two outputs
+    # grow more slowly with it, and who asks for more digits lets it follow more. On 400 outputs, at 1e-3, 1e-5, 1e-7: pendulum
+    # 0.1, 3, 65 of 5, 50, 500 steps; slider-crank 19, 150, 400.
+    following: float = 64.0
     # Steps for one output at least.
+    fewest_following: int = 5
     fewest_short: int = 100
     fewest_long: int = 1000
     # Parts of a run that failed in one call: at most 5 % are lost to the restarts.
@@ -78,6 +83,8 @@ class Calls:
     # Looks at the projection after a call cost about the cube of the number of constraints each: their sum, and bounds.
     work: float = 2e7
     looks: tuple[int, int] = (8, 100)
+    # Steps that are looked at for flat positions, at least and at most.
+    steps: tuple[int, int] = (64, 4096)
     # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may
     # leave; tolerances below the second come near it.
     rounding: float = 1e-14

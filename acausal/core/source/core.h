@@ -61,6 +61,8 @@ typedef struct {
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */
     double *x, *z, *integral;      /* (outputs, ...) what is found */
+    int32_t room;                  /* for steps that are kept, an even number */
+    double *step_time, *step_x;    /* (room, ...) ends of steps, evenly chosen where there are more */
 } ac_request;
 
 /* How it ended: more steps to do, too many between two outputs; steps too short for the tolerance, or for the equations to be solved. */
@@ -69,7 +71,7 @@ enum { AC_DONE, AC_MORE, AC_MANY, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
 /* Counts of one integration. */
 typedef struct {
     int64_t steps, refused, slopes, values, pivots;
-    int32_t written; /* outputs */
+    int32_t written, kept; /* outputs and steps */
     double time;     /* reached */
 } ac_progress;
 

@@ -3,7 +3,7 @@
      (M/(h gamma) - J) u_i = F(t + alpha_i h, y + sum a_ij u_j) + M sum (c_ij/h) u_j + h gamma_i F_t,  M = diag(1, 0). */
 #include "rodas5p.h"
 
-#include "core.h"
+#include "rodas.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,20 +15,6 @@
 #define MOST 6.0
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
-
-struct ac_rodas {
-    ac_equations of;
-    int32_t n, timely; /* unknowns; whether the equations depend on time */
-    ac_lu *lu;
-    double *block;                              /* all the memory */
-    double *values, *slopes, *powers;           /* arrays of the tapes */
-    double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
-    double t, h, gathered[2];
-    int64_t written_at; /* steps at the last output */
-    int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
-    ac_request request;
-    ac_progress progress;
-};
 
 static size_t length(const ac_tape *tape) {
     return tape ? (size_t)tape->constants + (size_t)tape->inputs + (size_t)tape->results + 1 : 0;
@@ -78,7 +64,7 @@ static void prepare(const ac_rodas *r, const ac_tape *tape, double *w, const dou
     ac_tape_run(tape, w, 0, tape->early);
 }
 
-static void evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t) {
+void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t) {
     memcpy(w + tape->constants, y, (size_t)r->n * sizeof *w);
     w[tape->constants + r->n] = t;
     ac_tape_run(tape, w, tape->early, tape->runs);
@@ -99,6 +85,7 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->refused = r->unsolved = 0;
     r->stale = 1;
     r->written_at = 0;
+    r->apart = 1;
 }
 
 /* Root mean square of changes of the states over tolerance (size + |x|). */
@@ -129,7 +116,7 @@ static const double *smoothed(ac_rodas *r, const double *change, double h) {
 static double first_step(ac_rodas *r) {
     const double span = r->request.time[r->request.outputs] - r->t;
     memcpy(r->next, r->y, (size_t)r->n * sizeof *r->y);
-    evaluate(r, r->of.values, r->values, r->y, r->t);
+    ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
     r->progress.values++;
     for (int32_t k = 0; k < r->of.nx; k++) r->stage[k] = r->values[r->of.values->output[k]];
     const double size = norm(r, r->y), rate = norm(r, r->stage);
@@ -159,7 +146,7 @@ static void stages(ac_rodas *r, double h) {
             for (int32_t k = 0; k < n; k++) r->stage[k] += a * before[k];
             for (int32_t k = 0; k < nx; k++) r->b[k] += c * before[k];
         }
-        evaluate(r, r->of.values, r->values, r->stage, r->t + ALPHA[i] * h);
+        ac_rodas_evaluate(r, r->of.values, r->values, r->stage, r->t + ALPHA[i] * h);
         for (int32_t k = 0; k < n; k++) u[k] = r->values[value[k]] + r->b[k];
         if (r->timely && GAMMAS[i] != 0) {
             const int32_t *slope = r->of.slopes->output + r->of.start[n];
@@ -173,55 +160,25 @@ static void stages(ac_rodas *r, double h) {
     r->progress.values += STAGES;
 }
 
-static void interpolate(const ac_rodas *r, double s, double *y) {
-    const double *d = r->dense;
-    const int32_t n = r->n;
-    for (int32_t k = 0; k < n; k++) {
-        y[k] = (1 - s) * r->y[k] + s * (r->next[k] + (1 - s) * (d[k] + s * (d[n + k] + s * d[2 * n + k])));
-    }
-}
-
-/* Integral of the powers over a part of the step: Lobatto's rule of order 6 on the interpolant. */
-static void gather(ac_rodas *r, double from, double to, double h) {
-    static const double WEIGHT[4] = {1. / 12, 5. / 12, 5. / 12, 1. / 12};
-    const double at[4] = {0, 0.5 - 0.5 / sqrt(5), 0.5 + 0.5 / sqrt(5), 1};
-    const ac_tape *tape = r->of.powers;
-    for (int k = 0; k < 4; k++) {
-        const double s = from + at[k] * (to - from);
-        interpolate(r, s, r->stage);
-        evaluate(r, tape, r->powers, r->stage, r->t + s * h);
-        for (int32_t j = 0; j < tape->outputs && j < 2; j++) {
-            r->gathered[j] += WEIGHT[k] * (to - from) * h * r->powers[tape->output[j]];
-        }
-    }
-}
-
-/* Write the outputs that lie in the step, and what was gathered up to them. */
-static void write(ac_rodas *r, double h, int last) {
+/* Keep a step, if they are asked for: every one, every second, fourth, ... where there is no room for all. */
+static void keep(ac_rodas *r) {
     const ac_request *q = &r->request;
-    const size_t nx = (size_t)r->of.nx, nz = (size_t)r->of.nz;
-    const int32_t n = r->n;
-    int32_t *written = &r->progress.written;
-    const int due = *written < q->outputs && (last || q->time[*written + 1] <= r->t + h);
-    if (!due && !r->of.powers) return;
-    for (int32_t j = 0; j < 3; j++) {
-        double *d = r->dense + (size_t)j * (size_t)n;
-        memset(d, 0, (size_t)n * sizeof *d);
-        for (int32_t i = 0; i < STAGES; i++) {
-            for (int32_t k = 0; k < n; k++) d[k] += H[j][i] * r->u[(size_t)i * (size_t)n + (size_t)k];
+    const size_t nx = (size_t)r->of.nx;
+    if (q->room < 2 || r->progress.steps % r->apart) return;
+    int32_t *kept = &r->progress.kept;
+    if (*kept == q->room) {
+        *kept /= 2;
+        for (int32_t k = 0; k < *kept; k++) {
+            const size_t from = 2 * (size_t)k + 1;
+            q->step_time[k] = q->step_time[from];
+            memcpy(q->step_x + (size_t)k * nx, q->step_x + from * nx, nx * sizeof(double));
         }
+        r->apart *= 2;
+        if (r->progress.steps % r->apart) return;
     }
-    double from = 0;
-    while (*written < q->outputs && (last || q->time[*written + 1] <= r->t + h)) {
-        const double s = fmin((q->time[*written + 1] - r->t) / h, 1);
-        if (r->of.powers) gather(r, from, s, h);
-        interpolate(r, from = s, r->stage);
-        if (nx) memcpy(q->x + (size_t)*written * nx, r->stage, nx * sizeof(double));
-        if (nz) memcpy(q->z + (size_t)*written * nz, r->stage + nx, nz * sizeof(double));
-        memcpy(q->integral + 2 * (size_t)*written, r->gathered, sizeof r->gathered);
-        ++*written;
-    }
-    if (r->of.powers && from < 1) gather(r, from, 1, h);
+    q->step_time[*kept] = r->t;
+    if (nx) memcpy(q->step_x + (size_t)*kept * nx, r->y, nx * sizeof(double));
+    ++*kept;
 }
 
 static int all_finite(const double *y, int32_t n) {
@@ -254,7 +211,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             break;
         }
         if (r->stale) {
-            evaluate(r, r->of.slopes, r->slopes, r->y, r->t);
+            ac_rodas_evaluate(r, r->of.slopes, r->slopes, r->y, r->t);
             r->progress.slopes++;
             r->stale = 0;
         }
@@ -277,7 +234,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             continue;
         }
         const int32_t written = r->progress.written;
-        write(r, h, last);
+        ac_rodas_write(r, h, last);
         if (r->progress.written > written) r->written_at = r->progress.steps;
         memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
         r->t = last ? end : r->t + h;
@@ -285,6 +242,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->refused = 0;
         r->progress.steps++;
         r->stale = 1;
+        keep(r);
     }
     int64_t counts[4];
     ac_lu_counts(r->lu, counts);

@@ -7,6 +7,7 @@ import numpy as np
 from acausal.compiler.core_equations import core_equations
 from acausal.core import End, Rodas
 from acausal.policy import POLICY
+from acausal.solve.integrate.flat import passes_flat, room
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import first_step, sizes
@@ -34,6 +35,7 @@ class ByCore(Integration):
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
         is_rate = np.zeros(problem.nx, dtype=np.int32)
         is_rate[[rate for _, rate in problem.rates]] = 1
+        self._room = room(problem) if problem.compiled.constraints.size and not damps else 0
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -41,6 +43,7 @@ class ByCore(Integration):
             tolerance=way.tolerance,
             first_step=first_step(request) * request.span,
             smooth=None if damps else is_rate,
+            room=self._room,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
         )
 
@@ -56,6 +59,19 @@ class ByCore(Integration):
         while end == End.MORE:
             end = self._rodas.go(self._at_once)
         return None if end == End.DONE else Refusal(REFUSALS[end], self._rodas.progress.time)
+
+    @property
+    def is_wary(self) -> bool:
+        """Whether another method is to integrate loops where this one is refused or passes flat positions."""
+        return self._room > 0
+
+    def passes_flat(self) -> bool:
+        """Return whether loops may have passed a flat position."""
+        at, (times, x) = self.request.at, self._rodas.steps
+        if not self.is_wary or not len(times):
+            return False
+        times, x = np.append(at.time, times), np.vstack([at.x, x])
+        return passes_flat(self.request.problem, times, x, at.constants)
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

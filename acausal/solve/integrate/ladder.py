@@ -55,6 +55,7 @@ class Kind(Enum):
     ERROR_TEST = "no step was short enough for the tolerance"
     ROUNDING = "the tolerance is smaller than rounding errors"
     WORN = "the coordinates that were chosen for the loops are no longer fit"
+    FLAT = "the loops pass a position in which their constraints are not independent"
     APART = "the loops came apart"
     UNSOLVABLE = "the equations have no solution there"
     OTHER = "no way to go on was found"
@@ -181,6 +182,8 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
             for method in reversed(rescues.methods)
             if (method, tolerance) != (way.method, way.tolerance)
         )
+    if refusal.kind is Kind.FLAT:
+        return (replace(way, method=rescues.after(way.method, refusal)),)
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
     if stuck or (refusal.kind is Kind.STEPS and rescues.damps):

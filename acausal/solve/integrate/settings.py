@@ -67,5 +67,9 @@ class Settings:
 
     def patience(self, way: Way, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""
-        n, rings = len(times) - 1, way.method != self.methods[-1] and self.may_ring(times)
-        return max(RESCUE.fewest_short, RESCUE.short // n) if rings else max(RESCUE.fewest_long, RESCUE.long // n)
+        n = len(times) - 1
+        if way.method == self.methods[-1] or not self.may_ring(times):
+            return max(RESCUE.fewest_long, RESCUE.long // n)
+        if way.method == "following":
+            return max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / n))
+        return max(RESCUE.fewest_short, RESCUE.short // n)

@@ -1,0 +1,25 @@
+/* What the parts of the one-step method share. */
+#ifndef ACAUSAL_RODAS_H
+#define ACAUSAL_RODAS_H
+
+#include "core.h"
+#include "rodas5p.h"
+
+struct ac_rodas {
+    ac_equations of;
+    int32_t n, timely; /* unknowns; whether the equations depend on time */
+    ac_lu *lu;
+    double *block;                              /* all the memory */
+    double *values, *slopes, *powers;           /* arrays of the tapes */
+    double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
+    double t, h, gathered[2];
+    int64_t written_at, apart; /* steps at the last output; between two that are kept */
+    int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
+    ac_request request;
+    ac_progress progress;
+};
+
+void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t);
+void ac_rodas_write(ac_rodas *r, double h, int last);
+
+#endif
