@@ -90,7 +90,7 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
     """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across."""
     a, b = cut.statement.a, cut.statement.b
     balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
-    side = next(group for group in graph.same if a in group)
+    side = _side(cut, balance, graph)
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
@@ -103,6 +103,24 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
         found.add(statement, origin)
         for k, entry in enumerate(scalars(as_expr(dual).sx)):
             found.closures.append(Closure(row + k, entry, cut, number))
+
+
+def _side(cut: Cut, balance: tuple[tuple[Connector, int], ...], graph: Graph) -> list[Connector]:
+    """Connectors on the first end's side of a cut: what this cut alone would part, were the other cuts closed."""
+    ends = {id(c) for c, _ in balance}
+    others = [c.statement for c in graph.cuts if c is not cut and {id(c.statement.a), id(c.statement.b)} <= ends]
+    ways = [*((s.a, s.b) for s in others), *((s.b, s.a) for s in others)]
+    side, beyond = (list(_group(end, graph)) for end in (cut.statement.a, cut.statement.b))
+    for connector in side:
+        for near, far in ways:
+            if near is connector and not any(far is c for c in (*side, *beyond)):
+                side += _group(far, graph)
+    return side
+
+
+def _group(connector: Connector, graph: Graph) -> tuple[Connector, ...]:
+    """Connectors whose potentials are those of one."""
+    return next(group for group in graph.same if connector in group)
 
 
 def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:
