@@ -103,6 +103,8 @@ def test_loops_closed_at_one_point_whichever_end_comes_first():
     straight, turned = (ac.simulate(Shared(turned=turned), stop_time=0.5, intervals=5) for turned in (False, True))
     for name in ("bearing.phi", "bearing.frame_b.f", "dyads[0].frame_a.f", "dyads[1].frame_a.f", "dyads[2].end.phi"):
         np.testing.assert_allclose(straight[name], turned[name], atol=1e-4)
+    for result in (straight, turned):
+        assert [loop["kind"] for loop in result.stats["loops"]] == ["planar loop"] * 3
 
 
 class Inclined(Model):
