@@ -94,11 +94,11 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
     a, b = cut.statement.a, cut.statement.b
     balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
     cuts = [(c.statement.a, c.statement.b) for c in graph.cuts]
-    here = {c for c, _ in balance}
-    others = [ends for ends in cuts if here.issuperset(ends) and ends != (a, b)]
+    here = {id(c) for c, _ in balance}
+    others = [ends for ends in cuts if here.issuperset(map(id, ends)) and ends != (a, b)]
     ways = [*others, *((second, first) for first, second in others)]
     sides = ((_side(a, b, ways, graph), 1), (_side(b, a, ways, graph), -1))
-    across = min(([(c, sign * sense) for c, sign in balance if c in side] for side, sense in sides), key=len)
+    across = min(([(c, sign * sense) for c, sign in balance if id(c) in side] for side, sense in sides), key=len)
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
@@ -113,14 +113,14 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
             found.closures.append(Closure(row + k, entry, cut, number))
 
 
-def _side(end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], graph: Graph) -> set[Connector]:
-    """Connectors on one end's side of a cut: what this cut alone would part, were the other cuts, the ways, closed."""
+def _side(end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], graph: Graph) -> set[int]:
+    """Identities of the connectors on one end's side of a cut, where the other cuts of its connection, `ways`, are closed."""
     side, other = list(_group(end, graph)), _group(beyond, graph)
     for connector in side:
         for near, far in ways:
             if near is connector and far not in (*side, *other):
                 side += _group(far, graph)
-    return set(side)
+    return {id(c) for c in side}
 
 
 def _group(connector: Connector, graph: Graph) -> tuple[Connector, ...]:
