@@ -87,14 +87,22 @@ def collect_initial(components: list[Component], most: int) -> Equations:
 
 
 def _close(cut: Cut, graph: Graph, found: Equations) -> None:
-    """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across."""
+    """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across.
+
+    Of both sides, the one with fewer flows tells.
+    """
     a, b = cut.statement.a, cut.statement.b
     balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
-    side = next(group for group in graph.same if a in group)
+    cuts = [(c.statement.a, c.statement.b) for c in graph.cuts]
+    here = {id(c) for c, _ in balance}
+    others = [ends for ends in cuts if here.issuperset(map(id, ends)) and ends != (a, b)]
+    ways = [*others, *((second, first) for first, second in others)]
+    sides = ((_side(a, b, ways, graph), 1), (_side(b, a, ways, graph), -1))
+    across = min(([(c, sign * sense) for c, sign in balance if id(c) in side] for side, sense in sides), key=len)
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
-            flows = [getattr(c, name) * sign for c, sign in balance if c in side]
+            flows = [getattr(c, name) * sign for c, sign in across]
             vars(sent)[name] = sum(flows[1:], flows[0])
     origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
     for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
@@ -103,6 +111,21 @@ def _close(cut: Cut, graph: Graph, found: Equations) -> None:
         found.add(statement, origin)
         for k, entry in enumerate(scalars(as_expr(dual).sx)):
             found.closures.append(Closure(row + k, entry, cut, number))
+
+
+def _side(end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], graph: Graph) -> set[int]:
+    """Identities of the connectors on one end's side of a cut, where the other cuts of its connection, `ways`, are closed."""
+    side, other = list(_group(end, graph)), _group(beyond, graph)
+    for connector in side:
+        for near, far in ways:
+            if near is connector and far not in (*side, *other):
+                side += _group(far, graph)
+    return {id(c) for c in side}
+
+
+def _group(connector: Connector, graph: Graph) -> tuple[Connector, ...]:
+    """Connectors whose potentials are those of one."""
+    return next(group for group in graph.same if connector in group)
 
 
 def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:

@@ -232,7 +232,9 @@ class Course:
         after = crossing.after
         out = after.value <= 0
         width = self.instants.width(at)
-        self.weak = self.weak + 1 if np.all(crossing.peak[out] <= width[out]) else 0
+        # An event at an output may be found only from there on: what the legs before it have shown counts as well.
+        peak, self.locator.passed = np.maximum(crossing.peak, self.locator.passed), 0.0
+        self.weak = self.weak + 1 if np.all(peak[out] <= width[out]) else 0
         delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), np.finfo(float).tiny), initial=np.inf)
         snap = min(float(delay), POLICY.locate.snap * self.instants.span / (len(self.times) - 1))
         times = np.array([*self.times, *self.breaks])

@@ -61,11 +61,17 @@ class Locator:
         Integrates from any point.
     instants : Instants
         Watched conditions.
+
+    Attributes
+    ----------
+    passed : array or float
+        Greatest values along the legs without a change since the last one; whoever applies a change begins anew with 0.
     """
 
     def __init__(self, integrator: Integrator, instants: Instants) -> None:
         self.integrator, self.instants = integrator, instants
         self.shortest = LOCATE.shortest * instants.span
+        self.passed: np.ndarray | float = 0.0
 
     def first(self, at: Point, leg: Leg, depth: int = 0, content: bool = False) -> Crossing | None:
         """Return the first change after `at` along a leg that begins there.
@@ -132,6 +138,8 @@ class Locator:
             if inner:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
         if end == len(out):
+            if depth == 0:
+                self.passed = np.maximum(self.passed, peak[-1])
             return None
         return self._narrow(at, samples[end], samples[end + 1], LOCATE.level * width, peak[end])
 

@@ -205,6 +205,23 @@ def test_all_crossings_of_an_oscillation_much_faster_than_the_outputs():
     np.testing.assert_allclose(result.stats["event_times"], (np.arange(40) + 0.5) / 40, atol=1e-5)
 
 
+class Sawtooth(Model):
+    """Rises at rate 1 and falls to 0 at every second."""
+
+    x: Scalar = variable("x", start=0, fixed=True)
+    n: Scalar = discrete("number of falls")
+
+    def equations(self):
+        yield der(self.x) == 1
+        yield when(self.x > 1, reinit(self.x, 0), reinit(self.n, self.n + 1))
+
+
+def test_many_events_that_are_all_at_outputs():
+    result = ac.simulate(Sawtooth(), stop_time=150, intervals=150)
+    assert result["n"][-2] == 149
+    np.testing.assert_allclose(result.stats["event_times"][:149], np.arange(1, 150), atol=1e-6)
+
+
 class Pair(Model):
     first = Ball()
     second = Ball(e=0.7)

@@ -1,0 +1,1 @@
+"""Scenes with events, and what each event costs."""
