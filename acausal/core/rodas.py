@@ -181,7 +181,7 @@ class Rodas:
         most : int, optional
             Steps between two outputs.
         room : int, optional
-            Even number of steps that are kept, see `steps`.
+            Most steps that are kept, see `steps`.
         """
         e, n = self.equations, len(times) - 1
         found = Outputs(*(np.full((n, columns), np.nan) for columns in (e.nx, e.nz, 2)))
@@ -225,6 +225,6 @@ class Rodas:
 
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Times and states at the ends of the steps that were kept: all, or evenly chosen ones where there were more."""
+        """Times and states at the ends of the first steps since it was last told to go on."""
         times, x = self._steps
         return times[: self.progress.kept], x[: self.progress.kept]

@@ -83,8 +83,8 @@ class Calls:
     # Looks at the projection after a call cost about the cube of the number of constraints each: their sum, and bounds.
     work: float = 2e7
     looks: tuple[int, int] = (8, 100)
-    # Steps that are looked at for flat positions, at least and at most.
-    steps: tuple[int, int] = (64, 4096)
+    # Steps after which loops are looked at for flat positions: a few turns.
+    steps: int = 64
     # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may
     # leave; tolerances below the second come near it.
     rounding: float = 1e-14

@@ -61,8 +61,8 @@ typedef struct {
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */
     double *x, *z, *integral;      /* (outputs, ...) what is found */
-    int32_t room;                  /* for steps that are kept, an even number */
-    double *step_time, *step_x;    /* (room, ...) ends of steps, evenly chosen where there are more */
+    int32_t room;                  /* for steps that are kept */
+    double *step_time, *step_x;    /* (room, ...) ends of the first steps since one was told to go on */
 } ac_request;
 
 /* How it ended: more steps to do, too many between two outputs; steps too short for the tolerance, or for the equations to be solved. */

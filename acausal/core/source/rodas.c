@@ -85,7 +85,6 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->refused = r->unsolved = 0;
     r->stale = 1;
     r->written_at = 0;
-    r->apart = 1;
 }
 
 /* Root mean square of changes of the states over tolerance (size + |x|). */
@@ -160,25 +159,14 @@ static void stages(ac_rodas *r, double h) {
     r->progress.values += STAGES;
 }
 
-/* Keep a step, if they are asked for: every one, every second, fourth, ... where there is no room for all. */
+/* Keep where a step ended. */
 static void keep(ac_rodas *r) {
     const ac_request *q = &r->request;
     const size_t nx = (size_t)r->of.nx;
-    if (q->room < 2 || r->progress.steps % r->apart) return;
-    int32_t *kept = &r->progress.kept;
-    if (*kept == q->room) {
-        *kept /= 2;
-        for (int32_t k = 0; k < *kept; k++) {
-            const size_t from = 2 * (size_t)k + 1;
-            q->step_time[k] = q->step_time[from];
-            memcpy(q->step_x + (size_t)k * nx, q->step_x + from * nx, nx * sizeof(double));
-        }
-        r->apart *= 2;
-        if (r->progress.steps % r->apart) return;
-    }
-    q->step_time[*kept] = r->t;
-    if (nx) memcpy(q->step_x + (size_t)*kept * nx, r->y, nx * sizeof(double));
-    ++*kept;
+    if (r->progress.kept == q->room) return;
+    q->step_time[r->progress.kept] = r->t;
+    if (nx) memcpy(q->step_x + (size_t)r->progress.kept * nx, r->y, nx * sizeof(double));
+    r->progress.kept++;
 }
 
 static int all_finite(const double *y, int32_t n) {
@@ -193,6 +181,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
     const double end = r->request.time[r->request.outputs];
     int32_t found = AC_DONE;
     const int64_t most = r->progress.steps + r->progress.refused + steps;
+    r->progress.kept = 0;
     if (!(r->h > 0)) r->h = first_step(r);
     while (r->progress.written < r->request.outputs) {
         if (r->progress.steps + r->progress.refused >= most) {

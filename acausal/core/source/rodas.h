@@ -13,7 +13,7 @@ struct ac_rodas {
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
     double t, h, gathered[2];
-    int64_t written_at, apart; /* steps at the last output; between two that are kept */
+    int64_t written_at; /* steps at the last output */
     int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
     ac_request request;
     ac_progress progress;

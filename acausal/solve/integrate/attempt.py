@@ -143,10 +143,8 @@ class Integrator:
         refusal = integration.go()
         trace.seconds += clock.perf_counter() - started
         steps = trace.count(way.method, *integration.counts)
-        if refusal and (refusal.kind is Kind.STEPS or not integration.is_wary):
+        if refusal:
             return refusal
-        if refusal or integration.passes_flat():
-            return Refusal(Kind.FLAT, at.time)
         found = integration.leg()
         if self._is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler.core_equations import core_equations
 from acausal.core import End, Rodas
 from acausal.policy import POLICY
-from acausal.solve.integrate.flat import passes_flat, room
+from acausal.solve.integrate.flat import passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import first_step, sizes
@@ -25,7 +25,7 @@ class ByCore(Integration):
         What it is asked for.
     damps : bool
         Whether it sees rates only as far as they change coordinates, see `sizes`; else errors of rates count, but for
-        vibrations that its steps do not resolve.
+        vibrations that its steps do not resolve. Then, loops that may pass a flat position are left to another method.
     """
 
     def __init__(self, request: Request, damps: bool) -> None:
@@ -35,7 +35,8 @@ class ByCore(Integration):
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
         is_rate = np.zeros(problem.nx, dtype=np.int32)
         is_rate[[rate for _, rate in problem.rates]] = 1
-        self._room = room(problem) if problem.compiled.constraints.size and not damps else 0
+        self._wary = bool(problem.compiled.constraints.size) and not damps
+        self._last = np.array([at.time]), at.x[None]
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -43,7 +44,7 @@ class ByCore(Integration):
             tolerance=way.tolerance,
             first_step=first_step(request) * request.span,
             smooth=None if damps else is_rate,
-            room=self._room,
+            room=POLICY.calls.steps if self._wary else 0,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
         )
 
@@ -55,23 +56,20 @@ class ByCore(Integration):
 
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
-        end = End.MORE
+        end, at_once = End.MORE, min(self._at_once, POLICY.calls.steps) if self._wary else self._at_once
         while end == End.MORE:
-            end = self._rodas.go(self._at_once)
+            end = self._rodas.go(at_once)
+            if self._wary and self._passed_flat():
+                return Refusal(Kind.FLAT, self._rodas.progress.time)
+        if self._wary and self.request.way.moves and end in (End.SHORT, End.UNSOLVED):
+            return Refusal(Kind.FLAT, self._rodas.progress.time)
         return None if end == End.DONE else Refusal(REFUSALS[end], self._rodas.progress.time)
 
-    @property
-    def is_wary(self) -> bool:
-        """Whether another method is to integrate loops where this one is refused or passes flat positions."""
-        return self._room > 0
-
-    def passes_flat(self) -> bool:
-        """Return whether loops may have passed a flat position."""
-        at, (times, x) = self.request.at, self._rodas.steps
-        if not self.is_wary or not len(times):
-            return False
-        times, x = np.append(at.time, times), np.vstack([at.x, x])
-        return passes_flat(self.request.problem, times, x, at.constants)
+    def _passed_flat(self) -> bool:
+        """Whether loops may have passed a flat position in the last steps."""
+        times, x = (np.concatenate([last, now]) for last, now in zip(self._last, self._rodas.steps, strict=True))
+        self._last = times[-1:], x[-1:]
+        return passes_flat(self.request.problem, times, x, self.request.at.constants)
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

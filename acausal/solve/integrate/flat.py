@@ -5,14 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.policy import POLICY
 from acausal.solve.problem import Problem
-
-
-def room(problem: Problem) -> int:
-    """Return how many steps are looked at: an even number, as they cost about the cube of the number of constraints."""
-    size = problem.compiled.constraints.size
-    return 2 * int(np.clip(POLICY.calls.work / max(size, 1) ** 3, *POLICY.calls.steps) / 2)
 
 
 def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:

@@ -75,15 +75,6 @@ class Integration(ABC):
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
 
-    @property
-    def is_wary(self) -> bool:
-        """Whether another method is to integrate loops where this one is refused or passes flat positions."""
-        return False
-
-    def passes_flat(self) -> bool:
-        """Return whether loops may have passed a flat position."""
-        return False
-
     @abstractmethod
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

@@ -160,7 +160,7 @@ class Rescues:
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     """Return the ways to try after a refused one, in this order; none if only shorter legs are left.
 
-    A quick way gives place to the projection that moves where the chosen states became unfit, and to the next method, which
+    Flat positions of loops are left to the next method, which begins with chosen states. A quick way gives place to the projection that moves where the chosen states became unfit, and to the next method, which
     damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What comes
     after a careful way are the other methods, then longer steps.
 
@@ -183,7 +183,7 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
             if (method, tolerance) != (way.method, way.tolerance)
         )
     if refusal.kind is Kind.FLAT:
-        return (replace(way, method=rescues.after(way.method, refusal)),)
+        return (replace(way, method=rescues.after(way.method, refusal), moves=way.moves and not rescues.projects),)
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
     if stuck or (refusal.kind is Kind.STEPS and rescues.damps):

@@ -1,7 +1,8 @@
 """The one-step method: L-stable, of order 5; on the core, or CasADi's where that is missing.
 
 Where it damps, it sees rates only as far as they change coordinates: their size in the error test is that of the
-coordinate times the fastest eigenvalue that oscillates. Vibrations too small to be seen in the coordinates are then damped instead of followed.
+coordinate times the fastest eigenvalue that oscillates. Vibrations too small to be seen in the coordinates are then
+damped instead of followed.
 """
 
 from __future__ import annotations

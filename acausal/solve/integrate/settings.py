@@ -55,7 +55,9 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        return Way(self.methods[0], self.constraints == "projection", self.tolerance, RESCUE.long, self.max_order)
+        # Steps of the one-step method are long, and the states that are chosen once wear out.
+        moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] == "following")
+        return Way(self.methods[0], moves, self.tolerance, RESCUE.long, self.max_order)
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""

@@ -104,3 +104,18 @@ def test_a_refusal_that_nothing_mends_is_a_failure():
         accepted(Refusal(Kind.OTHER, 1.5))
     assert raised.value.time == 1.5
     assert accepted("a leg") == "a leg"
+
+
+def test_flat_positions_are_left_to_the_next_method_with_chosen_states():
+    three, way = (
+        replace(AUTO, methods=("following", "idas", "rosenbrock")),
+        replace(QUICK, method="following", moves=True),
+    )
+    assert next_ways(way, Refusal(Kind.FLAT, 0.5), three) == (replace(way, method="idas", moves=False),)
+    projects = replace(three, projects=False)
+    assert next_ways(way, Refusal(Kind.FLAT, 0.5), projects) == (replace(way, method="idas"),)
+
+
+def test_too_many_steps_lead_to_the_method_that_damps():
+    three, way = replace(AUTO, methods=("following", "idas", "rosenbrock")), replace(QUICK, method="following")
+    assert next_ways(way, Refusal(Kind.STEPS, 0.5), three) == (replace(way, method="rosenbrock"),)
