@@ -102,7 +102,7 @@ def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX)
 
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
-    return make_tape(ca.Function(name, list(arguments), [ca.densify(ca.cse(column))]), early=(3, 4))
+    return make_tape(ca.Function(name, list(arguments), [ca.densify(column)]), early=(3, 4))
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import ctypes
 from collections import deque
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import copysign
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -110,7 +112,7 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
     early : collection of int
         Arguments that change rarely: what follows from them alone stands in front.
     """
-    read = read_instructions(function)
+    read = _merged(read_instructions(function))
     sizes = tuple(function.nnz_in(k) for k in range(function.n_in()))
     starts = np.cumsum([0, *sizes])
     constant_places = [node for node, op in enumerate(read.op) if op == ca.OP_CONST]
@@ -132,6 +134,27 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
         early_runs,
         tuple(seats[nodes].astype(np.int32) for nodes in read.results),
     )
+
+
+def _merged(read: Instructions) -> Instructions:
+    """Return the operations without those that do the same to the same (value numbering)."""
+    place: list[int] = []
+    known: dict[Any, int] = {}
+    found = Instructions([], [], [], {}, [])
+    for node, (op, arguments, constant) in enumerate(zip(read.op, read.arguments, read.constant, strict=True)):
+        own = tuple(place[k] for k in arguments)
+        # Zeros of both signs are equal.
+        key = op, own or read.place.get(node, (constant, copysign(1.0, constant)))
+        here = known.setdefault(key, len(found.op))
+        place.append(here)
+        if here < len(found.op):
+            continue
+        if node in read.place:
+            found.place[here] = read.place[node]
+        found.op.append(op)
+        found.arguments.append(own)
+        found.constant.append(constant)
+    return replace(found, results=[[place[node] for node in nodes] for nodes in read.results])
 
 
 def _grouped(read: Instructions, early: set[int]) -> tuple[list[int], list[int], list[int], int]:

@@ -160,9 +160,10 @@ class Rescues:
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     """Return the ways to try after a refused one, in this order; none if only shorter legs are left.
 
-    Flat positions of loops are left to the next method, which begins with chosen states. A quick way gives place to the projection that moves where the chosen states became unfit, and to the next method, which
-    damps vibrations and, without a Newton iteration, gets past positions where the equations are singular. What comes
-    after a careful way are the other methods, then longer steps.
+    Flat positions of loops are left to the next method, which begins with chosen states. A quick way gives place to the
+    projection that moves where the chosen states became unfit, and to the next method, which damps vibrations and, without a
+    Newton iteration, gets past positions where the equations are singular. What comes after a careful way are the other
+    methods, then longer steps.
 
     Parameters
     ----------
