@@ -63,10 +63,10 @@ def simulate(
         Whether states without a condition at the start are refused, take their guesses, or take values at which all
         derivatives vanish. Default "fixed".
     method : "auto", "idas", "rosenbrock" or "resolve"
-        "idas" is a multistep method whose error test sees every velocity; "resolve" is another name for it, and follows
-        every vibration. "rosenbrock" is a one-step method that damps vibrations too small to be seen in positions. "auto"
-        begins with the first, and takes the other where vibrations faster than the outputs take more steps than the
-        motion. Default "auto".
+        "idas" is SUNDIALS' multistep method, whose error test sees every velocity; "resolve" is another name for it, and
+        follows every vibration. "rosenbrock" is a one-step method of order 5 that damps vibrations too small to be seen in
+        positions. "auto" lets the one-step method follow them, damps them where vibrations faster than the outputs take
+        more steps than the motion, and takes IDAS where loops pass flat positions (docs/ringing.md). Default "auto".
     constraints : "auto", "states" or "projection"
         How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
         and again where the pivots fall; "projection" integrates all of them and projects. "auto" begins with states, and
