@@ -45,6 +45,7 @@ def test_defaults_break_where_the_torque_does_and_cost_little(tolerance: float) 
     assert abs(stats["energy_method"]) < 1e-3 * stats["energy_supplied"]
     assert abs(stats["energy_dissipated"]) < 1e-12
     assert "rosenbrock" in stats["method"]
+    assert stats["damped"]
     assert stats["steps"] < 4000
 
 

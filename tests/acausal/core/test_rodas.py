@@ -51,11 +51,11 @@ class Found:
     progress: Progress
 
 
-def integrated(rodas: Rodas, times, *given, at_once=1_000_000, most=1_000_000, **options) -> Found:
+def integrated(rodas: Rodas, times, *given, at_once=1_000_000, total=1_000_000, **options) -> Found:
     outputs, end = rodas.begin(times, *given, **options), End.MORE
-    while end == End.MORE and most > 0:
-        end = rodas.go(min(at_once, most))
-        most -= at_once
+    while end == End.MORE and total > 0:
+        end = rodas.go(min(at_once, total))
+        total -= at_once
     n = rodas.progress.written
     return Found(outputs.x[:n], outputs.z[:n], outputs.integral[:n], end, rodas.progress)
 
@@ -144,7 +144,7 @@ def test_what_cannot_be_integrated_says_how_far_it_came():
     assert no_value.progress.time == pytest.approx(0.5, abs=1e-2)
     undetermined = equations(lambda x, z, t, p: z, lambda x, z, t, p: p * z, nz=1)
     assert integrate(undetermined, np.array([0, 1.0]), [0], [0], p=[0]).end == End.UNSOLVED
-    few = integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9, most=5)
+    few = integrate(known(), TIMES, [0, 1], [0], tolerance=1e-9, total=5)
     assert few.end == End.MORE
     assert few.progress.steps + few.progress.refused == 5
 
@@ -160,3 +160,49 @@ def test_without_states_and_without_outputs():
 def test_arguments_that_do_not_fit_are_refused():
     with pytest.raises(ValueError, match="do not fit"):
         integrate(known(), TIMES, [0], [0])
+
+
+def vibration(amplitude: float, **options) -> Found:
+    """A motion, cos t, and beside it a vibration of 1000 rad/s."""
+
+    def ode(x, z, t, p):
+        return ca.vertcat(x[1], -ca.cos(t), x[3], -(p**2) * x[2])
+
+    e = equations(ode, nx=4)
+    given = (np.array(v, dtype=float) for v in ([1, 0, amplitude, 0], [], [1e3], []))
+    return integrated(Rodas(e), np.array([0, 1.0]), *given, size=np.ones(4), tolerance=1e-3, first_step=1e-3, **options)
+
+
+def test_errors_of_rates_leave_out_what_steps_do_not_resolve():
+    rates = np.array([0, 1, 0, 1])
+    plain, smooth = vibration(3e-5), vibration(3e-5, smooth=rates)
+    assert smooth.progress.steps < 0.7 * plain.progress.steps
+    for found in (plain, smooth):
+        assert found.x[-1, :2] == pytest.approx([np.cos(1.0), -np.sin(1.0)], abs=1e-5)
+        assert abs(found.x[-1, 2]) < 3e-5
+    # What positions show is followed all the same.
+    large = [vibration(0.1, smooth=smooth) for smooth in (None, rates)]
+    assert large[1].progress.steps > 0.9 * large[0].progress.steps
+    assert large[1].x[-1, 2] == pytest.approx(0.1 * np.cos(1e3), abs=1e-2)
+
+
+def test_steps_between_two_outputs_are_limited():
+    whole = vibration(1e-4)
+    found = vibration(1e-4, most=20)
+    assert (found.end, found.progress.steps) == (End.MANY, 20)
+    assert vibration(1e-4, most=whole.progress.steps).end == End.DONE
+
+
+def test_steps_are_kept():
+    e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
+    rodas = Rodas(e)
+    rodas.begin(TIMES, *given, size=np.ones(2), tolerance=1e-9, room=8)
+    times, end = [], End.MORE
+    while end == End.MORE:
+        end = rodas.go(8)
+        own, x = rodas.steps
+        times += own.tolist()
+        np.testing.assert_allclose(x, solution(own)[:, :2], atol=1e-7)
+    assert len(times) == rodas.progress.steps
+    assert np.all(np.diff(times) > 0)
+    assert times[-1] == TIMES[-1]

@@ -1,0 +1,92 @@
+"""Which method a run takes, and why."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model, Scalar, der, fixed, output, variable
+from acausal.core import library
+from acausal.solve.integrate.methods import METHODS, chosen, why_first
+from models import NFourBar
+
+CORE = pytest.mark.skipif(library() is None, reason="needs the core")
+
+
+class Spring(Model):
+    x: Scalar = output("displacement")
+    v: Scalar = variable("its rate")
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == -self.x
+
+
+def spring(**options):
+    return ac.simulate(Spring(x=fixed(1.0), v=fixed(0.0)), stop_time=10.0, intervals=20, **options)
+
+
+@CORE
+def test_auto_begins_with_the_one_step_method():
+    stats = spring(tolerance=1e-8).stats
+    assert (stats.method, stats.damped) == ("rosenbrock", False)
+    assert stats.method_steps == {"rosenbrock": stats.steps}
+    assert "less time" in stats.method_reason
+
+
+@pytest.mark.parametrize(
+    ("options", "method", "reason"),
+    [
+        ({"method": "idas"}, "idas", "given"),
+        ({"method": "resolve"}, "idas", "given"),
+        ({"method": "rosenbrock"}, "rosenbrock", "given"),
+        ({"max_order": 3}, "idas", "order has a limit"),
+    ],
+)
+def test_what_is_asked_for_is_taken(options, method, reason):
+    stats = spring(**options).stats
+    assert stats.method == method
+    assert reason in stats.method_reason
+    assert stats.damped == (method == "rosenbrock")
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_errors_follow_the_tolerance(method, tolerance):
+    result = spring(method=method, tolerance=tolerance)
+    assert np.max(np.abs(result["x"] - np.cos(result.time))) < 100 * tolerance
+
+
+@CORE
+def test_flat_positions_are_left_to_idas():
+    stats = ac.simulate(NFourBar(), stop_time=2.0, tolerance=1e-5).stats
+    assert stats.method == "rosenbrock and idas"
+    assert stats.method_steps["idas"] > 0
+    assert "constraints are not independent" in stats.method_reason
+
+
+class Fast(Spring):
+    """1600 periods in a second."""
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == -1e8 * self.x
+
+
+@CORE
+def test_too_many_vibrations_are_damped_unless_digits_are_asked_for():
+    compiled = ac.compile(Fast(x=fixed(1.0), v=fixed(0.0)))
+    loose, fine = (ac.simulate(compiled, stop_time=1.0, tolerance=t, intervals=5).stats for t in (1e-4, 1e-9))
+    assert (loose.damped, fine.damped) == (True, False)
+    assert "damps vibrations" in loose.method_reason
+
+
+def test_without_the_core_idas_is_first(monkeypatch):
+    for place in ("library", "why_not"):
+        monkeypatch.setattr(f"acausal.solve.integrate.methods.{place}", lambda: None)
+    monkeypatch.setattr("acausal.solve.integrate.methods.why_not", lambda: "it was not built")
+    assert chosen("auto") == ("idas", "rosenbrock")
+    assert "it was not built" in why_first("auto", None)
+    assert [METHODS[name].damps for name in chosen("auto")] == [False, True]
+    assert spring(method="rosenbrock", tolerance=1e-6)["x"][-1] == pytest.approx(np.cos(10.0), abs=1e-4)
