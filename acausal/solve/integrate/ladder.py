@@ -184,7 +184,8 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
             if (method, tolerance) != (way.method, way.tolerance)
         )
     if refusal.kind is Kind.FLAT:
-        return (replace(way, method=rescues.after(way.method, refusal), moves=way.moves and not rescues.projects),)
+        other = replace(way, method=rescues.after(way.method, refusal), moves=way.moves and not rescues.projects)
+        return () if other.method == way.method else (other,)
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     stuck = refusal.kind is Kind.CORRECTOR and changed == way
     if stuck or (refusal.kind is Kind.STEPS and rescues.damps):
