@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.alike import Alike
 from acausal.flatten.graph import Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
@@ -56,11 +57,11 @@ class Equations:
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph, most: int) -> Equations:
+def collect(components: list[Component], graph: Graph, most: int, alike: Alike) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, "equations", found, most)
+        _run(component, "equations", found, most, alike)
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
@@ -70,7 +71,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
                 )
                 PENDING.get().place(origin)
     for connector in graph.roots:
-        _run(connector, "root_equations", found, most)
+        _run(connector, "root_equations", found, most, alike)
     for cut in graph.cuts:
         _close(cut, graph, found)
     for balance in graph.balances:
@@ -78,11 +79,11 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
     return found
 
 
-def collect_initial(components: list[Component], most: int) -> Equations:
+def collect_initial(components: list[Component], most: int, alike: Alike) -> Equations:
     """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, "initial_equations", found, most)
+        _run(component, "initial_equations", found, most, alike)
     return found
 
 
@@ -120,8 +121,8 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
                 found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, method: str, found: Equations, most: int) -> None:
-    for statement, origin in stated(component, method, most):
+def _run(component: Component, method: str, found: Equations, most: int, alike: Alike) -> None:
+    for statement, origin in alike.hear(component, method, lambda c: stated(c, method, most)):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))

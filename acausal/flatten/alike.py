@@ -1,0 +1,254 @@
+"""Hear components that are alike once, and write what they state in the symbols of each.
+
+Components are alike if they have one class, equal structural values and constants, and share symbols among their fields
+in the same places. One of them states its equations in symbols of no model; as a function of these, which CasADi writes
+out, the statements are those of each of the others. What depends on more than fields is heard from each: what requests
+switches or jumps, and what is wrong, so that messages are those of the component itself.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import AcausalError
+from acausal.flatten.origin import Origin
+from acausal.flatten.tree import walk
+from acausal.language import fields as f
+from acausal.language.component import Component, Connector
+from acausal.language.expression import Equation, Expr
+from acausal.language.functions import PENDING, Pending
+from acausal.symbols import scalars, stacked, vec
+
+FEWEST = 4  # alike components for which preparing a function pays
+ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are no values of a component
+Stated = tuple[Any, Origin]
+Hear = Callable[[Component], Iterable[Stated]]
+
+
+@dataclass(frozen=True)
+class _Look:
+    """What a component is like, and its own symbols in the places that alike components have in common.
+
+    Parameters
+    ----------
+    key : hashable
+        Equal for components that are alike.
+    variables : list of Expr
+        Of the component and its parts.
+    entries : list of casadi.SX
+        Entries of its parameters that are no numbers, each once.
+    """
+
+    key: Hashable
+    variables: list[Expr]
+    entries: list[ca.SX]
+
+    def symbols(self) -> list[ca.SX]:
+        """Arguments of the function of what alike components state."""
+        return [*[v.sx for v in self.variables], stacked(self.entries)]
+
+
+@dataclass(frozen=True)
+class _Template:
+    """What alike components state, as a function of their symbols, of derivatives and of symbols common to all."""
+
+    stated: list[tuple[type, int, Origin]]
+    shapes: list[tuple[int, int]]
+    common: ca.SX
+    function: ca.Function
+
+    def of(self, component: Component, look: _Look) -> Iterator[Stated]:
+        """Yield what a component states."""
+        derivatives = [ca.SX.sym("der", *shape) for shape in self.shapes]
+        found = iter(self.function.call([*look.symbols(), *derivatives, self.common]))
+        PENDING.get().derivatives += [(d, next(found)) for d in derivatives]
+        for kind, size, origin in self.stated:
+            yield _joined(kind, [Expr(next(found)) for _ in range(size)]), replace(origin, path=component._path)
+
+
+class Alike:
+    """Components of a model by what they are like.
+
+    Parameters
+    ----------
+    components : iterable of Component
+        Bound, with their variables, each once.
+    """
+
+    def __init__(self, components: Iterable[Component]) -> None:
+        components = list(components)
+        classes = Counter(map(type, components))
+        self._common: dict[int, dict[int, Hashable]] = {}
+        looks = {id(c): look for c in components if classes[type(c)] >= FEWEST and (look := self._look(c)) is not None}
+        keys = Counter(look.key for look in looks.values())
+        self._looks = {c: look for c, look in looks.items() if keys[look.key] >= FEWEST}
+        self._templates: dict[tuple[str, Hashable], _Template | None] = {}
+
+    def hear(self, component: Component, method: str, hear: Hear) -> Iterable[Stated]:
+        """Return what a component states in a method, with the place of each statement.
+
+        Parameters
+        ----------
+        component : Component
+            Bound, with its variables.
+        method : str
+            The method.
+        hear : callable
+            Runs the method of a component.
+        """
+        look = self._looks.get(id(component))
+        if look is None:
+            return hear(component)
+        place = method, look.key
+        if place not in self._templates:
+            self._templates[place] = _template(component, look, hear)
+        template = self._templates[place]
+        return hear(component) if template is None else template.of(component, look)
+
+    def _look(self, component: Component) -> _Look | None:
+        """What a component is like; None if it has discrete variables."""
+        inside = list(walk(component))
+        places = {id(c): k for k, c in enumerate(inside)}
+        key, variables, entries, at = list[Hashable](), list[Expr](), dict[int, ca.SX](), dict[int, Hashable]()
+        for c in inside:
+            for name, declared in c.fields.items():
+                if isinstance(declared, f.Outer):
+                    at |= self._outside(vars(c)[name])
+        for c in inside:
+            key += [type(c), c._in_loop, _standing(c, places)]
+            for name, value in vars(c).items():
+                declared = c.fields.get(name)
+                if name in ENGINE:
+                    continue
+                key.append(name)
+                if isinstance(declared, f.Part | f.Outer):
+                    key.append(id(value) if isinstance(declared, f.Outer) else _count(value))
+                elif not isinstance(value, Expr):
+                    key.append(_plain(value))
+                elif isinstance(declared, f.Parameter):
+                    key.append((value.unit, value.shape, _entries(value.sx, entries)))
+                elif isinstance(declared, f.Variable) and declared.causality == "discrete":
+                    return None
+                else:
+                    if id(value) not in at:
+                        at[id(value)] = len(variables)
+                        variables.append(value)
+                    key.append((value.unit, value.shape, at[id(value)]))
+        return _Look(tuple(key), variables, list(entries.values()))
+
+    def _outside(self, outer: Component) -> dict[int, Hashable]:
+        """Symbols of a component that others read, which stand for themselves."""
+        if id(outer) not in self._common:
+            values = (value for c in walk(outer) for value in vars(c).values())
+            self._common[id(outer)] = {id(v): ("common", id(v)) for v in values if isinstance(v, Expr)}
+        return self._common[id(outer)]
+
+
+def _standing(c: Component, places: dict[int, int]) -> Hashable:
+    """How a connector stands in the spanning tree, as far as the component that has it can see."""
+    if not isinstance(c, Connector):
+        return None
+    return c._is_root, tuple((places.get(id(p), -1), p._owner is c._owner) for p in c._parents)
+
+
+def _count(part: Any) -> Hashable:
+    """How many components a part is; they are looked at themselves."""
+    return len(part) if isinstance(part, list) else part is not None
+
+
+def _plain(value: Any) -> Hashable:
+    """What is equal for equal values alone; what cannot be compared is equal to itself."""
+    if value is None or isinstance(value, bool | int | float | str):
+        return type(value), repr(value)
+    if isinstance(value, np.ndarray) and value.dtype != object:
+        return value.shape, value.dtype.str, value.tobytes()
+    if type(value) in (list, tuple):
+        return type(value), tuple(map(_plain, value))
+    return type(value), id(value)
+
+
+def _entries(sx: ca.SX, found: dict[int, ca.SX]) -> Hashable:
+    """Numbers in a parameter, and the places of its other entries among those that were found before."""
+    key: list[Hashable] = [sx.nnz()]
+    for entry in scalars(sx):
+        if entry.is_constant():
+            key.append(repr(float(entry)))
+        else:
+            found.setdefault(entry.element_hash(), entry)
+            key.append(list(found).index(entry.element_hash()))
+    return tuple(key)
+
+
+def _template(component: Component, look: _Look, hear: Hear) -> _Template | None:
+    """Hear a component in symbols of no model; None if what it states depends on more than these."""
+    own = _Look(look.key, [_anew(v) for v in look.variables], [ca.SX.sym(f"p{k}") for k in range(len(look.entries))])
+    instead = dict(zip(map(id, look.variables), own.variables, strict=True))
+    entries = dict(zip((e.element_hash() for e in look.entries), own.entries, strict=True))
+    kept = [(c, dict(vars(c))) for c in walk(component)]
+    pending = Pending()
+    pending.varying = {s.element_hash() for v in own.variables for s in scalars(v.sx)}
+    token = PENDING.set(pending)
+    try:
+        for c, values in kept:
+            for name, value in values.items():
+                if isinstance(value, Expr):
+                    parameter = isinstance(c.fields.get(name), f.Parameter)
+                    vars(c)[name] = _renamed(value, entries) if parameter else instead.get(id(value), value)
+        stated = list(hear(component))
+    except AcausalError:
+        return None
+    finally:
+        PENDING.reset(token)
+        for c, values in kept:
+            vars(c).clear()
+            vars(c).update(values)
+    return _function(stated, own, pending)
+
+
+def _anew(variable: Expr) -> Expr:
+    return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name)
+
+
+def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
+    sx = ca.SX(parameter.sx)
+    for k, entry in enumerate(sx.nonzeros()):
+        if not entry.is_constant():
+            sx.nz[k] = entries[entry.element_hash()]
+    return Expr(sx, parameter.unit, parameter.name)
+
+
+def _function(stated: list[Stated], own: _Look, pending: Pending) -> _Template | None:
+    """What was stated as a function of the symbols that it was stated in."""
+    parts = [_split(statement) for statement, _ in stated]
+    if pending.switches or pending.whens or pending.promises or not all(parts):
+        return None
+    derivatives = [placeholder for placeholder, _ in pending.derivatives]
+    results = [e for _, e in pending.derivatives] + [e.sx for exprs in parts for e in exprs]
+    given = [*own.symbols(), *derivatives]
+    known = {s.element_hash() for sx in given for s in scalars(sx)}
+    common = stacked([s for s in ca.symvar(stacked(map(vec, results))) if s.element_hash() not in known])
+    return _Template(
+        [(type(statement), len(exprs), origin) for (statement, origin), exprs in zip(stated, parts, strict=True)],
+        [d.shape for d in derivatives],
+        common,
+        ca.Function("stated", [*given, common], results),
+    )
+
+
+def _split(statement: Any) -> tuple[Expr, ...]:
+    """Expressions of a statement; none of one that has others."""
+    if isinstance(statement, Equation):
+        return statement.lhs, statement.rhs
+    parts = statement if isinstance(statement, tuple) else (statement,)
+    return parts if all(isinstance(part, Expr) for part in parts) else ()
+
+
+def _joined(kind: type, parts: list[Expr]) -> Any:
+    """The statement of expressions."""
+    return Equation(*parts) if kind is Equation else tuple(parts) if kind is tuple else parts[0]
