@@ -51,7 +51,7 @@ class _Look:
 
     def symbols(self) -> list[ca.SX]:
         """Arguments of the function of what alike components state."""
-        return [*[v.sx for v in self.variables], stacked(self.entries)]
+        return [*[v.sx for v in self.variables], *self.entries]
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,8 @@ def _anew(variable: Expr) -> Expr:
 
 def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
     sx = ca.SX(parameter.sx)
-    for k, entry in enumerate(sx.nonzeros()):
+    nonzeros: list[Any] = sx.nonzeros()
+    for k, entry in enumerate(nonzeros):
         if not entry.is_constant():
             sx.nz[k] = entries[entry.element_hash()]
     return Expr(sx, parameter.unit, parameter.name)

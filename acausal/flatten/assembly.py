@@ -202,10 +202,11 @@ class Assembly:
 
     def _asked(self) -> set[int]:
         """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
-        inside = ca.symvar(ca.vertcat(self.initial_residuals, *self.energies.values()))
-        asked = {s.element_hash() for s in inside}.difference(self.raw.index)
-        place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))} if asked else {}
-        return {place[s] for s in asked if s in place}
+        column = ca.vertcat(self.initial_residuals, *self.energies.values())
+        if not ca.depends_on(column, ca.vertcat(*self.chain.levels[1:])):
+            return set()
+        asked = {s.element_hash() for s in ca.symvar(column)}
+        return {k for k, s in enumerate(scalars(self.symbols)[self.size :], self.size) if s.element_hash() in asked}
 
     def _unused(self, done: Simplification) -> set[int]:
         """Redundant residuals, and the substitutes of the others."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any
+from functools import reduce
 
 import casadi as ca
 import numpy as np
@@ -21,7 +21,7 @@ from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
 from acausal.language.homes import error_of, misplaced
-from acausal.symbols import dense, scalars, vec
+from acausal.symbols import combined, dense, scalars, vec
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Equations:
 
     def add(self, statement: Equation, origin: Origin) -> None:
         """Append an equation."""
-        self.residuals.append(dense(vec(statement.lhs.sx - statement.rhs.sx)))
+        self.residuals.append(dense(vec(combined(statement.lhs.sx, "-", statement.rhs.sx))))
         self.sides.append((statement.lhs.sx, statement.rhs.sx))
         self.origins.append(origin)
 
@@ -114,8 +114,8 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
     for same in zip(*(walk(c) for c, _ in balance), strict=True):
         for name, declared in same[0].fields.items():
             if isinstance(declared, f.Variable) and declared.flow:
-                flows = [getattr(c, name).sx * sign for c, (_, sign) in zip(same, balance, strict=True)]
-                total: Any = sum(flows[1:], flows[0])
+                flows = [(getattr(c, name).sx, sign) for c, (_, sign) in zip(same, balance, strict=True)]
+                total = reduce(lambda a, b: combined(a, "+", b), [sx if sign > 0 else -sx for sx, sign in flows])
                 zero = Expr(ca.SX.zeros(*total.shape))
                 origin = Origin(join(same[0]._path, name), type(same[0]).__name__, "flows of a connection", text)
                 found.add(Equation(Expr(total), zero), origin)
@@ -129,9 +129,9 @@ def _run(component: Component, method: str, found: Equations, most: int, alike: 
             continue
         if not isinstance(statement, Equation):
             raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
-        residual = vec(statement.lhs.sx - statement.rhs.sx)
+        residual = combined(statement.lhs.sx, "-", statement.rhs.sx)
         if residual.is_constant():
-            value = np.array(ca.evalf(residual)).ravel()
+            value = np.array(ca.evalf(vec(residual))).ravel()
             if np.any(value != 0):
                 raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):

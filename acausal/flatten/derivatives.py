@@ -27,11 +27,10 @@ class Derivatives:
     def _grow(self) -> None:
         symbols = scalars(self.levels[-1])
         self.levels.append(ca.vertcat(*[ca.SX.sym(f"der({s.name()})") for s in symbols]))
-        self._top = {s.element_hash() for s in scalars(self.levels[-1])}
 
     def of(self, expressions: ca.SX) -> ca.SX:
         """Differentiate a column of expressions with respect to time."""
-        if any(s.element_hash() in self._top for s in ca.symvar(expressions)):
+        if ca.depends_on(expressions, self.levels[-1]):
             self._grow()
         first = scalars(self.levels[1])
         for index, expression in self.declared.items():

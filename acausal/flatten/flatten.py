@@ -38,9 +38,9 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         Where the model is wrong, with component and line.
     """
     raw = hear(model, overrides)
-    refuse_foreign(raw)
     variables = stacked([vec(a.expr.sx) for a in raw.arrays])
     raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
+    refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
     chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in integrated})

@@ -27,7 +27,8 @@ def refuse_foreign(raw: Said) -> None:
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
-    stated += [(e.sx, value_origin(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
+    values = [(a, e.sx) for a in raw.arrays for e in (a.start, a.nominal) if not e.sx.is_constant()]
+    stated += [(sx, value_origin(a.owner, a.declared.name)) for a, sx in values]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
     everything = _column([*[sx for sx, _ in stated], *others])
     symbols = ca.symvar(everything)
@@ -48,8 +49,8 @@ def refuse_foreign(raw: Said) -> None:
 
 def _refuse_varying(raw: Said) -> None:
     """Raise DeclarationError if a start value depends on a variable, or a nominal value on one or on time."""
-    variables = {s.element_hash() for a in raw.arrays for s in scalars(a.expr.sx)}
-    for array in raw.arrays:
+    variables = raw.index.keys()
+    for array in (a for a in raw.arrays if not a.start.sx.is_constant()):
         found = [s for s in ca.symvar(array.start.sx) if s.element_hash() in variables]
         if found:
             declared = array.declared.name
@@ -59,9 +60,7 @@ def _refuse_varying(raw: Said) -> None:
                 f"yield self.{declared} == ...."
             )
     varying = variables | {time.sx.element_hash()}
-    if not any(s.element_hash() in varying for s in ca.symvar(_column(a.nominal.sx for a in raw.arrays))):
-        return
-    for array in raw.arrays:
+    for array in (a for a in raw.arrays if not a.nominal.sx.is_constant()):
         found = [s for s in ca.symvar(array.nominal.sx) if s.element_hash() in varying]
         if found:
             raise DeclarationError(
@@ -100,9 +99,9 @@ def _undeclared(symbol: ca.SX) -> str:
 def _known(raw: Said) -> set[int]:
     """Hashes of all symbols that a model may use."""
     pending = raw.pending
-    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
+    columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
-    return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
+    return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))} | raw.index.keys()
 
 
 def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:

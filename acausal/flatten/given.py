@@ -22,6 +22,8 @@ from acausal.language.functions import time
 from acausal.symbols import scalars
 from acausal.units import parse
 
+_TIME = time.sx.element_hash()
+
 
 @dataclass
 class Parameters:
@@ -157,13 +159,14 @@ class Given:
                     f"{Origin.of(bound)}: `{name}` is not a finite number: it is divided by a parameter that is 0"
                     f"{_zeros_of(bound)}. Give that another value."
                 )
-            if ca.depends_on(given.sx, time.sx):
+            symbols = ca.symvar(given.sx) if not given.sx.is_constant() else []
+            if any(s.element_hash() == _TIME for s in symbols):
                 raise DeclarationError(
                     f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
             own = Expr(given.sx, unit, path)
             with_place(lambda: unit_rules.check_value(own, given), replace(origin, text=""))
-            self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
+            self.parameters.bound[path] = ", ".join(s.name() for s in symbols) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
             self.parameters.limits.append((path, expression.sx, declared))
@@ -200,7 +203,7 @@ class Given:
             self.parameters.symbols.append(symbol)
             self.parameters.values.append(float(value[index]))
             entries.append(symbol)
-        sx = ca.vertcat(*entries)
+        sx = entries[0] if not value.shape else ca.vertcat(*entries)
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
 
 

@@ -32,6 +32,10 @@ class Origin:
         """Where a component is constructed."""
         return cls(component._path, type(component).__name__, component._origin, text)
 
+    def at(self, where: str) -> Origin:
+        """The same in another line."""
+        return Origin(self.path, self.kind, where, self.text)
+
     @property
     def owner(self) -> str:
         """Path, class and line in the middle of a sentence."""
@@ -55,14 +59,14 @@ def value_origin(component: Component, name: str, by_path: bool = False) -> Orig
     by_path : bool
         True for a value by path, `parameters={"beam.E": ...}`: no line of the model holds it.
     """
-    here = Origin.of(component, name)
+    where = component._origin
     if by_path:
-        return here if component._path else replace(here, where="")
-    if name in component._values:
-        return here
-    said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
-    given = next(said, None) if name in component._class_values else None
-    return replace(here, where=given._line if given else component.fields[name].where)
+        where = where if component._path else ""
+    elif name not in component._values:
+        said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
+        given = next(said, None) if name in component._class_values else None
+        where = given._line if given else component.fields[name].where
+    return Origin(component._path, type(component).__name__, where, name)
 
 
 def method_origin(component: Component, name: str) -> Origin:
@@ -122,7 +126,7 @@ def entries(
     stack = [iter(said)]
     for count in itertools.count():
         item = with_place(lambda: next(stack[-1], _END), here)
-        origin = replace(here, where=line_of(stack[0]) or here.where)
+        origin = here.at(line_of(stack[0]) or here.where)
         refuse_endless(count, origin, f"{method}()", most)
         if item is _END:
             stack.pop()

@@ -51,7 +51,7 @@ class Tape:
         self.input = {element: node for node, element in self.unknown.items()}
         self.users: list[list[int]] = [[] for _ in self.op]
         for node, args in enumerate(self.args):
-            for arg in set(args):
+            for arg in args if len(args) < 2 or args[0] != args[1] else args[:1]:
                 self.users[arg].append(node)
         self.residuals_at: dict[int, list[int]] = {}
         for row, node in enumerate(self.residual):
@@ -72,7 +72,7 @@ class Tape:
         values = [self.value[arg] for arg in self.args[node]]
         if op in (ca.OP_MUL, ca.OP_DIV):
             return _product(values[0], values[1], op == ca.OP_DIV)
-        if any(v is None for v in values) or not values:
+        if None in values or not values:
             return None
         a = values[0]
         assert a is not None
@@ -90,6 +90,8 @@ class Tape:
     def resolve(self, value: Linear) -> Linear:
         """Replace solved unknowns, following chains of aliases to their end."""
         c0, terms = value
+        if not any(unknown in self.solved for unknown, _ in terms):
+            return value
         result: Linear | None = (c0, ())
         for unknown, c in terms:
             term: Linear = (0.0, ((unknown, c),))
