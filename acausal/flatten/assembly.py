@@ -76,14 +76,14 @@ class Assembly:
 
     def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
-        self.size = chain.levels[0].numel()
+        self.size = chain.variables.numel()
         closures = raw.equations.closures
         residuals = stacked([*raw.equations.residuals, *[c.dual for c in closures]])
         self.residuals, starts, energies = resolved(
             [residuals, stacked(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
-        self.symbols = ca.vertcat(*chain.levels)
+        self.symbols, self.lower = ca.vertcat(chain.variables, chain.derivatives), chain.lower
         self.discontinuities = FlatDiscontinuities(
             tuple(switch for switch, _ in raw.pending.switches),
             guards(raw.pending, raw.discretes, resolved),
@@ -135,7 +135,7 @@ class Assembly:
         return _Left(done, values, sorted(needed.difference(done.solved)), rows, present)
 
     def _unknowns(self, left: _Left, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
-        found = attributes(self.raw, len(self.chain.levels) - 1, self._jumping(), left.done.solved)
+        found = attributes(self.raw, self.lower, self._jumping(), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
         declared = scalars(ca.substitute(stacked([self.declared[k] for k in at]), *eliminated)) if at else []
@@ -203,10 +203,9 @@ class Assembly:
     def _asked(self) -> set[int]:
         """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
         column = ca.vertcat(self.initial_residuals, *self.energies.values())
-        if not ca.depends_on(column, ca.vertcat(*self.chain.levels[1:])):
-            return set()
         asked = {s.element_hash() for s in ca.symvar(column)}
-        return {k for k, s in enumerate(scalars(self.symbols)[self.size :], self.size) if s.element_hash() in asked}
+        derivatives = scalars(self.chain.derivatives)
+        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
 
     def _unused(self, done: Simplification) -> set[int]:
         """Redundant residuals, and the substitutes of the others."""
@@ -215,11 +214,10 @@ class Assembly:
 
     def _chains(self, present: set[int]) -> list[int]:
         """Unknown -> its derivative among the symbols, as far as a derivative occurs."""
-        n, total = self.size, self.symbols.numel()
-        derivative = [-1] * total
-        for k in range(total - 1, n - 1, -1):
+        derivative = [-1] * self.symbols.numel()
+        for k, lower in reversed([*enumerate(self.lower, self.size)]):
             if k in present or derivative[k] >= 0:
-                derivative[k - n] = k
+                derivative[lower] = k
         return derivative
 
     def _rank(self) -> list[int]:

@@ -49,15 +49,15 @@ class Attributes:
             self.nominal, self.sized = alias.nominal / abs(factor), True
 
 
-def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
-    """Return the attributes of all unknowns, those of the derivatives level by level behind those of the variables.
+def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
+    """Return the attributes of all unknowns, those of the derivatives behind those of the variables.
 
     Parameters
     ----------
     raw : Said
         What the components stated.
-    levels : int
-        Times that variables are differentiated at most.
+    lower : list of int
+        Of each derivative, what it is the derivative of.
     jumping : iterable of int
         Variables that jump at instants, which have to be states.
     solved : mapping of int to Linear
@@ -68,10 +68,8 @@ def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[i
         attribute.nominal = nominal
     for k in jumping:
         found[k].preference = ALWAYS
-    level = found
-    for _ in range(levels):
-        level = [a.derivative() for a in level]
-        found = found + level
+    for k in lower:
+        found.append(found[k].derivative())
     for k in reversed(list(solved)):
         offset, terms = solved[k]
         if terms:

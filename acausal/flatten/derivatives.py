@@ -2,42 +2,67 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import casadi as ca
 
 from acausal.language.functions import time
-from acausal.symbols import dense, scalars, vec
+from acausal.symbols import dense, scalars, stacked, vec
 
 
 class Derivatives:
-    """Symbols of the variables and of their time derivatives.
+    """Symbols of the variables, and of those of their time derivatives that occur.
 
     Parameters
     ----------
     variables : casadi.SX
         All scalar variables, a column.
+    index : mapping of int to int
+        Hash of each variable -> its place.
     declared : dict of int to casadi.SX
         Variables whose derivative is a declared expression of other variables.
     """
 
-    def __init__(self, variables: ca.SX, declared: dict[int, ca.SX]) -> None:
-        self.levels = [variables]
-        self.declared = declared
-        self._grow()
+    def __init__(self, variables: ca.SX, index: Mapping[int, int], declared: dict[int, ca.SX]) -> None:
+        self.variables, self.declared = variables, declared
+        self._index = index
+        self._symbols: dict[tuple[int, int], ca.SX] = {}
+        self._places: dict[int, tuple[int, int]] = {}
 
-    def _grow(self) -> None:
-        symbols = scalars(self.levels[-1])
-        self.levels.append(ca.vertcat(*[ca.SX.sym(f"der({s.name()})") for s in symbols]))
+    @property
+    def derivatives(self) -> ca.SX:
+        """Derivatives that occur, a column: the first ones, then the second ones."""
+        return stacked([self._symbols[place] for place in sorted(self._symbols)])
+
+    @property
+    def lower(self) -> list[int]:
+        """Place of what each of them is the derivative of, where the variables come first."""
+        n = self.variables.numel()
+        at = {place: n + k for k, place in enumerate(sorted(self._symbols))}
+        return [variable if level == 1 else at[level - 1, variable] for level, variable in at]
+
+    def symbol(self, variable: int, level: int = 1) -> ca.SX:
+        """Return the symbol of a derivative of a variable."""
+        if level == 0:
+            return self.variables[variable]
+        place = level, variable
+        if place not in self._symbols:
+            own = self._symbols[place] = ca.SX.sym(f"der({self.symbol(variable, level - 1).name()})")
+            self._places[own.element_hash()] = place
+        return self._symbols[place]
 
     def of(self, expressions: ca.SX) -> ca.SX:
         """Differentiate a column of expressions with respect to time."""
-        if ca.depends_on(expressions, self.levels[-1]):
-            self._grow()
-        first = scalars(self.levels[1])
-        for index, expression in self.declared.items():
-            first[index] = expression
-        at = ca.vertcat(*self.levels[:-1], time.sx)
-        seeds = ca.vertcat(*first, *self.levels[2:], 1)
-        return dense(ca.jtimes(expressions, at, seeds))
+        at, seeds = list[Any](), list[Any]()
+        for symbol in ca.symvar(expressions):
+            place = symbol.element_hash()
+            level, variable = self._places.get(place) or (0, self._index.get(place, -1))
+            if variable >= 0:
+                at.append(symbol)
+                known = self.declared.get(variable) if level == 0 else None
+                seeds.append(self.symbol(variable, level + 1) if known is None else known)
+        return dense(ca.jtimes(expressions, ca.vertcat(*at, time.sx), ca.vertcat(*seeds, 1)))
 
     def resolve(self, pending: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
         """Return placeholders and the derivatives that they stand for; an expression may hold other placeholders."""

@@ -43,7 +43,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
-    chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in integrated})
+    chain = Derivatives(variables, raw.index, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
     refuse_rates_of_inputs(raw)
@@ -53,9 +53,9 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
 
     names = [name for a in raw.arrays for name in a.names]
     for k in integrated:
-        raw.equations.residuals.append(chain.levels[1][k] - declared[k])
+        raw.equations.residuals.append(chain.symbol(k) - declared[k])
         raw.equations.origins.append(Origin(names[k], "root", "declared derivative"))
-        raw.equations.sides.append((chain.levels[1][k], declared[k]))
+        raw.equations.sides.append((chain.symbol(k), declared[k]))
     return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
 
 
