@@ -80,7 +80,7 @@ def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapp
 
 def weighing(raw: Said) -> tuple[str, ...]:
     """Names of the parameters that nominal values depend on."""
-    inside = {s.element_hash() for s in ca.symvar(_weights(raw))}
+    inside = {s.element_hash() for s in ca.symvar(stacked(_weights(raw).values()))}
     own = raw.build.parameters
     return tuple(name for name, s in zip(own.names, own.symbols, strict=True) if s.element_hash() in inside)
 
@@ -96,13 +96,16 @@ def _declared(array: VariableArray) -> Iterator[Attributes]:
         )
 
 
-def _weights(raw: Said) -> ca.SX:
-    """Nominal values of all variables, in parameters."""
-    return dense(stacked([vec(a.nominal.sx) for a in raw.arrays]))
+def _weights(raw: Said) -> dict[int, ca.SX]:
+    """Nominal values of variables, in parameters, by the expression that gives them."""
+    return {id(a.nominal): dense(vec(a.nominal.sx)) for a in {id(a.nominal): a for a in raw.arrays}.values()}
 
 
 def _nominals(raw: Said) -> list[float]:
     """Nominal values of all variables as they are when compiled."""
-    own = raw.build.parameters
-    function = ca.Function("nominal", [stacked(own.symbols)], [_weights(raw)])
-    return np.array(function(np.array(own.values))).ravel().tolist()
+    own, weights = raw.build.parameters, _weights(raw)
+    function = ca.Function("nominal", [stacked(own.symbols)], [stacked(weights.values())])
+    found = np.array(function(np.array(own.values))).ravel().tolist()
+    ends = np.cumsum([w.numel() for w in weights.values()]).tolist()
+    known = {key: found[end - w.numel() : end] for (key, w), end in zip(weights.items(), ends, strict=True)}
+    return [value for a in raw.arrays for value in known[id(a.nominal)]]

@@ -15,7 +15,7 @@ from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, hear
 from acausal.language.component import Component
-from acausal.symbols import scalars, stacked, vec
+from acausal.symbols import scalars
 
 
 def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> FlatModel:
@@ -38,12 +38,10 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         Where the model is wrong, with component and line.
     """
     raw = hear(model, overrides)
-    variables = stacked([vec(a.expr.sx) for a in raw.arrays])
-    raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
     refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
-    chain = Derivatives(variables, raw.index, {k: e for k, e in declared.items() if k not in integrated})
+    chain = Derivatives(raw.variables, raw.index, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
     refuse_rates_of_inputs(raw)

@@ -31,8 +31,9 @@ def refuse_foreign(raw: Said) -> None:
     stated += [(sx, value_origin(a.owner, a.declared.name)) for a, sx in values]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
     everything = _column([*[sx for sx, _ in stated], *others])
-    symbols = ca.symvar(everything)
-    if _calls(everything, symbols):
+    known = [raw.variables, stacked(raw.build.parameters.symbols), _column(_requested(raw))]
+    function = ca.Function("all", known, [everything], {"allow_free": True})
+    if function.get_function():
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function that cannot be differentiated and "
             "sorted as an equation, such as an interpolant or an external function. Write a table with piecewise((value, "
@@ -40,11 +41,10 @@ def refuse_foreign(raw: Said) -> None:
             "is called with SX."
         )
     _refuse_varying(raw)
-    known = _known(raw)
-    strangers = [s for s in symbols if s.element_hash() not in known]
-    if strangers:
-        place = _place(raw, stated, others, lambda e: ca.depends_on(e, strangers[0]))
-        raise DeclarationError(place + _undeclared(strangers[0]))
+    if function.has_free():
+        stranger = function.free_sx()[0]
+        place = _place(raw, stated, others, lambda e: ca.depends_on(e, stranger))
+        raise DeclarationError(place + _undeclared(stranger))
 
 
 def _refuse_varying(raw: Said) -> None:
@@ -96,12 +96,11 @@ def _undeclared(symbol: ca.SX) -> str:
     )
 
 
-def _known(raw: Said) -> set[int]:
-    """Hashes of all symbols that a model may use."""
+def _requested(raw: Said) -> list[ca.SX]:
+    """Symbols that a model may use beside its variables and parameters."""
     pending = raw.pending
     columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
-    columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
-    return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))} | raw.index.keys()
+    return columns + [symbol for symbol, _ in (*pending.switches, *pending.derivatives)]
 
 
 def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
@@ -121,7 +120,6 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
     return stacked([vec(e) for e in entries])
 
 
-def _calls(expression: ca.SX, symbols: list[ca.SX] | None = None) -> bool:
-    """Whether an expression, of these symbols, calls functions instead of holding what they do."""
-    symbols = ca.symvar(expression) if symbols is None else symbols
-    return bool(ca.Function("all", [stacked(symbols)], [expression]).get_function())
+def _calls(expression: ca.SX) -> bool:
+    """Whether an expression calls functions instead of holding what they do."""
+    return bool(ca.Function("one", [], [expression], {"allow_free": True}).get_function())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -25,7 +25,7 @@ from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import Observed
 from acausal.language.functions import PENDING, Pending
 from acausal.language.values import shown
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked, vec
 from acausal.units import parse
 
 ENERGIES = {"stored_energy": parse("J"), "dissipated_power": parse("W"), "supplied_power": parse("W")}
@@ -47,7 +47,8 @@ class Said:
     pending: Pending
     discretes: list[Discrete]
     discrete_starts: list[ca.SX]
-    index: dict[int, int] = field(default_factory=dict)
+    variables: ca.SX
+    index: dict[int, int]
 
 
 def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
@@ -60,11 +61,13 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         graph = build_graph(components)
         discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
-        pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(a.expr.sx)}
+        variables = stacked([vec(a.expr.sx) for a in arrays])
+        index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
+        pending.varying = pending.discrete | index.keys()
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
         # Far more statements than any component needs, few enough to count them quickly.
-        most = 10_000 + 10 * sum(a.expr.sx.numel() for a in arrays)
+        most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
         alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
         equations = collect(components, graph, most, alike)
@@ -75,7 +78,20 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         _look_at_observed(components)
     finally:
         PENDING.reset(token)
-    return Said(build, graph, arrays, equations, starts, declared, energies, pending, discretes, discrete_values)
+    return Said(
+        build,
+        graph,
+        arrays,
+        equations,
+        starts,
+        declared,
+        energies,
+        pending,
+        discretes,
+        discrete_values,
+        variables,
+        index,
+    )
 
 
 def _total(name: str, components: list[Component], alike: Alike) -> ca.SX:

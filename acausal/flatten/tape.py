@@ -12,11 +12,13 @@ import math
 import operator
 from collections.abc import Callable
 from functools import reduce
+from operator import itemgetter
 from typing import Any
 
 import casadi as ca
 
 from acausal.instructions import read_instructions
+from acausal.symbols import combined, picked
 
 Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
 
@@ -90,7 +92,10 @@ class Tape:
     def resolve(self, value: Linear) -> Linear:
         """Replace solved unknowns, following chains of aliases to their end."""
         c0, terms = value
-        if not any(unknown in self.solved for unknown, _ in terms):
+        for unknown, _ in terms:
+            if unknown in self.solved:
+                break
+        else:
             return value
         result: Linear | None = (c0, ())
         for unknown, c in terms:
@@ -133,6 +138,8 @@ class Tape:
 
 def scale(value: Linear, factor: float) -> Linear:
     """Multiply a linear value by a number."""
+    if factor == 1:
+        return value
     if factor == 0:
         return 0.0, ()
     return value[0] * factor, tuple((u, c * factor) for u, c in value[1])
@@ -142,6 +149,8 @@ def add(a: Linear, b: Linear, factor: float) -> Linear | None:
     """Return a + factor b, or None if it has more than two unknowns."""
     if not b[1]:
         return a[0] + factor * b[0], a[1]
+    if not a[1]:
+        return a[0] + factor * b[0], scale(b, factor)[1]
     terms = dict(a[1])
     for unknown, c in b[1]:
         total = terms.get(unknown, 0.0) + factor * c
@@ -164,8 +173,18 @@ def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
     return scale(b, a[0]) if a is not None and not a[1] and b is not None else None
 
 
-def expression(value: Linear, elements: list[Any]) -> Any:
-    """Return a linear value in terms of the unknowns."""
+def expressions(values: list[Linear], unknowns: ca.SX) -> ca.SX:
+    """Return linear values in terms of the unknowns, a column."""
+    single = [k for k, (_, terms) in enumerate(values) if len(terms) == 1]
+    others = [k for k, (_, terms) in enumerate(values) if len(terms) != 1]
+    offset, factor = (ca.SX(ca.DM([pick(values[k]) for k in single])) for pick in (itemgetter(0), lambda v: v[1][0][1]))
+    aliases = combined(picked(unknowns, [values[k][1][0][0] for k in single]), "*", factor)
+    column = ca.vertcat(combined(aliases, "+", offset), *[_sum(values[k], unknowns) for k in others])
+    place = {k: n for n, k in enumerate([*single, *others])}
+    return picked(column, [place[k] for k in range(len(values))])
+
+
+def _sum(value: Linear, unknowns: ca.SX) -> Any:
     c0, terms = value
-    products = [elements[u] if c == 1 else elements[u] * c for u, c in terms]
+    products: list[Any] = [unknowns[u] * c for u, c in terms]
     return reduce(operator.add, [*products, c0] if c0 or not products else products)
