@@ -83,7 +83,7 @@ class Assembly:
             [residuals, stacked(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
-        self.symbols, self.lower = ca.vertcat(chain.variables, chain.derivatives), chain.lower
+        self.symbols, self.lower = ca.vertcat(*chain.levels), chain.lower
         self.discontinuities = FlatDiscontinuities(
             tuple(switch for switch, _ in raw.pending.switches),
             guards(raw.pending, raw.discretes, resolved),
@@ -201,7 +201,7 @@ class Assembly:
         """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
         column = ca.vertcat(self.initial_residuals, *self.energies.values())
         asked = {s.element_hash() for s in ca.symvar(column)}
-        derivatives = scalars(self.chain.derivatives)
+        derivatives = scalars(stacked(self.chain.levels[1:]))
         return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
 
     def _unused(self, done: Simplification) -> set[int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
@@ -18,26 +17,25 @@ class Derivatives:
     ----------
     variables : casadi.SX
         All scalar variables, a column.
-    index : mapping of int to int
-        Hash of each variable -> its place.
     declared : dict of int to casadi.SX
         Variables whose derivative is a declared expression of other variables.
     """
 
-    def __init__(self, variables: ca.SX, index: Mapping[int, int], declared: dict[int, ca.SX]) -> None:
+    def __init__(self, variables: ca.SX, declared: dict[int, ca.SX]) -> None:
         self.variables, self.declared = variables, declared
-        self._index = index
         self._symbols: dict[tuple[int, int], ca.SX] = {}
-        self._places: dict[int, tuple[int, int]] = {}
+        self._places = {s.element_hash(): (0, k) for k, s in enumerate(scalars(variables))}
 
     @property
-    def derivatives(self) -> ca.SX:
-        """Derivatives that occur, a column: the first ones, then the second ones."""
-        return stacked([self._symbols[place] for place in sorted(self._symbols)])
+    def levels(self) -> list[ca.SX]:
+        """The variables, those of their first derivatives that occur, and so on."""
+        last = max((level for level, _ in self._symbols), default=0)
+        places = [sorted(place for place in self._symbols if place[0] == level) for level in range(1, last + 1)]
+        return [self.variables, *[stacked([self._symbols[place] for place in level]) for level in places]]
 
     @property
     def lower(self) -> list[int]:
-        """Place of what each of them is the derivative of, where the variables come first."""
+        """Place of what each derivative is that of, in all levels one after the other."""
         n = self.variables.numel()
         at = {place: n + k for k, place in enumerate(sorted(self._symbols))}
         return [variable if level == 1 else at[level - 1, variable] for level, variable in at]
@@ -56,8 +54,7 @@ class Derivatives:
         """Differentiate a column of expressions with respect to time."""
         at, seeds = list[Any](), list[Any]()
         for symbol in ca.symvar(expressions):
-            place = symbol.element_hash()
-            level, variable = self._places.get(place) or (0, self._index.get(place, -1))
+            level, variable = self._places.get(symbol.element_hash(), (0, -1))
             if variable >= 0:
                 at.append(symbol)
                 known = self.declared.get(variable) if level == 0 else None

@@ -41,7 +41,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
-    chain = Derivatives(raw.variables, raw.index, {k: e for k, e in declared.items() if k not in integrated})
+    chain = Derivatives(raw.variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
     refuse_rates_of_inputs(raw)

@@ -9,16 +9,12 @@ from __future__ import annotations
 
 import heapq
 import math
-import operator
 from collections.abc import Callable
-from functools import reduce
-from operator import itemgetter
-from typing import Any
 
 import casadi as ca
 
 from acausal.instructions import read_instructions
-from acausal.symbols import combined, picked
+from acausal.symbols import combined
 
 Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
 
@@ -175,16 +171,12 @@ def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
 
 def expressions(values: list[Linear], unknowns: ca.SX) -> ca.SX:
     """Return linear values in terms of the unknowns, a column."""
-    single = [k for k, (_, terms) in enumerate(values) if len(terms) == 1]
-    others = [k for k, (_, terms) in enumerate(values) if len(terms) != 1]
-    offset, factor = (ca.SX(ca.DM([pick(values[k]) for k in single])) for pick in (itemgetter(0), lambda v: v[1][0][1]))
-    aliases = combined(picked(unknowns, [values[k][1][0][0] for k in single]), "*", factor)
-    column = ca.vertcat(combined(aliases, "+", offset), *[_sum(values[k], unknowns) for k in others])
-    place = {k: n for n, k in enumerate([*single, *others])}
-    return picked(column, [place[k] for k in range(len(values))])
-
-
-def _sum(value: Linear, unknowns: ca.SX) -> Any:
-    c0, terms = value
-    products: list[Any] = [unknowns[u] * c for u, c in terms]
-    return reduce(operator.add, [*products, c0] if c0 or not products else products)
+    if not values:
+        return ca.SX(0, 1)
+    # CasADi drops the terms that are added here with coefficient 0.
+    padded = [(*terms, (0, 0.0), (0, 0.0))[:2] for _, terms in values]
+    first, second = (
+        combined(unknowns[[terms[n][0] for terms in padded]], "*", ca.SX(ca.DM([terms[n][1] for terms in padded])))
+        for n in (0, 1)
+    )
+    return combined(combined(first, "+", second), "+", ca.SX(ca.DM([c0 for c0, _ in values])))
