@@ -33,19 +33,16 @@ Hear = Callable[[Component], Iterable[Stated]]
 
 @dataclass(frozen=True)
 class _Look:
-    """What a component is like, and its own symbols in the places that alike components have in common.
+    """Symbols of a component in the order that alike components have in common.
 
     Parameters
     ----------
-    key : hashable
-        Equal for components that are alike.
     variables : list of Expr
         Of the component and its parts.
     entries : list of casadi.SX
         Entries of its parameters that are no numbers, each once.
     """
 
-    key: Hashable
     variables: list[Expr]
     entries: list[ca.SX]
 
@@ -65,6 +62,8 @@ class _Template:
 
     def of(self, component: Component, look: _Look) -> Iterator[Stated]:
         """Yield what a component states."""
+        if not self.stated and not self.shapes:
+            return
         derivatives = [ca.SX.sym("der", *shape) for shape in self.shapes]
         found = iter(self.function.call([*look.symbols(), *derivatives, self.common]))
         PENDING.get().derivatives += [(d, next(found)) for d in derivatives]
@@ -85,10 +84,17 @@ class Alike:
         components = list(components)
         classes = Counter(map(type, components))
         self._common: dict[int, dict[int, Hashable]] = {}
-        looks = {id(c): look for c in components if classes[type(c)] >= FEWEST and (look := self._look(c)) is not None}
-        keys = Counter(look.key for look in looks.values())
-        self._looks = {c: look for c, look in looks.items() if keys[look.key] >= FEWEST}
-        self._templates: dict[tuple[str, Hashable], _Template | None] = {}
+        kinds: dict[Hashable, dict[int, _Look]] = {}
+        for component in components:
+            if classes[type(component)] >= FEWEST and (found := self._look(component)):
+                kinds.setdefault(found[0], {})[id(component)] = found[1]
+        self._looks = {
+            place: (kind, look)
+            for kind, looks in enumerate(kinds.values())
+            if len(looks) >= FEWEST
+            for place, look in looks.items()
+        }
+        self._templates: dict[tuple[str, int], _Template | None] = {}
 
     def hear(self, component: Component, method: str, hear: Hear) -> Iterable[Stated]:
         """Return what a component states in a method, with the place of each statement.
@@ -102,17 +108,17 @@ class Alike:
         hear : callable
             Runs the method of a component.
         """
-        look = self._looks.get(id(component))
-        if look is None:
+        if id(component) not in self._looks:
             return hear(component)
-        place = method, look.key
+        kind, look = self._looks[id(component)]
+        place = method, kind
         if place not in self._templates:
             self._templates[place] = _template(component, look, hear)
         template = self._templates[place]
         return hear(component) if template is None else template.of(component, look)
 
-    def _look(self, component: Component) -> _Look | None:
-        """What a component is like; None if it has discrete variables."""
+    def _look(self, component: Component) -> tuple[Hashable, _Look] | None:
+        """What is equal for components that are alike, and the symbols of one; None if it has discrete variables."""
         inside = list(walk(component))
         places = {id(c): k for k, c in enumerate(inside)}
         key, variables, entries, at = list[Hashable](), list[Expr](), dict[int, ca.SX](), dict[int, Hashable]()
@@ -140,7 +146,7 @@ class Alike:
                         at[id(value)] = len(variables)
                         variables.append(value)
                     key.append((value.unit, value.shape, at[id(value)]))
-        return _Look(tuple(key), variables, list(entries.values()))
+        return tuple(key), _Look(variables, list(entries.values()))
 
     def _outside(self, outer: Component) -> dict[int, Hashable]:
         """Symbols of a component that others read, which stand for themselves."""
@@ -187,7 +193,7 @@ def _entries(sx: ca.SX, found: dict[int, ca.SX]) -> Hashable:
 
 def _template(component: Component, look: _Look, hear: Hear) -> _Template | None:
     """Hear a component in symbols of no model; None if what it states depends on more than these."""
-    own = _Look(look.key, [_anew(v) for v in look.variables], [ca.SX.sym(f"p{k}") for k in range(len(look.entries))])
+    own = _Look([_anew(v) for v in look.variables], [ca.SX.sym(f"p{k}") for k in range(len(look.entries))])
     instead = dict(zip(map(id, look.variables), own.variables, strict=True))
     entries = dict(zip((e.element_hash() for e in look.entries), own.entries, strict=True))
     kept = [(c, dict(vars(c))) for c in walk(component)]

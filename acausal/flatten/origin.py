@@ -11,7 +11,7 @@ from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.raw_errors import in_words
-from acausal.language.component import Component
+from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.homes import returned
 
@@ -109,6 +109,8 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
 
 def stated(component: Component, method: str, most: int = MOST) -> Iterator[tuple[Any, Origin]]:
     """Yield what a method of a component states, each with its place."""
+    if getattr(type(component), method) in (getattr(base, method, None) for base in (Component, Connector)):
+        return
     here = method_origin(component, method)
     said = with_place(getattr(component, method), here)
     if not isinstance(said, Iterable) or isinstance(said, Expr):
