@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
@@ -55,7 +55,7 @@ class _Look:
 class _Template:
     """What alike components state, as a function of their symbols, of derivatives and of symbols common to all."""
 
-    stated: list[tuple[type, int, Origin]]
+    stated: list[tuple[type, list[tuple[int, ...]], Origin]]
     shapes: list[tuple[int, int]]
     common: ca.SX
     function: ca.Function
@@ -67,8 +67,9 @@ class _Template:
         derivatives = [ca.SX.sym("der", *shape) for shape in self.shapes]
         found = iter(self.function.call([*look.symbols(), *derivatives, self.common]))
         PENDING.get().derivatives += [(d, next(found)) for d in derivatives]
-        for kind, size, origin in self.stated:
-            yield _joined(kind, [Expr(next(found)) for _ in range(size)]), replace(origin, path=component._path)
+        for kind, shapes, origin in self.stated:
+            place = Origin(component._path, origin.kind, origin.where, origin.text)
+            yield _joined(kind, [Expr(next(found), shape=shape) for shape in shapes]), place
 
 
 class Alike:
@@ -241,7 +242,7 @@ def _function(stated: list[Stated], own: _Look, pending: Pending) -> _Template |
     known = {s.element_hash() for sx in given for s in scalars(sx)}
     common = stacked([s for s in ca.symvar(stacked(map(vec, results))) if s.element_hash() not in known])
     return _Template(
-        [(type(statement), len(exprs), origin) for (statement, origin), exprs in zip(stated, parts, strict=True)],
+        [(type(s), [e.shape for e in exprs], origin) for (s, origin), exprs in zip(stated, parts, strict=True)],
         [d.shape for d in derivatives],
         common,
         ca.Function("stated", [*given, common], results),

@@ -46,11 +46,12 @@ class Equations:
     origins: list[Origin]
     closures: list[Closure] = field(default_factory=list)
 
-    def add(self, statement: Equation, origin: Origin) -> None:
-        """Append an equation."""
+    def add(self, statement: Equation, origin: Origin) -> ca.SX:
+        """Append an equation; return its residual."""
         self.residuals.append(dense(vec(combined(statement.lhs.sx, "-", statement.rhs.sx))))
         self.sides.append((statement.lhs.sx, statement.rhs.sx))
         self.origins.append(origin)
+        return self.residuals[-1]
 
     def scalar_origins(self) -> list[Origin]:
         """Return the origin of each scalar residual."""
@@ -129,11 +130,10 @@ def _run(component: Component, method: str, found: Equations, most: int, alike: 
             continue
         if not isinstance(statement, Equation):
             raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
-        residual = combined(statement.lhs.sx, "-", statement.rhs.sx)
+        residual = found.add(statement, origin)
         if residual.is_constant():
-            value = np.array(ca.evalf(vec(residual))).ravel()
+            value = np.array(ca.evalf(residual)).ravel()
             if np.any(value != 0):
                 raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
                 raise DeclarationError(f"{origin}: this equation is empty: both sides are the same expression.")
-        found.add(statement, origin)

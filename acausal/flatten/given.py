@@ -66,7 +66,7 @@ class Given:
                 if isinstance(declared, kind):
                     self._value(bound, name)
         del own["_demand"]
-        for name, declared in bound.fields.items():
+        for name, declared in bound.fields.items() if bound._class_values or owner is None else ():
             if isinstance(declared, f.Variable):
                 if name in bound._class_values and name not in own["_values"]:
                     own["_values"][name] = self._of_class(bound, name)
