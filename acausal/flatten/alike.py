@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,7 @@ FEWEST = 4  # alike components for which preparing a function pays
 ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are no values of a component
 Stated = tuple[Any, Origin]
 Hear = Callable[[Component], Iterable[Stated]]
+_Entries = dict[int, tuple[int, ca.SX]]  # by their hash, with their places
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class _Look:
     variables : list of Expr
         Of the component and its parts.
     entries : list of casadi.SX
-        Entries of its parameters that are no numbers, each once.
+        Entries of its other expressions that are no numbers, each once.
     """
 
     variables: list[Expr]
@@ -55,7 +57,8 @@ class _Look:
 class _Template:
     """What alike components state, as a function of their symbols, of derivatives and of symbols common to all."""
 
-    stated: list[tuple[type, list[tuple[int, ...]], Origin]]
+    kind: type
+    stated: list[tuple[list[tuple[int, ...]], Origin]]
     shapes: list[tuple[int, int]]
     common: ca.SX
     function: ca.Function
@@ -67,9 +70,10 @@ class _Template:
         derivatives = [ca.SX.sym("der", *shape) for shape in self.shapes]
         found = iter(self.function.call([*look.symbols(), *derivatives, self.common]))
         PENDING.get().derivatives += [(d, next(found)) for d in derivatives]
-        for kind, shapes, origin in self.stated:
+        for shapes, origin in self.stated:
             place = Origin(component._path, origin.kind, origin.where, origin.text)
-            yield _joined(kind, [Expr(next(found), shape=shape) for shape in shapes]), place
+            parts = [Expr(next(found), shape=shape) for shape in shapes]
+            yield parts[0] if self.kind is Expr else Equation(*parts) if self.kind is Equation else tuple(parts), place
 
 
 class Alike:
@@ -90,14 +94,14 @@ class Alike:
             if classes[type(component)] >= FEWEST and (found := self._look(component)):
                 kinds.setdefault(found[0], {})[id(component)] = found[1]
         self._looks = {
-            place: (kind, look)
-            for kind, looks in enumerate(kinds.values())
+            place: (number, look)
+            for number, looks in enumerate(kinds.values())
             if len(looks) >= FEWEST
             for place, look in looks.items()
         }
         self._templates: dict[tuple[str, int], _Template | None] = {}
 
-    def hear(self, component: Component, method: str, hear: Hear) -> Iterable[Stated]:
+    def hear(self, component: Component, method: str, kind: type, hear: Hear) -> Iterable[Stated]:
         """Return what a component states in a method, with the place of each statement.
 
         Parameters
@@ -106,15 +110,17 @@ class Alike:
             Bound, with its variables.
         method : str
             The method.
+        kind : type
+            What it should state: Equation, Expr, or tuple of several of these.
         hear : callable
             Runs the method of a component.
         """
         if id(component) not in self._looks:
             return hear(component)
-        kind, look = self._looks[id(component)]
-        place = method, kind
+        number, look = self._looks[id(component)]
+        place = method, number
         if place not in self._templates:
-            self._templates[place] = _template(component, look, hear)
+            self._templates[place] = _template(component, look, kind, hear)
         template = self._templates[place]
         return hear(component) if template is None else template.of(component, look)
 
@@ -122,7 +128,7 @@ class Alike:
         """What is equal for components that are alike, and the symbols of one; None if it has discrete variables."""
         inside = list(walk(component))
         places = {id(c): k for k, c in enumerate(inside)}
-        key, variables, entries, at = list[Hashable](), list[Expr](), dict[int, ca.SX](), dict[int, Hashable]()
+        key, variables, entries, at = list[Hashable](), list[Expr](), _Entries(), dict[int, Hashable]()
         for c in inside:
             for name, declared in c.fields.items():
                 if isinstance(declared, f.Outer):
@@ -138,16 +144,16 @@ class Alike:
                     key.append(id(value) if isinstance(declared, f.Outer) else _count(value))
                 elif not isinstance(value, Expr):
                     key.append(_plain(value))
-                elif isinstance(declared, f.Parameter):
+                elif not isinstance(declared, f.Variable):
                     key.append((value.unit, value.shape, _entries(value.sx, entries)))
-                elif isinstance(declared, f.Variable) and declared.causality == "discrete":
+                elif declared.causality == "discrete":
                     return None
                 else:
                     if id(value) not in at:
                         at[id(value)] = len(variables)
                         variables.append(value)
                     key.append((value.unit, value.shape, at[id(value)]))
-        return tuple(key), _Look(variables, list(entries.values()))
+        return tuple(key), _Look(variables, [entry for _, entry in entries.values()])
 
     def _outside(self, outer: Component) -> dict[int, Hashable]:
         """Symbols of a component that others read, which stand for themselves."""
@@ -180,42 +186,43 @@ def _plain(value: Any) -> Hashable:
     return type(value), id(value)
 
 
-def _entries(sx: ca.SX, found: dict[int, ca.SX]) -> Hashable:
+def _entries(sx: ca.SX, found: _Entries) -> Hashable:
     """Numbers in a parameter, and the places of its other entries among those that were found before."""
     key: list[Hashable] = [sx.nnz()]
     for entry in scalars(sx):
         if entry.is_constant():
             key.append(repr(float(entry)))
         else:
-            found.setdefault(entry.element_hash(), entry)
-            key.append(list(found).index(entry.element_hash()))
+            key.append(found.setdefault(entry.element_hash(), (len(found), entry))[0])
     return tuple(key)
 
 
-def _template(component: Component, look: _Look, hear: Hear) -> _Template | None:
+def _template(component: Component, look: _Look, kind: type, hear: Hear) -> _Template | None:
     """Hear a component in symbols of no model; None if what it states depends on more than these."""
     own = _Look([_anew(v) for v in look.variables], [ca.SX.sym(f"p{k}") for k in range(len(look.entries))])
-    instead = dict(zip(map(id, look.variables), own.variables, strict=True))
+    twins: dict[int, Any] = {id(c): copy(c) for c in walk(component)}
+    twins |= zip(map(id, look.variables), own.variables, strict=True)
     entries = dict(zip((e.element_hash() for e in look.entries), own.entries, strict=True))
-    kept = [(c, dict(vars(c))) for c in walk(component)]
+
+    def twin(value: Any) -> Any:
+        if isinstance(value, list | tuple) and any(isinstance(v, Component) for v in value):
+            return type(value)(map(twin, value))
+        return twins.get(id(value), value)
+
+    for c in walk(component):
+        for name, value in vars(c).items():
+            entered = isinstance(value, Expr) and not isinstance(c.fields.get(name), f.Variable)
+            vars(twins[id(c)])[name] = _renamed(value, entries) if entered else twin(value)
     pending = Pending()
     pending.varying = {s.element_hash() for v in own.variables for s in scalars(v.sx)}
     token = PENDING.set(pending)
     try:
-        for c, values in kept:
-            for name, value in values.items():
-                if isinstance(value, Expr):
-                    parameter = isinstance(c.fields.get(name), f.Parameter)
-                    vars(c)[name] = _renamed(value, entries) if parameter else instead.get(id(value), value)
-        stated = list(hear(component))
+        stated = list(hear(twins[id(component)]))
     except AcausalError:
         return None
     finally:
         PENDING.reset(token)
-        for c, values in kept:
-            vars(c).clear()
-            vars(c).update(values)
-    return _function(stated, own, pending)
+    return _function(stated, kind, own, pending)
 
 
 def _anew(variable: Expr) -> Expr:
@@ -231,10 +238,12 @@ def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
     return Expr(sx, parameter.unit, parameter.name)
 
 
-def _function(stated: list[Stated], own: _Look, pending: Pending) -> _Template | None:
+def _function(stated: list[Stated], kind: type, own: _Look, pending: Pending) -> _Template | None:
     """What was stated as a function of the symbols that it was stated in."""
-    parts = [_split(statement) for statement, _ in stated]
-    if pending.switches or pending.whens or pending.promises or not all(parts):
+    if pending.switches or pending.whens or pending.promises or not all(isinstance(s, kind) for s, _ in stated):
+        return None
+    parts = [(s.lhs, s.rhs) if kind is Equation else (s,) if kind is Expr else s for s, _ in stated]
+    if not all(isinstance(e, Expr) for exprs in parts for e in exprs):
         return None
     derivatives = [placeholder for placeholder, _ in pending.derivatives]
     results = [e for _, e in pending.derivatives] + [e.sx for exprs in parts for e in exprs]
@@ -242,21 +251,9 @@ def _function(stated: list[Stated], own: _Look, pending: Pending) -> _Template |
     known = {s.element_hash() for sx in given for s in scalars(sx)}
     common = stacked([s for s in ca.symvar(stacked(map(vec, results))) if s.element_hash() not in known])
     return _Template(
-        [(type(s), [e.shape for e in exprs], origin) for (s, origin), exprs in zip(stated, parts, strict=True)],
+        kind,
+        [([e.shape for e in exprs], origin) for (_, origin), exprs in zip(stated, parts, strict=True)],
         [d.shape for d in derivatives],
         common,
         ca.Function("stated", [*given, common], results),
     )
-
-
-def _split(statement: Any) -> tuple[Expr, ...]:
-    """Expressions of a statement; none of one that has others."""
-    if isinstance(statement, Equation):
-        return statement.lhs, statement.rhs
-    parts = statement if isinstance(statement, tuple) else (statement,)
-    return parts if all(isinstance(part, Expr) for part in parts) else ()
-
-
-def _joined(kind: type, parts: list[Expr]) -> Any:
-    """The statement of expressions."""
-    return Equation(*parts) if kind is Equation else tuple(parts) if kind is tuple else parts[0]

@@ -123,7 +123,7 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
 
 
 def _run(component: Component, method: str, found: Equations, most: int, alike: Alike) -> None:
-    for statement, origin in alike.hear(component, method, lambda c: stated(c, method, most)):
+    for statement, origin in alike.hear(component, method, Equation, lambda c: stated(c, method, most)):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))

@@ -103,11 +103,7 @@ class Given:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
         # An error in a default that another one needs is located by that one.
-        return (
-            call()
-            if len(self._open) > 1
-            else with_place(call, replace(value_origin(bound, name), text=f"default of {name}"))
-        )
+        return call() if len(self._open) > 1 else with_place(call, value_origin(bound, name, text=f"default of {name}"))
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
         value = self.overrides.pop(join(bound._path, name), f.MISSING)

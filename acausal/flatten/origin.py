@@ -47,7 +47,7 @@ class Origin:
         return f"{', '.join(filter(None, [name, self.where]))}{': ' + self.text if self.text else ''}"
 
 
-def value_origin(component: Component, name: str, by_path: bool = False) -> Origin:
+def value_origin(component: Component, name: str, by_path: bool = False, text: str = "") -> Origin:
     """Where the value of a field is written: in the call of the constructor, or in the class.
 
     Parameters
@@ -58,6 +58,8 @@ def value_origin(component: Component, name: str, by_path: bool = False) -> Orig
         The field.
     by_path : bool
         True for a value by path, `parameters={"beam.E": ...}`: no line of the model holds it.
+    text : str
+        What it is; the name of the field if not given.
     """
     where = component._origin
     if by_path:
@@ -66,7 +68,7 @@ def value_origin(component: Component, name: str, by_path: bool = False) -> Orig
         said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
         given = next(said, None) if name in component._class_values else None
         where = given._line if given else component.fields[name].where
-    return Origin(component._path, type(component).__name__, where, name)
+    return Origin(component._path, type(component).__name__, where, text or name)
 
 
 def method_origin(component: Component, name: str) -> Origin:

@@ -72,7 +72,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
         equations = collect(components, graph, most, alike)
         starts = collect_initial(components, most, alike)
-        declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, lambda c: stated(c, DERIVATIVES))]
+        declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES))]
         energies = {name: _total(name, components, alike) for name in ENERGIES}
         pending.place(Origin.of(build.root))
         _look_at_observed(components)
@@ -99,7 +99,9 @@ def _total(name: str, components: list[Component], alike: Alike) -> ca.SX:
     total = as_expr(0.0)
     for component in components:
         if getattr(type(component), name) is not getattr(Component, name):
-            for power, origin in alike.hear(component, name, lambda c: [(_power(c, name), method_origin(c, name))]):
+            for power, origin in alike.hear(
+                component, name, Expr, lambda c: [(_power(c, name), method_origin(c, name))]
+            ):
                 PENDING.get().place(origin)
                 total = total + power
     return total.sx
