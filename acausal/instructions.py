@@ -42,8 +42,9 @@ def read_instructions(function: ca.Function) -> Instructions:
     """
     slot: dict[int, int] = {}
     read = Instructions([], [], [], {}, [[-1] * function.nnz_out(k) for k in range(function.n_out())])
+    kind, taken, given = function.instruction_id, function.instruction_input, function.instruction_output
     for k in range(function.n_instructions()):
-        op, inputs, outputs = function.instruction_id(k), function.instruction_input(k), function.instruction_output(k)
+        op, inputs, outputs = kind(k), taken(k), given(k)
         if op == ca.OP_OUTPUT:
             read.results[outputs[0]][outputs[1]] = slot[inputs[0]]
             continue
@@ -51,7 +52,7 @@ def read_instructions(function: ca.Function) -> Instructions:
         if op == ca.OP_INPUT:
             read.place[node] = inputs[0], inputs[1]
         read.op.append(op)
-        read.arguments.append(() if leaf else tuple(slot[i] for i in inputs))
+        read.arguments.append(() if leaf else tuple([slot[i] for i in inputs]))
         read.constant.append(function.instruction_constant(k) if op == ca.OP_CONST else 0.0)
         slot[outputs[0]] = node
     return read

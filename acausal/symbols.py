@@ -24,6 +24,11 @@ def stacked(entries: Iterable[Any]) -> ca.SX:
     return ca.vertcat(ca.SX(0, 1), *entries)
 
 
+def picked(column: ca.SX, places: list[int]) -> ca.SX:
+    """Return entries of a dense column; of no places an empty column of symbols."""
+    return column[places] if places else ca.SX(0, 1)
+
+
 def vec(matrix: ca.SX) -> ca.SX:
     """Return the entries of a matrix as one column, in column-major order."""
     return matrix if matrix.size2() == 1 else ca.vec(matrix)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from acausal import Matrix33, Scalar, Vector3, parameter
 from components.orientation import skew
 from components.two_frame_body import TwoFrameBody
@@ -18,6 +20,11 @@ class BodyRod(TwoFrameBody):
     I: Matrix33 = parameter(
         "inertia tensor about the centre of mass",
         unit="kg.m2",
-        default=lambda s: s.m / 12 * (skew(s.r).T @ skew(s.r)),
+        default=lambda s: _inertia(s.m, s.r),
         doc="Resolved in frame_a; that of the rod if not given.",
     )
+
+
+def _inertia(m: Any, r: Any) -> Any:
+    S = skew(r)
+    return m / 12 * (S.T @ S)

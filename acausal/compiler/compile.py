@@ -16,6 +16,7 @@ from acausal.compiler.source import Source
 from acausal.compiler.zeros import mend_of_zeros
 from acausal.errors import StructurallySingularError, UnbalancedModelError
 from acausal.flatten import flatten
+from acausal.garbage import uncollected
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -24,6 +25,7 @@ from acausal.reduce import plan_of, reduce
 
 @fitting
 @alone
+@uncollected()
 def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> CompiledModel:
     """Compile a model: flatten, analyse, reduce and generate code.
 

@@ -19,7 +19,7 @@ from acausal.flatten.numeric import misshapen, numeric
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
-from acausal.symbols import vec
+from acausal.symbols import dense, vec
 
 
 class Settable:
@@ -124,7 +124,7 @@ class Settable:
     def _limits(self) -> tuple[Call, np.ndarray, np.ndarray, np.ndarray]:
         """Function of the limited entries, and for each its owner, least value and whether it must be positive."""
         own = self.own
-        column = ca.vertcat(*[ca.densify(vec(sx)) for _, sx, _ in own.limits])
+        column = ca.vertcat(*[dense(vec(sx)) for _, sx, _ in own.limits])
         owners = np.repeat(np.arange(len(own.limits)), [sx.numel() for _, sx, _ in own.limits])
         least = np.array([-np.inf if d.minimum is None else d.minimum for _, _, d in own.limits])[owners]
         positive = np.array([d.positive for _, _, d in own.limits])[owners]

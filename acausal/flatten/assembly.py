@@ -25,10 +25,10 @@ from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
-from acausal.flatten.tape import Linear, Tape, expression
+from acausal.flatten.tape import Linear, Tape, expressions
 from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import dense, scalars, stacked, vec
+from acausal.symbols import dense, picked, scalars, stacked, vec
 
 
 @dataclass(frozen=True)
@@ -76,14 +76,14 @@ class Assembly:
 
     def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
-        self.size = chain.levels[0].numel()
+        self.size = chain.variables.numel()
         closures = raw.equations.closures
         residuals = stacked([*raw.equations.residuals, *[c.dual for c in closures]])
         self.residuals, starts, energies = resolved(
             [residuals, stacked(raw.initial.residuals), ca.vertcat(*raw.energies.values())]
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
-        self.symbols = ca.vertcat(*chain.levels)
+        self.symbols, self.lower = ca.vertcat(*chain.levels), chain.lower
         self.discontinuities = FlatDiscontinuities(
             tuple(switch for switch, _ in raw.pending.switches),
             guards(raw.pending, raw.discretes, resolved),
@@ -98,13 +98,11 @@ class Assembly:
     def flat_model(self) -> FlatModel:
         """Simplify and assemble."""
         left = self._simplified()
-        done, elements = left.done, scalars(self.symbols)
-        removed = list(done.solved)
-        was = stacked([elements[k] for k in removed])
-        becomes = stacked([expression(left.values[k], elements) for k in removed])
+        done, removed = left.done, list(left.done.solved)
+        was = picked(self.symbols, removed)
+        becomes = expressions([left.values[k] for k in removed], self.symbols)
         residuals = ca.vertcat(
-            ca.substitute(self.residuals, was, becomes),
-            stacked([expression(value, elements) for value, _ in done.left]),
+            ca.substitute(self.residuals, was, becomes), expressions([value for value, _ in done.left], self.symbols)
         )
         return FlatModel(
             unknowns=self._unknowns(left, (was, becomes)),
@@ -135,12 +133,12 @@ class Assembly:
         return _Left(done, values, sorted(needed.difference(done.solved)), rows, present)
 
     def _unknowns(self, left: _Left, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
-        found = attributes(self.raw, len(self.chain.levels) - 1, self._jumping(), left.done.solved)
+        found = attributes(self.raw, self.lower, self._jumping(), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
         declared = scalars(ca.substitute(stacked([self.declared[k] for k in at]), *eliminated)) if at else []
         return FlatUnknowns(
-            symbols=stacked([self.symbols[k] for k in left.unknowns]),
+            symbols=picked(self.symbols, left.unknowns),
             names=tuple(a.name for a in own),
             derivative=tuple(left.place.get(left.done.derivative[k], -1) for k in left.unknowns),
             declared={left.place[k]: e for k, e in zip(at, declared, strict=True)},
@@ -154,12 +152,11 @@ class Assembly:
         )
 
     def _equations(self, left: _Left, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
-        entries, elements = scalars(residuals), scalars(self.symbols)
-        for row, value in left.done.kept.items():
-            entries[row] = expression(value, elements)
-        defines = self._defines(left)
+        kept, defines = left.done.kept, self._defines(left)
+        place = {row: residuals.numel() + k for k, row in enumerate(kept)}
+        residuals = ca.vertcat(residuals, expressions(list(kept.values()), self.symbols))
         return FlatEquations(
-            residuals=stacked([entries[r] for r in left.rows]),
+            residuals=picked(residuals, [place.get(r, r) for r in left.rows]),
             origins=tuple(self.origins[r] for r in left.rows),
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
@@ -202,10 +199,10 @@ class Assembly:
 
     def _asked(self) -> set[int]:
         """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
-        inside = ca.symvar(ca.vertcat(self.initial_residuals, *self.energies.values()))
-        asked = {s.element_hash() for s in inside}.difference(self.raw.index)
-        place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))} if asked else {}
-        return {place[s] for s in asked if s in place}
+        column = ca.vertcat(self.initial_residuals, *self.energies.values())
+        asked = {s.element_hash() for s in ca.symvar(column)}
+        derivatives = scalars(stacked(self.chain.levels[1:]))
+        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
 
     def _unused(self, done: Simplification) -> set[int]:
         """Redundant residuals, and the substitutes of the others."""
@@ -214,11 +211,10 @@ class Assembly:
 
     def _chains(self, present: set[int]) -> list[int]:
         """Unknown -> its derivative among the symbols, as far as a derivative occurs."""
-        n, total = self.size, self.symbols.numel()
-        derivative = [-1] * total
-        for k in range(total - 1, n - 1, -1):
+        derivative = [-1] * self.symbols.numel()
+        for k, lower in reversed([*enumerate(self.lower, self.size)]):
             if k in present or derivative[k] >= 0:
-                derivative[k - n] = k
+                derivative[lower] = k
         return derivative
 
     def _rank(self) -> list[int]:
@@ -235,9 +231,11 @@ class Assembly:
         rows, place = set(left.rows), left.place
         row = 0
         for lhs, _ in self.raw.equations.sides:
-            for k, entry in enumerate(scalars(lhs)):
-                index = self.raw.index.get(entry.element_hash(), -1)
-                if index not in self.declared or row + k not in rows:
+            remain = [k for k in range(lhs.numel()) if row + k in rows]
+            entries = scalars(lhs) if remain else []
+            for k in remain:
+                index = self.raw.index.get(entries[k].element_hash(), -1)
+                if index not in self.declared:
                     continue
                 if index in place:
                     own[row + k] = place[index]

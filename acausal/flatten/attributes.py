@@ -49,15 +49,15 @@ class Attributes:
             self.nominal, self.sized = alias.nominal / abs(factor), True
 
 
-def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
-    """Return the attributes of all unknowns, those of the derivatives level by level behind those of the variables.
+def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
+    """Return the attributes of all unknowns, those of the derivatives behind those of the variables.
 
     Parameters
     ----------
     raw : Said
         What the components stated.
-    levels : int
-        Times that variables are differentiated at most.
+    lower : list of int
+        Of each derivative, what it is the derivative of.
     jumping : iterable of int
         Variables that jump at instants, which have to be states.
     solved : mapping of int to Linear
@@ -68,10 +68,8 @@ def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[i
         attribute.nominal = nominal
     for k in jumping:
         found[k].preference = ALWAYS
-    level = found
-    for _ in range(levels):
-        level = [a.derivative() for a in level]
-        found = found + level
+    for k in lower:
+        found.append(found[k].derivative())
     for k in reversed(list(solved)):
         offset, terms = solved[k]
         if terms:
@@ -82,7 +80,7 @@ def attributes(raw: Said, levels: int, jumping: Iterable[int], solved: Mapping[i
 
 def weighing(raw: Said) -> tuple[str, ...]:
     """Names of the parameters that nominal values depend on."""
-    inside = {s.element_hash() for s in ca.symvar(_weights(raw))}
+    inside = {s.element_hash() for s in ca.symvar(stacked(_weights(raw).values()))}
     own = raw.build.parameters
     return tuple(name for name, s in zip(own.names, own.symbols, strict=True) if s.element_hash() in inside)
 
@@ -98,13 +96,16 @@ def _declared(array: VariableArray) -> Iterator[Attributes]:
         )
 
 
-def _weights(raw: Said) -> ca.SX:
-    """Nominal values of all variables, in parameters."""
-    return dense(stacked([vec(a.nominal.sx) for a in raw.arrays]))
+def _weights(raw: Said) -> dict[int, ca.SX]:
+    """Nominal values of variables, in parameters, by the expression that gives them."""
+    return {id(a.nominal): dense(vec(a.nominal.sx)) for a in {id(a.nominal): a for a in raw.arrays}.values()}
 
 
 def _nominals(raw: Said) -> list[float]:
     """Nominal values of all variables as they are when compiled."""
-    own = raw.build.parameters
-    function = ca.Function("nominal", [stacked(own.symbols)], [_weights(raw)])
-    return np.array(function(np.array(own.values))).ravel().tolist()
+    own, weights = raw.build.parameters, _weights(raw)
+    function = ca.Function("nominal", [stacked(own.symbols)], [stacked(weights.values())])
+    found = np.array(function(np.array(own.values))).ravel().tolist()
+    ends = np.cumsum([w.numel() for w in weights.values()]).tolist()
+    known = {key: found[end - w.numel() : end] for (key, w), end in zip(weights.items(), ends, strict=True)}
+    return [value for a in raw.arrays for value in known[id(a.nominal)]]

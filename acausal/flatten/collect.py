@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any
+from functools import reduce
 
 import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.alike import Alike
 from acausal.flatten.graph import Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
@@ -20,7 +21,7 @@ from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
 from acausal.language.homes import error_of, misplaced
-from acausal.symbols import dense, scalars, vec
+from acausal.symbols import combined, dense, scalars, vec
 
 
 @dataclass(frozen=True)
@@ -45,22 +46,23 @@ class Equations:
     origins: list[Origin]
     closures: list[Closure] = field(default_factory=list)
 
-    def add(self, statement: Equation, origin: Origin) -> None:
-        """Append an equation."""
-        self.residuals.append(dense(vec(statement.lhs.sx - statement.rhs.sx)))
+    def add(self, statement: Equation, origin: Origin) -> ca.SX:
+        """Append an equation; return its residual."""
+        self.residuals.append(dense(vec(combined(statement.lhs.sx, "-", statement.rhs.sx))))
         self.sides.append((statement.lhs.sx, statement.rhs.sx))
         self.origins.append(origin)
+        return self.residuals[-1]
 
     def scalar_origins(self) -> list[Origin]:
         """Return the origin of each scalar residual."""
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph, most: int) -> Equations:
+def collect(components: list[Component], graph: Graph, most: int, alike: Alike) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, "equations", found, most)
+        _run(component, "equations", found, most, alike)
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
@@ -70,7 +72,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
                 )
                 PENDING.get().place(origin)
     for connector in graph.roots:
-        _run(connector, "root_equations", found, most)
+        _run(connector, "root_equations", found, most, alike)
     for cut in graph.cuts:
         _close(cut, graph, found)
     for balance in graph.balances:
@@ -78,11 +80,11 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
     return found
 
 
-def collect_initial(components: list[Component], most: int) -> Equations:
+def collect_initial(components: list[Component], most: int, alike: Alike) -> Equations:
     """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, "initial_equations", found, most)
+        _run(component, "initial_equations", found, most, alike)
     return found
 
 
@@ -136,26 +138,25 @@ def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> No
     for same in zip(*(walk(c) for c, _ in balance), strict=True):
         for name, declared in same[0].fields.items():
             if isinstance(declared, f.Variable) and declared.flow:
-                flows = [getattr(c, name).sx * sign for c, (_, sign) in zip(same, balance, strict=True)]
-                total: Any = sum(flows[1:], flows[0])
+                flows = [(getattr(c, name).sx, sign) for c, (_, sign) in zip(same, balance, strict=True)]
+                total = reduce(lambda a, b: combined(a, "+", b), [sx if sign > 0 else -sx for sx, sign in flows])
                 zero = Expr(ca.SX.zeros(*total.shape))
                 origin = Origin(join(same[0]._path, name), type(same[0]).__name__, "flows of a connection", text)
                 found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, method: str, found: Equations, most: int) -> None:
-    for statement, origin in stated(component, method, most):
+def _run(component: Component, method: str, found: Equations, most: int, alike: Alike) -> None:
+    for statement, origin in alike.hear(component, method, Equation, lambda c: stated(c, method, most)):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))
             continue
         if not isinstance(statement, Equation):
             raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
-        residual = vec(statement.lhs.sx - statement.rhs.sx)
+        residual = found.add(statement, origin)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()
             if np.any(value != 0):
                 raise DeclarationError(f"{origin}: this equation can never hold; its sides differ by {value.tolist()}.")
             if not (statement.lhs.sx.is_constant() and statement.rhs.sx.is_constant()):
                 raise DeclarationError(f"{origin}: this equation is empty: both sides are the same expression.")
-        found.add(statement, origin)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import casadi as ca
 
 from acausal.language.functions import time
-from acausal.symbols import dense, scalars, vec
+from acausal.symbols import dense, scalars, stacked, vec
 
 
 class Derivatives:
-    """Symbols of the variables and of their time derivatives.
+    """Symbols of the variables, and of those of their time derivatives that occur.
 
     Parameters
     ----------
@@ -20,25 +22,44 @@ class Derivatives:
     """
 
     def __init__(self, variables: ca.SX, declared: dict[int, ca.SX]) -> None:
-        self.levels = [variables]
-        self.declared = declared
-        self._grow()
+        self.variables, self.declared = variables, declared
+        self._symbols: dict[tuple[int, int], ca.SX] = {}
+        self._places = {s.element_hash(): (0, k) for k, s in enumerate(scalars(variables))}
 
-    def _grow(self) -> None:
-        symbols = scalars(self.levels[-1])
-        self.levels.append(ca.vertcat(*[ca.SX.sym(f"der({s.name()})") for s in symbols]))
-        self._top = {s.element_hash() for s in scalars(self.levels[-1])}
+    @property
+    def levels(self) -> list[ca.SX]:
+        """The variables, those of their first derivatives that occur, and so on."""
+        last = max((level for level, _ in self._symbols), default=0)
+        places = [sorted(place for place in self._symbols if place[0] == level) for level in range(1, last + 1)]
+        return [self.variables, *[stacked([self._symbols[place] for place in level]) for level in places]]
+
+    @property
+    def lower(self) -> list[int]:
+        """Place of what each derivative is that of, in all levels one after the other."""
+        n = self.variables.numel()
+        at = {place: n + k for k, place in enumerate(sorted(self._symbols))}
+        return [variable if level == 1 else at[level - 1, variable] for level, variable in at]
+
+    def symbol(self, variable: int, level: int = 1) -> ca.SX:
+        """Return the symbol of a derivative of a variable."""
+        if level == 0:
+            return self.variables[variable]
+        place = level, variable
+        if place not in self._symbols:
+            own = self._symbols[place] = ca.SX.sym(f"der({self.symbol(variable, level - 1).name()})")
+            self._places[own.element_hash()] = place
+        return self._symbols[place]
 
     def of(self, expressions: ca.SX) -> ca.SX:
         """Differentiate a column of expressions with respect to time."""
-        if any(s.element_hash() in self._top for s in ca.symvar(expressions)):
-            self._grow()
-        first = scalars(self.levels[1])
-        for index, expression in self.declared.items():
-            first[index] = expression
-        at = ca.vertcat(*self.levels[:-1], time.sx)
-        seeds = ca.vertcat(*first, *self.levels[2:], 1)
-        return dense(ca.jtimes(expressions, at, seeds))
+        at, seeds = list[Any](), list[Any]()
+        for symbol in ca.symvar(expressions):
+            level, variable = self._places.get(symbol.element_hash(), (0, -1))
+            if variable >= 0:
+                at.append(symbol)
+                known = self.declared.get(variable) if level == 0 else None
+                seeds.append(self.symbol(variable, level + 1) if known is None else known)
+        return dense(ca.jtimes(expressions, ca.vertcat(*at, time.sx), ca.vertcat(*seeds, 1)))
 
     def resolve(self, pending: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
         """Return placeholders and the derivatives that they stand for; an expression may hold other placeholders."""

@@ -15,7 +15,7 @@ from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said, hear
 from acausal.language.component import Component
-from acausal.symbols import scalars, stacked, vec
+from acausal.symbols import scalars
 
 
 def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> FlatModel:
@@ -39,11 +39,9 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     """
     raw = hear(model, overrides)
     refuse_foreign(raw)
-    variables = stacked([vec(a.expr.sx) for a in raw.arrays])
-    raw.index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
-    chain = Derivatives(variables, {k: e for k, e in declared.items() if k not in integrated})
+    chain = Derivatives(raw.variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
     refuse_rates_of_inputs(raw)
@@ -53,9 +51,9 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
 
     names = [name for a in raw.arrays for name in a.names]
     for k in integrated:
-        raw.equations.residuals.append(chain.levels[1][k] - declared[k])
+        raw.equations.residuals.append(chain.symbol(k) - declared[k])
         raw.equations.origins.append(Origin(names[k], "root", "declared derivative"))
-        raw.equations.sides.append((chain.levels[1][k], declared[k]))
+        raw.equations.sides.append((chain.symbol(k), declared[k]))
     return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
 
 

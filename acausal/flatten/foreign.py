@@ -27,11 +27,13 @@ def refuse_foreign(raw: Said) -> None:
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
-    stated += [(e.sx, value_origin(a.owner, a.declared.name)) for a in raw.arrays for e in (a.start, a.nominal)]
+    values = [(a, e.sx) for a in raw.arrays for e in (a.start, a.nominal) if not e.sx.is_constant()]
+    stated += [(sx, value_origin(a.owner, a.declared.name)) for a, sx in values]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]
     everything = _column([*[sx for sx, _ in stated], *others])
-    symbols = ca.symvar(everything)
-    if _calls(everything, symbols):
+    known = [raw.variables, stacked(raw.build.parameters.symbols), _column(_requested(raw))]
+    function = ca.Function("all", known, [everything], {"allow_free": True})
+    if function.get_function():
         raise DeclarationError(
             f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function that cannot be differentiated and "
             "sorted as an equation, such as an interpolant or an external function. Write a table with piecewise((value, "
@@ -39,17 +41,16 @@ def refuse_foreign(raw: Said) -> None:
             "is called with SX."
         )
     _refuse_varying(raw)
-    known = _known(raw)
-    strangers = [s for s in symbols if s.element_hash() not in known]
-    if strangers:
-        place = _place(raw, stated, others, lambda e: ca.depends_on(e, strangers[0]))
-        raise DeclarationError(place + _undeclared(strangers[0]))
+    if function.has_free():
+        stranger = function.free_sx()[0]
+        place = _place(raw, stated, others, lambda e: ca.depends_on(e, stranger))
+        raise DeclarationError(place + _undeclared(stranger))
 
 
 def _refuse_varying(raw: Said) -> None:
     """Raise DeclarationError if a start value depends on a variable, or a nominal value on one or on time."""
-    variables = {s.element_hash() for a in raw.arrays for s in scalars(a.expr.sx)}
-    for array in raw.arrays:
+    variables = raw.index.keys()
+    for array in (a for a in raw.arrays if not a.start.sx.is_constant()):
         found = [s for s in ca.symvar(array.start.sx) if s.element_hash() in variables]
         if found:
             declared = array.declared.name
@@ -59,9 +60,7 @@ def _refuse_varying(raw: Said) -> None:
                 f"yield self.{declared} == ...."
             )
     varying = variables | {time.sx.element_hash()}
-    if not any(s.element_hash() in varying for s in ca.symvar(_column(a.nominal.sx for a in raw.arrays))):
-        return
-    for array in raw.arrays:
+    for array in (a for a in raw.arrays if not a.nominal.sx.is_constant()):
         found = [s for s in ca.symvar(array.nominal.sx) if s.element_hash() in varying]
         if found:
             raise DeclarationError(
@@ -97,12 +96,11 @@ def _undeclared(symbol: ca.SX) -> str:
     )
 
 
-def _known(raw: Said) -> set[int]:
-    """Hashes of all symbols that a model may use."""
+def _requested(raw: Said) -> list[ca.SX]:
+    """Symbols that a model may use beside its variables and parameters."""
     pending = raw.pending
-    columns = [a.expr.sx for a in raw.arrays] + [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
-    columns += [switch for switch, _ in pending.switches] + [placeholder for placeholder, _ in pending.derivatives]
-    return {s.element_hash() for s in (*raw.build.parameters.symbols, *scalars(_column(columns)))}
+    columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
+    return columns + [symbol for symbol, _ in (*pending.switches, *pending.derivatives)]
 
 
 def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
@@ -122,7 +120,6 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
     return stacked([vec(e) for e in entries])
 
 
-def _calls(expression: ca.SX, symbols: list[ca.SX] | None = None) -> bool:
-    """Whether an expression, of these symbols, calls functions instead of holding what they do."""
-    symbols = ca.symvar(expression) if symbols is None else symbols
-    return bool(ca.Function("all", [stacked(symbols)], [expression]).get_function())
+def _calls(expression: ca.SX) -> bool:
+    """Whether an expression calls functions instead of holding what they do."""
+    return bool(ca.Function("one", [], [expression], {"allow_free": True}).get_function())

@@ -22,6 +22,8 @@ from acausal.language.functions import time
 from acausal.symbols import scalars
 from acausal.units import parse
 
+_TIME = time.sx.element_hash()
+
 
 @dataclass
 class Parameters:
@@ -64,7 +66,7 @@ class Given:
                 if isinstance(declared, kind):
                     self._value(bound, name)
         del own["_demand"]
-        for name, declared in bound.fields.items():
+        for name, declared in bound.fields.items() if bound._class_values or owner is None else ():
             if isinstance(declared, f.Variable):
                 if name in bound._class_values and name not in own["_values"]:
                     own["_values"][name] = self._of_class(bound, name)
@@ -101,11 +103,7 @@ class Given:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
         # An error in a default that another one needs is located by that one.
-        return (
-            call()
-            if len(self._open) > 1
-            else with_place(call, replace(value_origin(bound, name), text=f"default of {name}"))
-        )
+        return call() if len(self._open) > 1 else with_place(call, value_origin(bound, name, text=f"default of {name}"))
 
     def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
         value = self.overrides.pop(join(bound._path, name), f.MISSING)
@@ -157,13 +155,14 @@ class Given:
                     f"{Origin.of(bound)}: `{name}` is not a finite number: it is divided by a parameter that is 0"
                     f"{_zeros_of(bound)}. Give that another value."
                 )
-            if ca.depends_on(given.sx, time.sx):
+            symbols = ca.symvar(given.sx) if not given.sx.is_constant() else []
+            if any(s.element_hash() == _TIME for s in symbols):
                 raise DeclarationError(
                     f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
             own = Expr(given.sx, unit, path)
             with_place(lambda: unit_rules.check_value(own, given), replace(origin, text=""))
-            self.parameters.bound[path] = ", ".join(s.name() for s in ca.symvar(given.sx)) or "others that are 0"
+            self.parameters.bound[path] = ", ".join(s.name() for s in symbols) or "others that are 0"
             expression = Expr(given.sx, unit, path)
         if declared.positive or declared.minimum is not None:
             self.parameters.limits.append((path, expression.sx, declared))
@@ -200,7 +199,7 @@ class Given:
             self.parameters.symbols.append(symbol)
             self.parameters.values.append(float(value[index]))
             entries.append(symbol)
-        sx = ca.vertcat(*entries)
+        sx = entries[0] if not value.shape else ca.vertcat(*entries)
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from acausal.errors import ConnectError
@@ -80,6 +81,8 @@ def build_graph(components: list[Component]) -> Graph:
 
 def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
     """Yield each statement with its place."""
+    if type(component).connections is Component.connections:
+        return iter(())
     here = method_origin(component, "connections")
     said = with_place(component.connections, here)
     if said is None:
@@ -125,13 +128,20 @@ def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
 
 
 def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
-    """Sets of members that pairs join."""
-    from networkx.utils import UnionFind
+    """Sets of members that pairs join (Galler & Fischer 1964)."""
+    above = {member: member for member in (*members, *chain.from_iterable(pairs))}
 
-    union = UnionFind(members)
+    def top(member: Any) -> Any:
+        while above[member] != member:
+            above[member] = member = above[above[member]]
+        return member
+
     for a, b in pairs:
-        union.union(a, b)
-    return list(union.to_sets())
+        above[top(b)] = top(a)
+    sets: dict[Any, set[Any]] = {}
+    for member in above:
+        sets.setdefault(top(member), set()).add(member)
+    return list(sets.values())
 
 
 def _balances(

@@ -37,6 +37,7 @@ class Instantiation:
         self.parameters = self._given.parameters
         self.components: list[Component] = []
         self._classes: set[type] = set()
+        self._outers: dict[type, list[Component]] = {}
         self.root = self._build(template, "", None)
         for component in self.components:
             self._resolve_outers(component)
@@ -141,7 +142,9 @@ class Instantiation:
         for name, declared in component.fields.items():
             if not isinstance(declared, f.Outer):
                 continue
-            found = [c for c in self.components if isinstance(c, declared.cls)]
+            if declared.cls not in self._outers:
+                self._outers[declared.cls] = [c for c in self.components if isinstance(c, declared.cls)]
+            found = self._outers[declared.cls]
             cls = declared.cls.__name__
             if len(found) != 1:
                 what = (

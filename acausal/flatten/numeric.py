@@ -39,6 +39,8 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
     DeclarationError
         If it is none.
     """
+    if type(value) is float and not shape and -LARGEST <= value <= LARGEST:
+        return np.array(value)
     single = shape == () or (shape is None and not _is_listed(value))
     try:
         if _has_no_number(value):

@@ -11,7 +11,7 @@ from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.raw_errors import in_words
-from acausal.language.component import Component
+from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.homes import returned
 
@@ -32,6 +32,10 @@ class Origin:
         """Where a component is constructed."""
         return cls(component._path, type(component).__name__, component._origin, text)
 
+    def at(self, where: str) -> Origin:
+        """The same in another line."""
+        return Origin(self.path, self.kind, where, self.text)
+
     @property
     def owner(self) -> str:
         """Path, class and line in the middle of a sentence."""
@@ -43,7 +47,7 @@ class Origin:
         return f"{', '.join(filter(None, [name, self.where]))}{': ' + self.text if self.text else ''}"
 
 
-def value_origin(component: Component, name: str, by_path: bool = False) -> Origin:
+def value_origin(component: Component, name: str, by_path: bool = False, text: str = "") -> Origin:
     """Where the value of a field is written: in the call of the constructor, or in the class.
 
     Parameters
@@ -54,15 +58,17 @@ def value_origin(component: Component, name: str, by_path: bool = False) -> Orig
         The field.
     by_path : bool
         True for a value by path, `parameters={"beam.E": ...}`: no line of the model holds it.
+    text : str
+        What it is; the name of the field if not given.
     """
-    here = Origin.of(component, name)
+    where = component._origin
     if by_path:
-        return here if component._path else replace(here, where="")
-    if name in component._values:
-        return here
-    said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
-    given = next(said, None) if name in component._class_values else None
-    return replace(here, where=given._line if given else component.fields[name].where)
+        where = where if component._path else ""
+    elif name not in component._values:
+        said = (base for base in type(component).__mro__ if name in vars(base).get("_own_values", ()))
+        given = next(said, None) if name in component._class_values else None
+        where = given._line if given else component.fields[name].where
+    return Origin(component._path, type(component).__name__, where, text or name)
 
 
 def method_origin(component: Component, name: str) -> Origin:
@@ -105,6 +111,8 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
 
 def stated(component: Component, method: str, most: int = MOST) -> Iterator[tuple[Any, Origin]]:
     """Yield what a method of a component states, each with its place."""
+    if getattr(type(component), method) in (getattr(base, method, None) for base in (Component, Connector)):
+        return
     here = method_origin(component, method)
     said = with_place(getattr(component, method), here)
     if not isinstance(said, Iterable) or isinstance(said, Expr):
@@ -122,7 +130,7 @@ def entries(
     stack = [iter(said)]
     for count in itertools.count():
         item = with_place(lambda: next(stack[-1], _END), here)
-        origin = replace(here, where=line_of(stack[0]) or here.where)
+        origin = here.at(line_of(stack[0]) or here.where)
         refuse_endless(count, origin, f"{method}()", most)
         if item is _END:
             stack.pop()

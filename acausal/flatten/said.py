@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.alike import Alike
 from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
@@ -19,15 +20,16 @@ from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
-from acausal.language.component import Component
+from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import Observed
 from acausal.language.functions import PENDING, Pending
 from acausal.language.values import shown
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked, vec
 from acausal.units import parse
 
 ENERGIES = {"stored_energy": parse("J"), "dissipated_power": parse("W"), "supplied_power": parse("W")}
+DERIVATIVES = "declared_derivatives"
 MASS = parse("kg")
 
 
@@ -45,7 +47,8 @@ class Said:
     pending: Pending
     discretes: list[Discrete]
     discrete_starts: list[ca.SX]
-    index: dict[int, int] = field(default_factory=dict)
+    variables: ca.SX
+    index: dict[int, int]
 
 
 def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
@@ -58,27 +61,50 @@ def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
         graph = build_graph(components)
         discretes = create_discretes(components)
         arrays = create_variables(components, graph.same)
-        pending.varying = pending.discrete | {s.element_hash() for a in arrays for s in scalars(a.expr.sx)}
+        variables = stacked([vec(a.expr.sx) for a in arrays])
+        index = {s.element_hash(): k for k, s in enumerate(scalars(variables))}
+        pending.varying = pending.discrete | index.keys()
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
         # Far more statements than any component needs, few enough to count them quickly.
-        most = 10_000 + 10 * sum(a.expr.sx.numel() for a in arrays)
-        equations = collect(components, graph, most)
-        starts = collect_initial(components, most)
+        most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
-        declared = [p for c in leads for p, _ in stated(c, "declared_derivatives")]
-        energies = {
-            name: sum(
-                (_power(c, name) for c in components if getattr(type(c), name) is not getattr(Component, name)),
-                as_expr(0.0),
-            ).sx
-            for name in ENERGIES
-        }
+        alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
+        equations = collect(components, graph, most, alike)
+        starts = collect_initial(components, most, alike)
+        declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES))]
+        energies = {name: _total(name, components, alike) for name in ENERGIES}
         pending.place(Origin.of(build.root))
         _look_at_observed(components)
     finally:
         PENDING.reset(token)
-    return Said(build, graph, arrays, equations, starts, declared, energies, pending, discretes, discrete_values)
+    return Said(
+        build,
+        graph,
+        arrays,
+        equations,
+        starts,
+        declared,
+        energies,
+        pending,
+        discretes,
+        discrete_values,
+        variables,
+        index,
+    )
+
+
+def _total(name: str, components: list[Component], alike: Alike) -> ca.SX:
+    """Sum of an energy or a power over all components."""
+    total = as_expr(0.0)
+    for component in components:
+        if getattr(type(component), name) is not getattr(Component, name):
+            for power, origin in alike.hear(
+                component, name, Expr, lambda c: [(_power(c, name), method_origin(c, name))]
+            ):
+                PENDING.get().place(origin)
+                total = total + power
+    return total.sx
 
 
 def _power(component: Component, name: str) -> Expr:
@@ -92,7 +118,6 @@ def _power(component: Component, name: str) -> Expr:
     declared = Expr(value.sx, ENERGIES[name], f"{name}()")
     if value.unit != ENERGIES[name] / MASS:  # that of a unit mass
         with_place(lambda: unit_rules.common(declared, value, "its value"), here)
-    PENDING.get().place(here)
     return Expr(value.sx)
 
 

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import heapq
 import math
-import operator
 from collections.abc import Callable
-from functools import reduce
-from typing import Any
 
 import casadi as ca
 
 from acausal.instructions import read_instructions
+from acausal.symbols import combined
 
 Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
 
@@ -51,7 +49,7 @@ class Tape:
         self.input = {element: node for node, element in self.unknown.items()}
         self.users: list[list[int]] = [[] for _ in self.op]
         for node, args in enumerate(self.args):
-            for arg in set(args):
+            for arg in args if len(args) < 2 or args[0] != args[1] else args[:1]:
                 self.users[arg].append(node)
         self.residuals_at: dict[int, list[int]] = {}
         for row, node in enumerate(self.residual):
@@ -72,7 +70,7 @@ class Tape:
         values = [self.value[arg] for arg in self.args[node]]
         if op in (ca.OP_MUL, ca.OP_DIV):
             return _product(values[0], values[1], op == ca.OP_DIV)
-        if any(v is None for v in values) or not values:
+        if None in values or not values:
             return None
         a = values[0]
         assert a is not None
@@ -90,6 +88,11 @@ class Tape:
     def resolve(self, value: Linear) -> Linear:
         """Replace solved unknowns, following chains of aliases to their end."""
         c0, terms = value
+        for unknown, _ in terms:
+            if unknown in self.solved:
+                break
+        else:
+            return value
         result: Linear | None = (c0, ())
         for unknown, c in terms:
             term: Linear = (0.0, ((unknown, c),))
@@ -131,6 +134,8 @@ class Tape:
 
 def scale(value: Linear, factor: float) -> Linear:
     """Multiply a linear value by a number."""
+    if factor == 1:
+        return value
     if factor == 0:
         return 0.0, ()
     return value[0] * factor, tuple((u, c * factor) for u, c in value[1])
@@ -140,6 +145,8 @@ def add(a: Linear, b: Linear, factor: float) -> Linear | None:
     """Return a + factor b, or None if it has more than two unknowns."""
     if not b[1]:
         return a[0] + factor * b[0], a[1]
+    if not a[1]:
+        return a[0] + factor * b[0], scale(b, factor)[1]
     terms = dict(a[1])
     for unknown, c in b[1]:
         total = terms.get(unknown, 0.0) + factor * c
@@ -162,8 +169,14 @@ def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
     return scale(b, a[0]) if a is not None and not a[1] and b is not None else None
 
 
-def expression(value: Linear, elements: list[Any]) -> Any:
-    """Return a linear value in terms of the unknowns."""
-    c0, terms = value
-    products = [elements[u] if c == 1 else elements[u] * c for u, c in terms]
-    return reduce(operator.add, [*products, c0] if c0 or not products else products)
+def expressions(values: list[Linear], unknowns: ca.SX) -> ca.SX:
+    """Return linear values in terms of the unknowns, a column."""
+    if not values:
+        return ca.SX(0, 1)
+    # CasADi drops the terms that are added here with coefficient 0.
+    padded = [(*terms, (0, 0.0), (0, 0.0))[:2] for _, terms in values]
+    first, second = (
+        combined(unknowns[[terms[n][0] for terms in padded]], "*", ca.SX(ca.DM([terms[n][1] for terms in padded])))
+        for n in (0, 1)
+    )
+    return combined(combined(first, "+", second), "+", ca.SX(ca.DM([c0 for c0, _ in values])))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from math import isfinite
 from typing import Any
 
 import casadi as ca
@@ -127,6 +128,12 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
     return expr
 
 
+@lru_cache(maxsize=1024)
+def _filled(value: float, shape: tuple[int, ...]) -> Expr:
+    given = as_expr(value)
+    return Expr(combined(ca.SX.ones(*shape), "*", given.sx)) if shape else given
+
+
 def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr:
     """Return the value as an expression of the given shape and unit; one number fills an array."""
     path = variable.name
@@ -134,6 +141,8 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
     if isinstance(value, bool | np.bool_):
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be a number.")
+    if type(value) is float and isfinite(value) and (what == "start" or value > 0):
+        return _filled(value, shape)
     given = as_expr(value)
     if given.sx.is_constant() and not given.sx.is_regular():
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")

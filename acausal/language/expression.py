@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -44,12 +45,14 @@ class Expr(Symbolic):
     _lacks = "is symbolic and has no value while the model is built"
     _instead = "declare the field structural(...) if it is a size or a count"
 
-    def __init__(self, sx: ca.SX, unit: Unit = None, name: str = "") -> None:
+    def __init__(self, sx: ca.SX, unit: Unit = None, name: str = "", shape: tuple[int, ...] | None = None) -> None:
         self.sx = sx
         self.unit = unit
         self.name = name
-        n, m = sx.size1(), sx.size2()
-        self.shape: tuple[int, ...] = (n, m) if m != 1 else ((n,) if n != 1 else ())
+        if shape is None:  # where it is known, CasADi need not be asked
+            n, m = sx.size1(), sx.size2()
+            shape = (n, m) if m != 1 else ((n,) if n != 1 else ())
+        self.shape = shape
 
     def __copy__(self) -> Expr:
         return self
@@ -120,7 +123,7 @@ class Expr(Symbolic):
         return _matrix_product(other, self)
 
     def __neg__(self) -> Expr:
-        return Expr(-self.sx, self.unit)
+        return Expr(-self.sx, self.unit, shape=self.shape)
 
     def __pos__(self) -> Expr:
         return self
@@ -174,7 +177,7 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
-        return Expr(ca.SX(number_of(value)) if value else ca.SX(1, 1))
+        return _number(number_of(value))
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))))
@@ -187,9 +190,14 @@ def as_expr(value: Any) -> Expr:
         if any(row.shape != rows[0].shape or len(row.shape) > 1 for row in rows):
             raise DeclarationError(ragged([row.shape for row in rows], value))
         matrix = any(len(row.shape) == 1 for row in rows)
-        sx = ca.vertcat(*[row.sx.T if matrix else row.sx for row in rows])
-        return Expr(sx, unit_rules.of_array(rows))
+        entries = [row.sx for row in rows]
+        return Expr(ca.horzcat(*entries).T if matrix else ca.vertcat(*entries), unit_rules.of_array(rows))
     raise DeclarationError(no_expression(value))
+
+
+@lru_cache(maxsize=1024)
+def _number(value: float) -> Expr:
+    return Expr(ca.SX(value) if value else ca.SX(1, 1))
 
 
 @told
@@ -254,7 +262,7 @@ def _sum(left: Any, right: Any, symbol: str) -> Any:
     a, b = as_expr(left), as_expr(right)
     if a.shape != b.shape:
         raise DeclarationError(_misfit(a, symbol, b))
-    return Expr(combined(a.sx, symbol, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"))
+    return Expr(combined(a.sx, symbol, b.sx), unit_rules.common(a, b, f"joined by `{symbol}`"), shape=a.shape)
 
 
 def _product(left: Any, right: Any) -> Any:
@@ -263,7 +271,7 @@ def _product(left: Any, right: Any) -> Any:
     a, b = as_expr(left), as_expr(right)
     if a.shape and b.shape and a.shape != b.shape:
         raise DeclarationError(f"{_misfit(a, '*', b)} Use @ for matrices.")
-    return Expr(combined(a.sx, "*", b.sx), unit_rules.of_product(a, b))
+    return Expr(combined(a.sx, "*", b.sx), unit_rules.of_product(a, b), shape=a.shape or b.shape)
 
 
 def _matrix_product(left: Any, right: Any) -> Any:
@@ -284,4 +292,4 @@ def _quotient(left: Any, right: Any) -> Any:
     a, b = as_expr(left), as_expr(right)
     if b.shape:
         raise DeclarationError(f"cannot divide by {kind_of(b.shape)}: {short(b)}.")
-    return Expr(combined(a.sx, "/", b.sx), unit_rules.of_quotient(a, b))
+    return Expr(combined(a.sx, "/", b.sx), unit_rules.of_quotient(a, b), shape=a.shape)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import gc
 import linecache
 import warnings
 from collections import defaultdict
@@ -14,6 +13,7 @@ from typing import Any
 from weakref import WeakSet
 
 from acausal.errors import ConnectError, DeclarationError, user_line
+from acausal.garbage import uncollected
 from acausal.language.arguments import refused
 
 ENGINE = "acausal.language.component"
@@ -115,10 +115,8 @@ def _definitions(file: str) -> Mapping[tuple[str, int], list[Any]]:
 @lru_cache(maxsize=16)
 def _definitions_in(text: str) -> Mapping[tuple[str, int], list[Any]]:
     found = defaultdict[tuple[str, int], list[Any]](list)
-    collects = gc.isenabled()
-    gc.disable()  # a tree is many objects and no garbage: half of the time would go into looking through them
     try:
-        with warnings.catch_warnings():
+        with uncollected(), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Python has told its own when it compiled the text
             tree = ast.parse(text)
         for node in ast.walk(tree):
@@ -128,9 +126,6 @@ def _definitions_in(text: str) -> Mapping[tuple[str, int], list[Any]]:
                     found[getattr(node, "name", "<lambda>"), line].append(node)
     except (SyntaxError, ValueError):
         return {}
-    finally:
-        if collects:
-            gc.enable()
     return dict(found)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -24,7 +25,7 @@ class Requirement:
     subject: Condition | Expr
     problem: str | Callable[[np.ndarray], str]
 
-    @property
+    @cached_property
     def sx(self) -> ca.SX:
         """What has to be evaluated, a column."""
         return vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
