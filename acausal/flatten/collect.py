@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.graph import Graph
+from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tree import join, walk
@@ -71,8 +71,7 @@ def collect(components: list[Component], graph: Graph, most: int) -> Equations:
                 PENDING.get().place(origin)
     for connector in graph.roots:
         _run(connector, "root_equations", found, most)
-    for cut in graph.cuts:
-        _close(cut, graph, found)
+    _close(graph, found)
     for balance in graph.balances:
         _balance(balance, found)
     return found
@@ -86,26 +85,38 @@ def collect_initial(components: list[Component], most: int) -> Equations:
     return found
 
 
-def _close(cut: Cut, graph: Graph, found: Equations) -> None:
-    """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across."""
-    a, b = cut.statement.a, cut.statement.b
-    balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
-    side = next(group for group in graph.same if a in group)
+def _close(graph: Graph, found: Equations) -> None:
+    """Add the residuals of all cuts, and the flows that do work on them."""
+    sides = {id(c): group for group in graph.same for c in group}
+    balances: dict[int, list[Balance]] = {}
+    for balance in graph.balances if graph.cuts else ():
+        for connector, _ in balance:
+            balances.setdefault(id(connector), []).append(balance)
+    row = sum(r.numel() for r in found.residuals) if graph.cuts else 0
+    for cut in graph.cuts:
+        a, b = cut.statement.a, cut.statement.b
+        balance = next(s for s in balances[id(a)] if any(c is b for c, _ in s))
+        sent = _sent(a, balance, sides[id(a)])
+        origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
+        for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
+            number = len(found.sides)
+            found.add(statement, origin)
+            for k, entry in enumerate(scalars(as_expr(dual).sx)):
+                found.closures.append(Closure(row + k, entry, cut, number))
+            row += found.residuals[-1].numel()
+
+
+def _sent(a: Connector, balance: Balance, side: tuple[Connector, ...]) -> Connector:
+    """Return a connector with the flows that its side of a connection sends across."""
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
             flows = [getattr(c, name) * sign for c, sign in balance if c in side]
             vars(sent)[name] = sum(flows[1:], flows[0])
-    origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
-    for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
-        number = len(found.sides)
-        row = sum(r.numel() for r in found.residuals)
-        found.add(statement, origin)
-        for k, entry in enumerate(scalars(as_expr(dual).sx)):
-            found.closures.append(Closure(row + k, entry, cut, number))
+    return sent
 
 
-def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:
+def _balance(balance: Balance, found: Equations) -> None:
     first, outside = balance[0]
     if len(balance) == 1 and (outside < 0 or first._owner is None):
         return  # nothing inside uses this port of a composite, or the component itself does
