@@ -1,4 +1,4 @@
-"""Ranks, null spaces and pivots of small matrices, with rows scaled to length 1."""
+"""Ranks, null spaces and pivots of matrices, with rows scaled to length 1."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import scipy
 
 from acausal.policy import POLICY
 
+RANKS = POLICY.ranks
+TINY = np.finfo(float).tiny
+
 
 def scaled(rows: np.ndarray) -> np.ndarray:
     """Rows of length 1; rows that vanish stay."""
@@ -17,16 +20,62 @@ def scaled(rows: np.ndarray) -> np.ndarray:
     return rows / np.where(size > 0, size, 1.0)
 
 
-def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
+def rank(rows: np.ndarray, tolerance: float = RANKS.rank) -> int:
     """Number of independent rows."""
-    return (
-        int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
-    )
+    if not rows.size:
+        return 0
+    return int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * _size(rows)))
 
 
-def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[np.ndarray], np.ndarray]:
+def is_regular(rows: scipy.sparse.csc_matrix, tolerance: float = RANKS.rank) -> bool:
+    """Whether all rows of a sparse matrix are independent."""
+    large = rows.shape[0] > RANKS.small
+    if large and definite(scipy.sparse.diags(1 / np.maximum(lengths(rows), TINY)) @ rows, tolerance * _size(rows)):
+        return True
+    return rank(rows.toarray(), tolerance) == rows.shape[0]
+
+
+def _size(rows: np.ndarray | scipy.sparse.csc_matrix) -> int:
+    """Over which rounding of singular values adds up."""
+    return min(max(rows.shape), RANKS.small)
+
+
+def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:
+    """Length of each row."""
+    return np.sqrt(np.bincount(rows.indices, rows.data**2, minlength=rows.shape[0]))
+
+
+def definite(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarray], np.ndarray] | None:
+    """Return a solver with A A', from sparse factors, if all singular values of the rows A exceed a tolerance.
+
+    A A' - t^2 has as many negative eigenvalues as negative pivots (Sylvester's law of inertia). None if there may be smaller
+    ones; so it is where the square of the tolerance is rounding.
+    """
+    least = max(tolerance, RANKS.squared)
+    shift = scipy.sparse.identity(rows.shape[0]) * least**2
+    options = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+    product = (rows @ rows.T).tocsc()
+    try:
+        shifted = scipy.sparse.linalg.splu((product - shift).tocsc(), **options)
+        if not (np.array_equal(shifted.perm_r, shifted.perm_c) and np.all(shifted.U.diagonal() > 0)):
+            return None
+        return scipy.sparse.linalg.splu(product, **options).solve
+    except (RuntimeError, ValueError):
+        return None
+
+
+def least_norm(
+    rows: np.ndarray | scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float
+) -> Callable[[np.ndarray], np.ndarray]:
     """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
-    matrix = rows * sizes
+    if isinstance(rows, np.ndarray):
+        matrix = rows * sizes
+    else:
+        sparse = (rows @ scipy.sparse.diags(sizes)).tocsc()
+        inverse = definite(sparse, cutoff) if rows.shape[0] > RANKS.small else None
+        if inverse:
+            return lambda right: sizes * (sparse.T @ inverse(right))
+        matrix = sparse.toarray()
 
     def solve(right: np.ndarray) -> np.ndarray:
         if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(right))):
