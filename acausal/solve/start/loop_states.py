@@ -99,7 +99,9 @@ def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
             continue
         order = pivots(block)[: len(active)]
         size = np.abs(block[:, order])
-        pairs = scipy.optimize.linear_sum_assignment(-np.log(np.maximum(size, np.finfo(float).tiny)))
+        # Weights of 0 would count as none.
+        weight = scipy.sparse.csr_matrix(1 - np.log(np.maximum(size, np.finfo(float).tiny)))
+        pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
         follows = np.full(len(part.rows), -1)
         follows[active[pairs[0]]] = order[pairs[1]]
         selection[part.entries] = follows[part.places[0]] == part.places[1]
