@@ -14,7 +14,7 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
-from acausal.solve.start.rank import lengths
+from acausal.solve.start.regular import lengths
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import InitialSystem
-from acausal.solve.start.rank import factored, is_regular, null_space, pivots, rank, row_space
+from acausal.solve.start.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
@@ -109,17 +109,17 @@ def _independent(M: scipy.sparse.csc_matrix, C: np.ndarray) -> tuple[list[int], 
     """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
     if not len(C):
         return [], []
-    basis = list(row_space(M.toarray()))
-    used, surplus = [], []
+    free, basis = outside(M), np.zeros((0, C.shape[1]))
+    used, surplus = list[int](), list[int]()
     for k in range(len(C)):
         size = np.linalg.norm(C[k])
         v = C[k] / size if size else C[k]
         for _ in range(2):
-            for b in basis:
-                v = v - (b @ v) * b
+            v = free(v)
+            v = v - basis.T @ (basis @ v)
         rest = np.linalg.norm(v)
         if rest > POLICY.ranks.independent:
-            basis.append(v / rest)
+            basis = np.vstack([basis, v / rest])
             used.append(k)
         else:
             surplus.append(k)

@@ -15,7 +15,7 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part, parts
-from acausal.solve.start.rank import pivots
+from acausal.solve.start.rank import columns_by_pivots
 from acausal.solve.start.tangent import state_slopes
 
 LOOPS = POLICY.loops
@@ -94,18 +94,26 @@ def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     selection = np.zeros(len(D))
     for part in levels:
         active = np.flatnonzero(on[part.rows])
-        block = part.dense(D)[active]
-        if not block.size:
+        if not (active.size and part.columns.size):
             continue
-        order = pivots(block)[: len(active)]
-        size = np.abs(block[:, order])
-        # Weights of 0 would count as none.
-        weight = scipy.sparse.csr_matrix(1 - np.log(np.maximum(size, np.finfo(float).tiny)))
-        pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
+        block = part.sparse(D)[active]
+        order = columns_by_pivots(block)
+        pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(_weights(block[:, order]))
         follows = np.full(len(part.rows), -1)
         follows[active[pairs[0]]] = order[pairs[1]]
         selection[part.entries] = follows[part.places[0]] == part.places[1]
     return selection
+
+
+def _weights(block: scipy.sparse.csc_matrix) -> scipy.sparse.csr_matrix:
+    """Logarithms of the entries; not 0, as that would count as no entry."""
+    size = abs(block)
+    if block.shape[0] <= POLICY.ranks.small:
+        # Singular ones have a matching too.
+        size = scipy.sparse.csr_matrix(np.maximum(size.toarray(), np.finfo(float).tiny))
+    size.eliminate_zeros()
+    size.data = 1 - np.log(size.data)
+    return size.tocsr()
 
 
 def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
@@ -113,7 +121,7 @@ def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: 
 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
-    for decade in range(1, LOOPS.decades + 1):
+    for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
         weights = 1 / (1 + stiffness / (10.0**decade * feedback**2))
         if _transversality(levels, J[None], J * weights)[0] >= LOOPS.spared:
             return weights

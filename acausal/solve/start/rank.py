@@ -9,9 +9,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.start.regular import complement, gram, unit_rows
 
 RANKS = POLICY.ranks
-TINY = np.finfo(float).tiny
 
 
 def scaled(rows: np.ndarray) -> np.ndarray:
@@ -29,8 +29,7 @@ def rank(rows: np.ndarray, tolerance: float = RANKS.rank) -> int:
 
 def is_regular(rows: scipy.sparse.csc_matrix, tolerance: float = RANKS.rank) -> bool:
     """Whether all rows of a sparse matrix are independent."""
-    large = rows.shape[0] > RANKS.small
-    if large and definite(scipy.sparse.diags(1 / np.maximum(lengths(rows), TINY)) @ rows, tolerance * _size(rows)):
+    if gram(unit_rows(rows), tolerance * _size(rows)):
         return True
     return rank(rows.toarray(), tolerance) == rows.shape[0]
 
@@ -38,30 +37,6 @@ def is_regular(rows: scipy.sparse.csc_matrix, tolerance: float = RANKS.rank) -> 
 def _size(rows: np.ndarray | scipy.sparse.csc_matrix) -> int:
     """Over which rounding of singular values adds up."""
     return min(max(rows.shape), RANKS.small)
-
-
-def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:
-    """Length of each row."""
-    return np.sqrt(np.bincount(rows.indices, rows.data**2, minlength=rows.shape[0]))
-
-
-def definite(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarray], np.ndarray] | None:
-    """Return a solver with A A', from sparse factors, if all singular values of the rows A exceed a tolerance.
-
-    A A' - t^2 has as many negative eigenvalues as negative pivots (Sylvester's law of inertia). None if there may be smaller
-    ones; so it is where the square of the tolerance is rounding.
-    """
-    least = max(tolerance, RANKS.squared)
-    shift = scipy.sparse.identity(rows.shape[0]) * least**2
-    options = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
-    product = (rows @ rows.T).tocsc()
-    try:
-        shifted = scipy.sparse.linalg.splu((product - shift).tocsc(), **options)
-        if not (np.array_equal(shifted.perm_r, shifted.perm_c) and np.all(shifted.U.diagonal() > 0)):
-            return None
-        return scipy.sparse.linalg.splu(product, **options).solve
-    except (RuntimeError, ValueError):
-        return None
 
 
 def least_norm(
@@ -72,7 +47,7 @@ def least_norm(
         matrix = rows * sizes
     else:
         sparse = (rows @ scipy.sparse.diags(sizes)).tocsc()
-        inverse = definite(sparse, cutoff) if rows.shape[0] > RANKS.small else None
+        inverse = gram(sparse, cutoff)
         if inverse:
             return lambda right: sizes * (sparse.T @ inverse(right))
         matrix = sparse.toarray()
@@ -95,16 +70,19 @@ def factored(
         return least_norm(J.toarray(), sizes, cutoff)
 
 
-def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
+def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | None = None) -> np.ndarray:
     """Orthonormal rows that span what all given rows map to 0.
 
     Parameters
     ----------
-    rows : array, shape (m, n)
+    rows : array or sparse matrix, shape (m, n)
         The rows.
     independent : int, optional
         Their rank, if it is known better.
     """
+    if not isinstance(rows, np.ndarray):
+        found = complement(rows, RANKS.rank * _size(rows))
+        return null_space(rows.toarray(), independent) if found is None else found
     if not rows.size:
         return np.eye(rows.shape[1])
     return scipy.linalg.svd(scaled(rows))[2][rank(rows) if independent is None else independent :]
@@ -113,6 +91,24 @@ def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
 def row_space(rows: np.ndarray) -> np.ndarray:
     """Orthonormal rows that span the given ones."""
     return scipy.linalg.svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
+
+
+def outside(rows: scipy.sparse.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a projector on what is orthogonal to all rows."""
+    own = unit_rows(rows)
+    inverse = gram(own, RANKS.rank * _size(rows))
+    if inverse:
+        return lambda v: v - own.T @ inverse(own @ v)
+    basis = row_space(rows.toarray())
+    return lambda v: v - basis.T @ (basis @ v)
+
+
+def columns_by_pivots(rows: scipy.sparse.csc_matrix) -> np.ndarray:
+    """As many columns as rows, so that these are as independent in them as pivots find."""
+    null = complement(rows, RANKS.rank * _size(rows))
+    if null is None:
+        return pivots(rows.toarray())[: rows.shape[0]]
+    return np.setdiff1d(np.arange(rows.shape[1]), pivots(null)[: len(null)])
 
 
 def pivots(matrix: np.ndarray) -> np.ndarray:

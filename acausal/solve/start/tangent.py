@@ -28,11 +28,11 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """
     if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
-    J, size = problem.gradients(at).toarray(), problem.nominal[: problem.nx]
+    J, size = problem.gradients(at), problem.nominal[: problem.nx]
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
-    weight = np.where(np.any(J != 0, axis=0), 1.0, POLICY.ranks.unheld)
+    weight = np.where(np.isin(np.arange(problem.nx), J.nonzero()[1]), 1.0, POLICY.ranks.unheld)
     weight[[k for k in rate_of if weight[k] == 1.0]] = POLICY.ranks.coordinate
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
