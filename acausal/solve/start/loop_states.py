@@ -15,10 +15,10 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part, parts
-from acausal.solve.start.rank import columns_by_pivots
+from acausal.solve.start.rank import columns_by_pivots, pivots
 from acausal.solve.start.tangent import state_slopes
 
-LOOPS = POLICY.loops
+LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
@@ -91,29 +91,36 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
 
 def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     """Entries of unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
-    selection = np.zeros(len(D))
+    selection, follows = np.zeros(len(D)), np.full(len(on), -1)
+    rows, columns, sizes = (np.concatenate(k) for k in zip(*(_candidates(p, D, on) for p in levels), strict=True))
+    if not rows.size:
+        return selection
+    (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
+    # A weight of 0 would count as none.
+    weight = scipy.sparse.csr_matrix((1 - np.log(sizes), (row, column)))
+    pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
+    follows[row_of[pairs[0]]] = column_of[pairs[1]]
     for part in levels:
-        active = np.flatnonzero(on[part.rows])
-        if not (active.size and part.columns.size):
-            continue
-        block = part.sparse(D)[active]
-        order = columns_by_pivots(block)
-        pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(_weights(block[:, order]))
-        follows = np.full(len(part.rows), -1)
-        follows[active[pairs[0]]] = order[pairs[1]]
-        selection[part.entries] = follows[part.places[0]] == part.places[1]
+        selection[part.entries] = follows[part.rows[part.places[0]]] == part.columns[part.places[1]]
     return selection
 
 
-def _weights(block: scipy.sparse.csc_matrix) -> scipy.sparse.csr_matrix:
-    """Logarithms of the entries; not 0, as that would count as no entry."""
-    size = abs(block)
-    if block.shape[0] <= POLICY.ranks.small:
+def _candidates(part: Part, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Constraints of a part, coordinates that are as many and hold them best, and the sizes of their entries."""
+    active = np.flatnonzero(on[part.rows])[: len(part.columns)]
+    if len(active) > SMALL:
+        block = part.sparse(D)[active]
+        order = columns_by_pivots(block)
+        size = abs(block[:, order]).tocoo()
+        size.eliminate_zeros()
+        row, column, sizes = size.row, size.col, size.data
+    else:
+        block = part.dense(D)[active]
+        order = pivots(block)[: len(active)] if active.size else np.zeros(0, dtype=int)
+        row, column = (k.ravel() for k in np.indices((len(active), len(order))))
         # Singular ones have a matching too.
-        size = scipy.sparse.csr_matrix(np.maximum(size.toarray(), np.finfo(float).tiny))
-    size.eliminate_zeros()
-    size.data = 1 - np.log(size.data)
-    return size.tocsr()
+        sizes = np.maximum(np.abs(block[row, order[column]]), np.finfo(float).tiny)
+    return part.rows[active[row]], part.columns[order[column]], sizes
 
 
 def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
@@ -136,7 +143,7 @@ def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray) -> np.ndar
         on = np.linalg.norm(chosen, axis=1) > 0
         if not on.any():
             continue
-        if len(on) > POLICY.ranks.small:
+        if len(on) > SMALL:
             to = part.sparse(D)[on]
             found = np.array([1 / _oblique(part.sparse(row)[on], to) for row in J])
         else:
