@@ -14,7 +14,6 @@ from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
-from acausal.solve.start.regular import lengths
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,3 +130,8 @@ class Problem:
         """Return a row as a point."""
         constants = self.compiled.layout.constants(rows.constants[k])
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
+
+
+def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:
+    """Length of each row."""
+    return np.sqrt(np.bincount(rows.indices, rows.data**2, minlength=rows.shape[0]))

@@ -8,13 +8,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.problem import lengths
 
 RANKS = POLICY.ranks
-
-
-def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:
-    """Length of each row."""
-    return np.sqrt(np.bincount(rows.indices, rows.data**2, minlength=rows.shape[0]))
 
 
 def unit_rows(rows: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix:
