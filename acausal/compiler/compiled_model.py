@@ -133,9 +133,10 @@ class CompiledModel:
         own, plan = self.reduced.flat.unknowns, self.reduced.plan
         of = {p.state: p.coordinate for p in plan.constrained.projections}
         places = [of.get(k, k) for k in plan.states]
-        units = (*(str(u or n) for u, n in zip(own.units, own.names, strict=True)), *[""] * plan.system.n_variables)
-        declared = (*own.sized.tolist(), *[True] * plan.system.n_variables)
-        return tuple((units[k], declared[k]) for k in places)
+        known = len(own.names)
+        return tuple(
+            (str(own.units[k] or own.names[k]), bool(own.sized[k])) if k < known else ("", True) for k in places
+        )
 
     @cached_property
     def conditions(self) -> ca.SX:
@@ -162,7 +163,8 @@ class CompiledModel:
     @once
     def passes(self, wanted: tuple[int, ...]) -> tuple[Pass, ...]:
         """Newton steps that solve for algebraic unknowns and all that they need, one part after the other."""
-        return make_passes(self.reduced, self.arguments[:-1], *self.dependence.needed(wanted))
+        alg = self._shared[self.nx : self.nx + self.nz]
+        return make_passes(alg, self.reduced.z, self.arguments[:-1], *self.dependence.needed(wanted))
 
     @property
     def dependence(self) -> Dependence:
@@ -234,11 +236,15 @@ class CompiledModel:
         return self.integrators[key]
 
     @cached_property
+    def _shared(self) -> ca.SX:
+        """Derivatives of the states, residuals and powers in one column, with what they have in common written once."""
+        return ca.cse(ca.vertcat(self.reduced.running.ode, self.reduced.running.alg, self.powers))
+
+    @cached_property
     def _hoisted(self) -> tuple[ca.SX, ca.SX, ca.SX]:
         """Equations with everything that follows from parameters alone replaced by symbols, computed once a run."""
         r = self.reduced
-        column = ca.cse(ca.vertcat(r.running.ode, r.running.alg, self.powers))
-        column, symbols, values = ca.extract_parametric(column, r.p)
+        column, symbols, values = ca.extract_parametric(self._shared, r.p)
         own = {s.element_hash() for s in scalars(r.p)}
         bare = [s for s in ca.symvar(column) if s.element_hash() in own]
         return ca.densify(column), ca.vertcat(*symbols, *bare), ca.vertcat(*values, *bare)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from acausal.compiler.call import Call
 from acausal.language.functions import time
@@ -52,11 +53,13 @@ class Constraints:
         self.size = len(multipliers)
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
-        self._many: dict[int, Call] = {}
         column = reduced.running.constraints
         r = reduced
         arguments = [r.x, r.p, time.sx, r.constants]
-        J = ca.densify(ca.jacobian(column, r.x))
+        J = ca.jacobian(column, r.x)
+        self._pattern = tuple(np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind()))
+        nonzero = {pair: k for k, pair in enumerate(zip(*J.sparsity().get_triplet(), strict=True))}
+        self._held = np.array([nonzero.get(pair, -1) for pair in pairs], dtype=int)
         self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
         coordinates = r.resolve(r.projections.coordinates)
@@ -71,13 +74,15 @@ class Constraints:
         self._kept = np.array(same, dtype=int).reshape(-1, 2).T
         self._places = [states[p.state] for p in constrained.projections]
 
-    def __call__(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def __call__(
+        self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray
+    ) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
         value, J = self._call(x, p, t, constants)
-        return value.copy(), J.reshape(len(x), self.size).T.copy()
+        return value.copy(), scipy.sparse.csc_matrix((J.copy(), *self._pattern), shape=(self.size, len(x)))
 
     def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
-        """Jacobian of the constraints by the coordinates that each holds at its level, at n points.
+        """Jacobian of the constraints by the coordinates that each holds at its level, at n points, as `entries` has it.
 
         Parameters
         ----------
@@ -90,17 +95,10 @@ class Constraints:
 
         Returns
         -------
-        array, shape (n, size, nx)
+        array, shape (n, entries)
         """
-        n, nx = x.shape
-        if n not in self._many:
-            self._many[n] = Call(self.function.map(n))
-        _, J = self._many[n](x.ravel(), np.tile(p, n), t, np.tile(constants, n))
-        full = J.reshape(n, nx, self.size).transpose(0, 2, 1)
-        found = np.zeros_like(full)
-        rows, columns = self.entries
-        found[:, rows, columns] = full[:, rows, columns]
-        return found
+        entries = [self._call(at, p, time, constants)[1][self._held] for at, time in zip(x, t, strict=True)]
+        return np.where(self._held >= 0, entries, 0.0)
 
     def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the states with every coordinate where the constraints have it."""

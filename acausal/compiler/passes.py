@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.rowwise import Rowwise
-from acausal.reduce import Level, ReducedModel, solution_levels
+from acausal.reduce import Level, solution_levels
 
 
 @dataclass(frozen=True)
@@ -31,17 +31,15 @@ class Pass:
 
 
 def make_passes(
-    reduced: ReducedModel, arguments: list[ca.SX], unknowns: np.ndarray, equations: np.ndarray
+    residuals: ca.SX, z: ca.SX, arguments: list[ca.SX], unknowns: np.ndarray, equations: np.ndarray
 ) -> tuple[Pass, ...]:
     """Return the passes that solve equations for unknowns; `equations[i]` is matched with `unknowns[i]`.
 
     A part that is not linear in its unknowns is a pass of its own, and so are all that follow up to the next of them.
     """
-    alg = reduced.running.alg[equations.tolist()]
-    J = ca.jacobian(alg, reduced.z[unknowns.tolist()])
-    steps = [
-        (level, _step(arguments, alg, J, level, unknowns)) for level in solution_levels(J, reduced.z[unknowns.tolist()])
-    ]
+    alg, own = residuals[equations.tolist()], z[unknowns.tolist()]
+    J = ca.jacobian(alg, own)
+    steps = [(level, _step(arguments, alg, J, level, unknowns)) for level in solution_levels(J, own)]
     together: list[list[tuple[Level, ca.Function]]] = []
     for level, step in steps:
         if not (level.linear and together and together[-1][-1][0].linear):
@@ -53,7 +51,7 @@ def make_passes(
 def _step(arguments: list[ca.SX], alg: ca.SX, J: ca.SX, level: Level, unknowns: np.ndarray) -> ca.Function:
     """From x, z, parameters, time and constants: z after a Newton step in the unknowns of a level."""
     rows, columns = list(level.equations), list(level.variables)
-    parts = ca.Function("part", arguments, ca.cse([ca.densify(alg[rows]), J[rows, columns]]))
+    parts = ca.Function("part", arguments, [ca.densify(alg[rows]), J[rows, columns]])
     given = [ca.MX.sym(f"a{k}", a.numel()) for k, a in enumerate(arguments)]
     value, matrix = parts(*given)
     places = unknowns[columns].tolist()

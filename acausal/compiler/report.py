@@ -102,9 +102,11 @@ def summary(r: Mapping[str, Any]) -> str:
 def _loops(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
     """What is known of each loop."""
     loops = reduced.flat.loops
+    dropped_of: list[list[FlatClosure]] = [[] for _ in loops.cuts]
+    for k in sorted(at_start.dropped):
+        dropped_of[loops.closures[k].loop].append(loops.closures[k])
     found = []
-    for number, loop in enumerate(loops.cuts):
-        dropped = [c for k, c in enumerate(loops.closures) if c.loop == number and k in at_start.dropped]
+    for loop, dropped in zip(loops.cuts, dropped_of, strict=True):
         by_rank = len(dropped)
         found.append(
             {
@@ -124,6 +126,8 @@ def _loops(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
 
 def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
     """Names of the flows that work on closures."""
+    if not closures:
+        return []
     flows = {s.element_hash() for c in closures for s in ca.symvar(c.dual)}
     moving = {unknowns.symbols[k].element_hash() for k in unknowns.declared}
     names = zip(unknowns.names, scalars(unknowns.symbols), strict=True)

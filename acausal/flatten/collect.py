@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.alike import Alike
-from acausal.flatten.graph import Graph
+from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tree import join, walk
@@ -73,8 +73,7 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike) 
                 PENDING.get().place(origin)
     for connector in graph.roots:
         _run(connector, "root_equations", found, most, alike)
-    for cut in graph.cuts:
-        _close(cut, graph, found)
+    _close(graph, found)
     for balance in graph.balances:
         _balance(balance, found)
     return found
@@ -88,49 +87,70 @@ def collect_initial(components: list[Component], most: int, alike: Alike) -> Equ
     return found
 
 
-def _close(cut: Cut, graph: Graph, found: Equations) -> None:
-    """Add the residual of a cut; the flows that do work on it are all that one side of the connection sends across.
+def _close(graph: Graph, found: Equations) -> None:
+    """Add the residuals of all cuts; the flows that do work on each are all that one side of its connection sends across.
 
     Of both sides, the one with fewer flows tells.
     """
-    a, b = cut.statement.a, cut.statement.b
-    balance = next(s for s in graph.balances if all(any(c is end for c, _ in s) for end in (a, b)))
-    cuts = [(c.statement.a, c.statement.b) for c in graph.cuts]
-    here = {id(c) for c, _ in balance}
-    others = [ends for ends in cuts if here.issuperset(map(id, ends)) and ends != (a, b)]
-    ways = [*others, *((second, first) for first, second in others)]
-    sides = ((_side(a, b, ways, graph), 1), (_side(b, a, ways, graph), -1))
-    across = min(([(c, sign * sense) for c, sign in balance if id(c) in side] for side, sense in sides), key=len)
+    groups = {id(c): group for group in graph.same for c in group}
+    around = _around(graph)
+    within: dict[int, list[Cut]] = {}
+    for cut, balances in zip(graph.cuts, around, strict=True):
+        for balance in balances:
+            within.setdefault(id(balance), []).append(cut)
+    row = sum(r.numel() for r in found.residuals) if graph.cuts else 0
+    for cut, (balance, *_) in zip(graph.cuts, around, strict=True):
+        a, b = cut.statement.a, cut.statement.b
+        others = [(c.statement.a, c.statement.b) for c in within[id(balance)] if c is not cut]
+        ways = [*others, *((second, first) for first, second in others)]
+        sides = ((_side(a, b, ways, groups), 1), (_side(b, a, ways, groups), -1))
+        across = min(([(c, sign * sense) for c, sign in balance if id(c) in side] for side, sense in sides), key=len)
+        sent = _sent(a, across)
+        origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
+        for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
+            number = len(found.sides)
+            found.add(statement, origin)
+            for k, entry in enumerate(scalars(as_expr(dual).sx)):
+                found.closures.append(Closure(row + k, entry, cut, number))
+            row += found.residuals[-1].numel()
+
+
+def _around(graph: Graph) -> list[list[Balance]]:
+    """For each cut the balances of flows that hold both of its ends."""
+    of: dict[int, list[Balance]] = {}
+    for balance in graph.balances if graph.cuts else ():
+        for connector, _ in balance:
+            of.setdefault(id(connector), []).append(balance)
+    ends = [(cut.statement.a, cut.statement.b) for cut in graph.cuts]
+    return [[balance for balance in of[id(a)] if any(c is b for c, _ in balance)] for a, b in ends]
+
+
+def _sent(a: Connector, across: list[tuple[Connector, int]]) -> Connector:
+    """Return a connector with the flows that its side of a connection sends across."""
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
             flows = [getattr(c, name) * sign for c, sign in across]
             vars(sent)[name] = sum(flows[1:], flows[0])
-    origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
-    for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
-        number = len(found.sides)
-        row = sum(r.numel() for r in found.residuals)
-        found.add(statement, origin)
-        for k, entry in enumerate(scalars(as_expr(dual).sx)):
-            found.closures.append(Closure(row + k, entry, cut, number))
+    return sent
 
 
-def _side(end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], graph: Graph) -> set[int]:
-    """Identities of the connectors on one end's side of a cut, where the other cuts of its connection, `ways`, are closed."""
-    side, other = list(_group(end, graph)), _group(beyond, graph)
+def _side(
+    end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], groups: dict[int, tuple[Connector, ...]]
+) -> set[int]:
+    """Identities of the connectors on one end's side of a cut, where the other cuts of its connection, `ways`, are closed.
+
+    The potentials of a group are those of one connector.
+    """
+    side, other = list(groups[id(end)]), groups[id(beyond)]
     for connector in side:
         for near, far in ways:
             if near is connector and far not in (*side, *other):
-                side += _group(far, graph)
+                side += groups[id(far)]
     return {id(c) for c in side}
 
 
-def _group(connector: Connector, graph: Graph) -> tuple[Connector, ...]:
-    """Connectors whose potentials are those of one."""
-    return next(group for group in graph.same if connector in group)
-
-
-def _balance(balance: tuple[tuple[Connector, int], ...], found: Equations) -> None:
+def _balance(balance: Balance, found: Equations) -> None:
     first, outside = balance[0]
     if len(balance) == 1 and (outside < 0 or first._owner is None):
         return  # nothing inside uses this port of a composite, or the component itself does

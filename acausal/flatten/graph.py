@@ -15,6 +15,9 @@ from acausal.language.connection import Branch, Connect, Root
 from acausal.language.homes import misplaced, returned
 from acausal.language.source import calls
 
+# The connectors of a connection set; the sign is -1 for one on the outside of its component.
+Balance = tuple[tuple[Connector, int], ...]
+
 
 @dataclass(frozen=True)
 class Graph:
@@ -35,7 +38,7 @@ class Graph:
     """
 
     same: list[tuple[Connector, ...]]
-    balances: list[tuple[tuple[Connector, int], ...]]
+    balances: list[Balance]
     cuts: list[Cut]
     roots: list[Connector]
     unconnected: tuple[str, ...]
@@ -146,7 +149,7 @@ def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
 
 def _balances(
     connectors: list[Connector], connects: list[tuple[Component, Connect, str]], order: dict[int, int]
-) -> list[tuple[tuple[Connector, int], ...]]:
+) -> list[Balance]:
     """Flow balance of every connection set; an outside connector counts negatively, an unconnected one is a set alone.
 
     Modelica specification, 9.2.

@@ -6,6 +6,7 @@ from typing import Any
 
 import casadi as ca
 
+from acausal.flatten.collect import Closure
 from acausal.flatten.flat_model import FlatClosure, FlatLoops, Loop
 from acausal.flatten.said import Said
 from acausal.flatten.spanning_tree import Cut
@@ -48,13 +49,19 @@ def loops_of(
         for c in raw.equations.closures
         if c.row in place
     )
-    return FlatLoops(tuple(_loop(raw, redundant, values, cut) for cut in cuts), closures)
-
-
-def _loop(raw: Said, redundant: set[int], values: list[Linear], cut: Cut) -> Loop:
-    own = [c for c in raw.equations.closures if c.cut is cut]
-    dropped = [c for c in own if c.row in redundant]
     flows = [(name, a.declared.flow) for a in raw.arrays for name in a.names]
+    own: list[list[Closure]] = [[] for _ in cuts]
+    for c in raw.equations.closures:
+        own[number[id(c.cut)]].append(c)
+    return FlatLoops(
+        tuple(_loop(raw, redundant, values, flows, *both) for both in zip(cuts, own, strict=True)), closures
+    )
+
+
+def _loop(
+    raw: Said, redundant: set[int], values: list[Linear], flows: list[tuple[str, bool]], cut: Cut, own: list[Closure]
+) -> Loop:
+    dropped = [c for c in own if c.row in redundant]
     found = sorted({raw.index.get(s.element_hash(), -1) for c in dropped for s in ca.symvar(c.dual)})
     undetermined = tuple(flows[k][0] for k in found if k >= 0 and flows[k][1] and values[k] == (0.0, ()))
     parts = tuple(part._path for part in cut.loop if _moves(part))

@@ -37,6 +37,10 @@ class Ranks:
 
     # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions.
     rank: float = 1e-9
+    # Rows up to which matrices are small: they are dense, all in one; rounding of the singular values of others is no more.
+    small: int = 100
+    # Singular value of which the square is well above rounding.
+    squared: float = 1e-5
     # Positions where ranks are lost are known only as well as the root of how well loops close.
     nearly: float = 1e-5
     # Where the independent part of a constraint is this small, forces are large enough to stop an integrator.
@@ -81,6 +85,9 @@ class Loops:
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05
+    # The former in a large mechanism, over the best of a choice among n states; how well cosines of large ones are known.
+    fit: float = 0.5
+    angles: float = 1e-3
     spared: float = 0.3
     # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
     decades: int = 12

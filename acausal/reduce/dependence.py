@@ -77,6 +77,6 @@ def solution_levels(J: ca.SX, unknowns: ca.SX) -> tuple[Level, ...]:
     rows: list[list[int]] = [[] for _ in range(J.shape[0])]
     for row, column in entries:
         rows[row].append(column)
-    second = ca.jacobian_sparsity(ca.vertcat(*J.nonzeros()), unknowns)  # type: ignore[attr-defined]
+    second = ca.jacobian_sparsity(J.nz[:], unknowns)  # type: ignore[attr-defined]
     products = ((*entries[k], column) for k, column in zip(*second.get_triplet(), strict=True))
     return levels(block_triangular(rows, [(k, k) for k in range(len(rows))]), rows, products)

@@ -133,15 +133,22 @@ def _differentiate(
     for row, columns in linear.cancelled.items():
         gone = ca.vertcat(*[elements[k] for k in columns])
         residuals[row] = ca.substitute(residuals[row], gone, ca.SX.zeros(len(columns)))
-    first, total = len(residuals), len(residuals) + len(plan.differentiated)
-    constants = flat.discontinuities.constants
-    while len(residuals) < total:
-        start = len(residuals)
-        sources = list(plan.differentiated[start - first :])
-        ready = next((k for k, e in enumerate(sources) if e >= start), len(sources))
-        level = ca.vertcat(*[residuals[e] for e in sources[:ready]])
-        derivative = ca.densify(ca.jtimes(level, at, direction))
-        residuals.extend(scalars(derivative))
-        coefficients = jacobian(derivative, unknowns, ca.vertcat(time.sx, initial.sx, constants)).explicit
-        explicit.update({(start + i, j): c for (i, j), c in coefficients.items()})
+    others = ca.vertcat(time.sx, initial.sx, flat.discontinuities.constants)
+    first = len(residuals)
+    residuals += [ca.SX(0)] * len(plan.differentiated)
+    for level in _orders(plan, first):
+        column = ca.vertcat(*[residuals[plan.differentiated[row - first]] for row in level])
+        derivative = ca.densify(ca.jtimes(column, at, direction))
+        for row, entry in zip(level, scalars(derivative), strict=True):
+            residuals[row] = entry
+        explicit.update({(level[i], j): c for (i, j), c in jacobian(derivative, unknowns, others).explicit.items()})
     return residuals, explicit
+
+
+def _orders(plan: Plan, first: int) -> list[list[int]]:
+    """Rows of the first derivatives of equations, of the second ones, and so on."""
+    order, found = dict[int, int](), dict[int, list[int]]()
+    for row, source in enumerate(plan.differentiated, first):
+        order[row] = order.get(source, 0) + 1
+        found.setdefault(order[row], []).append(row)
+    return [found[k] for k in sorted(found)]

@@ -8,6 +8,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
@@ -118,27 +119,30 @@ def linearize(
     r = compiled.reduced
     column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
-    linear = Call(ca.Function("linear", compiled.arguments, [ca.densify(J)]))
+    linear = Call(ca.Function("linear", compiled.arguments, [J]))
     values = linear(at.x, at.z, p, time, at.constants.vector, 0.0)[0]
-    M = values.reshape(J.shape[::-1]).T
     nx, nz = compiled.nx, compiled.nz
-    if not np.all(np.isfinite(M)):
+    if not np.all(np.isfinite(values)):
         raise InitializationError(
             f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
         )
-    by_states, by_z, by_inputs = np.split(M, (nx, nx + nz), axis=1)
-    (fx, gx, hx), (fz, gz, hz), (fu, gu, hu) = (np.split(by, (nx, nx + nz)) for by in (by_states, by_z, by_inputs))
+    pattern = linear.function.sparsity_out(0)
+    M = scipy.sparse.csc_matrix((values.copy(), pattern.row(), pattern.colind()), shape=J.shape)
     try:
-        zx, zu = -np.linalg.solve(gz, gx), -np.linalg.solve(gz, gu)
-    except np.linalg.LinAlgError:
+        solve = scipy.sparse.linalg.splu(M[nx : nx + nz, nx : nx + nz].tocsc()).solve if nz else None
+    except RuntimeError:
         raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
     N, chosen = tangent(problem, at)
+    # By the independent states and the inputs.
+    direct = np.hstack([M[:, :nx] @ N, M[:, nx + nz :].toarray()])
+    slopes = direct - (M[:, nx : nx + nz] @ solve(direct[nx : nx + nz]) if solve else 0)
+    (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx + nz :]))
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(
-        A=((fx + fz @ zx) @ N)[chosen],
-        B=(fu + fz @ zu)[chosen],
-        C=(hx + hz @ zx) @ N,
-        D=hu + hz @ zu,
+        A=A,
+        B=B,
+        C=C,
+        D=D,
         states=tuple(compiled.states[k] for k in chosen),
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.compiled_model import Local
@@ -76,13 +77,15 @@ class Problem:
         """Return all unknowns of the model as it was stated, those that are solved explicitly too."""
         return whole(self.compiled).unknowns(at.x, at.z, self.p, at.time, at.constants.vector, flag)[0].copy()
 
-    def constraints(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+    def constraints(self, at: Point) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return the residuals of the constraints and their Jacobian by the states."""
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
-    def gradients(self, at: Point) -> np.ndarray:
+    def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
         """Return the Jacobian of the constraints by the states over their nominal values."""
-        return self.constraints(at)[1] * self.nominal[: self.nx]
+        J = self.constraints(at)[1]
+        J.data *= np.repeat(self.nominal[: self.nx], np.diff(J.indptr))
+        return J
 
     def gaps(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that nominal values of the states make in them.
@@ -93,13 +96,13 @@ class Problem:
 
     def sizes(self, at: Point) -> np.ndarray:
         """Return the change that nominal values of the states make in each residual of the constraints, see `gaps`."""
-        own, c = np.linalg.norm(self.gradients(at), axis=1), self.compiled.constraints
+        own, c = lengths(self.gradients(at)), self.compiled.constraints
         forces = [row for k, rows in enumerate(c.rows) if k not in c.closures for row in rows]
         if forces:
             # Where a force has no direction its gradient is very large, but not beside it.
             away = np.random.default_rng(0).standard_normal(self.nx) * self.nominal[: self.nx]
             beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
-            own[forces] = np.minimum(own[forces], np.nan_to_num(np.linalg.norm(beside, axis=1)))
+            own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
         kinds = c.kinds
         most = np.zeros(len(kinds))
         np.maximum.at(most, kinds, own)
@@ -132,3 +135,8 @@ class Problem:
         """Return a row as a point."""
         constants = self.compiled.layout.constants(rows.constants[k])
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
+
+
+def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:
+    """Length of each row."""
+    return np.sqrt(np.bincount(rows.indices, rows.data**2, minlength=rows.shape[0]))

@@ -93,7 +93,9 @@ class Integrator:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = rows[spread(len(rows), looks)]
-        return bool(np.any(worn(self.problem, some, constants) < POLICY.loops.worn))
+        # Where n coordinates move alike, the cosine of the best choice is 1/sqrt(n).
+        least = min(POLICY.loops.worn, POLICY.loops.fit / self.compiled.nx**0.5)
+        return bool(np.any(worn(self.problem, some, constants) < least))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
         """Integrate in the current way, carefully where that fails; without works."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.errors import InitializationError
@@ -15,7 +16,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import InitialSystem
-from acausal.solve.start.rank import factored, null_space, pivots, rank, row_space
+from acausal.solve.start.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
 from acausal.solve.start.words import missing_text
 
@@ -71,7 +72,8 @@ def ranked(
         moved[free] += shake * problem.nominal[free]
         M, C = _reduced(problem, replace(at, x=moved), free, rows)
         used, surplus = _independent(M, C)
-    left = _left(compiled, np.vstack([M, C[used]]), rank(M) + len(used), free)
+    determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
+    left = _left(compiled, np.vstack([M.toarray(), C[used]]), determined, free) if determined < len(free) else []
     if left and refuse:
         raise InitializationError(missing_text(compiled, left))
     plan = compiled.reduced.plan
@@ -89,29 +91,35 @@ def ranked(
     return InitialSystem(np.array(solved, int), np.array(demanded, int), np.array(known, int), tuple(direct.items()))
 
 
-def _reduced(problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _reduced(
+    problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray
+) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
     M, size = problem.gradients(at)[:, free], problem.nominal[free]
+    if not rows.size:
+        return M, np.zeros((0, len(free)))
     J = problem.local(at, 1.0).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     dz = -factored(inner, problem.nominal[nx:], POLICY.ranks.rank)(right) if nz else right
     return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size
 
 
-def _independent(M: np.ndarray, C: np.ndarray) -> tuple[list[int], list[int]]:
+def _independent(M: scipy.sparse.csc_matrix, C: np.ndarray) -> tuple[list[int], list[int]]:
     """Conditions that are independent of the constraints and those before them (Gram and Schmidt)."""
-    basis = list(row_space(M))
-    used, surplus = [], []
+    if not len(C):
+        return [], []
+    free, basis = outside(M), np.zeros((0, C.shape[1]))
+    used, surplus = list[int](), list[int]()
     for k in range(len(C)):
         size = np.linalg.norm(C[k])
         v = C[k] / size if size else C[k]
         for _ in range(2):
-            for b in basis:
-                v = v - (b @ v) * b
+            v = free(v)
+            v = v - basis.T @ (basis @ v)
         rest = np.linalg.norm(v)
         if rest > POLICY.ranks.independent:
-            basis.append(v / rest)
+            basis = np.vstack([basis, v / rest])
             used.append(k)
         else:
             surplus.append(k)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -9,14 +10,15 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
+from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.loops import levels
-from acausal.solve.start.rank import pivots, scaled
-from acausal.solve.start.tangent import state_matrix
+from acausal.solve.start.parts import Part, parts
+from acausal.solve.start.rank import columns_by_pivots, pivots
+from acausal.solve.start.tangent import state_slopes
 
-LOOPS = POLICY.loops
+LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
@@ -35,32 +37,35 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
         Jacobian as it changes on the way, stiff coordinates the less.
     """
     c = problem.compiled.constraints
+    rows, columns = c.entries
     on = np.ones(c.size, dtype=bool)
     for constraint, counts in zip(c.closures, at.constants.closures, strict=True):
         on[list(c.rows[constraint])] = counts > 0
     # States count in nominal values: the least change of them, J' over their squares, is the way to the constraints.
     nominal = problem.nominal[: problem.nx]
-    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[:, None] * nominal
+    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[rows] * nominal[columns]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    weights = _spared(J, stiffness, problem.feedback)
+    levels = _levels(problem.compiled)
+    weights = _spared(levels, J, stiffness[columns], problem.feedback)
     D = J * weights
-    size = np.linalg.norm(D, axis=1, keepdims=True)
-    factors = on[:, None] * weights * nominal**2 / np.where(size > 0, size, 1.0)
-    chosen = factors if moves else _select(problem.compiled, scaled(D), on) * nominal
-    return replace(at.constants, moves=moves, D=chosen[tuple(c.entries)])
+    size = np.sqrt(np.bincount(rows, D**2, minlength=c.size))
+    size = np.where(size > 0, size, 1.0)[rows]
+    factors = on[rows] * weights * nominal[columns] ** 2 / size
+    chosen = factors if moves else _select(levels, D / size, on) * nominal[columns]
+    return replace(at.constants, moves=moves, D=chosen)
 
 
 def independent(compiled: CompiledModel, constants: Constants) -> tuple[str, ...]:
     """Names of the states that do not follow from others."""
-    follows = np.any(_directions(compiled, constants) != 0, axis=0)
-    return tuple(name for name, other in zip(compiled.states, follows, strict=True) if not other)
+    follows = set(compiled.constraints.entries[1][constants.D != 0].tolist())
+    return tuple(name for k, name in enumerate(compiled.states) if k not in follows)
 
 
-def _directions(compiled: CompiledModel, constants: Constants) -> np.ndarray:
-    """D, shape (size, nx), from the constants of a segment."""
-    D = np.zeros((compiled.constraints.size, compiled.nx))
-    D[tuple(compiled.constraints.entries)] = constants.D
-    return D
+@once
+def _levels(compiled: CompiledModel) -> list[Part]:
+    """Constraints of one level that share coordinates, with the entries of D."""
+    c = compiled.constraints
+    return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
 def _stiffness(problem: Problem, at: Point) -> np.ndarray:
@@ -74,53 +79,98 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
     columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
     J = problem.local(at).jacobian[rows][:, columns]
-    try:
-        A = state_matrix(J, nx)
-    except RuntimeError:
-        return np.zeros(nx)
     place = {v: k for k, v in enumerate(plan.states)}
     of = {q.coordinate: place[q.state] for q in plan.constrained.projections}
+    pairs = [(of[q.coordinate], of[q.rate]) for q in plan.constrained.projections if q.rate in of]
+    here, rate = np.array(pairs, dtype=int).reshape(-1, 2).T
     stiffness = np.zeros(nx)
-    for q in plan.constrained.projections:
-        if q.rate in of:
-            here, rate = of[q.coordinate], of[q.rate]
-            stiffness[here] = stiffness[rate] = abs(A[rate, here])
+    with suppress(RuntimeError):  # singular: nothing is stiff
+        stiffness[here] = stiffness[rate] = np.abs(state_slopes(J, nx, rate, here))
     return stiffness
 
 
-def _select(compiled: CompiledModel, D: np.ndarray, on: np.ndarray) -> np.ndarray:
-    """Unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
-    selection = np.zeros_like(D)
-    for rows, columns in levels(compiled):
-        active = [r for r in rows if on[r]]
-        block = D[active][:, columns]
-        order = pivots(block)[: len(active)]
-        size = np.abs(block[:, order])
-        pairs = scipy.optimize.linear_sum_assignment(-np.log(np.maximum(size, np.finfo(float).tiny)))
-        for r, k in zip(*pairs, strict=True):
-            selection[active[r], columns[order[k]]] = 1.0
+def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
+    """Entries of unit vectors in place of D: one coordinate for each constraint of a level, by pivots."""
+    selection, follows = np.zeros(len(D)), np.full(len(on), -1)
+    rows, columns, sizes = (np.concatenate(k) for k in zip(*(_candidates(p, D, on) for p in levels), strict=True))
+    if not rows.size:
+        return selection
+    (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
+    # A weight of 0 would count as none.
+    weight = scipy.sparse.csr_matrix((1 - np.log(sizes), (row, column)))
+    pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
+    follows[row_of[pairs[0]]] = column_of[pairs[1]]
+    for part in levels:
+        selection[part.entries] = follows[part.rows[part.places[0]]] == part.columns[part.places[1]]
     return selection
 
 
-def _spared(J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
+def _candidates(part: Part, D: np.ndarray, on: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Constraints of a part, coordinates that are as many and hold them best, and the sizes of their entries."""
+    active = np.flatnonzero(on[part.rows])[: len(part.columns)]
+    if len(active) > SMALL:
+        block = part.sparse(D)[active]
+        order = columns_by_pivots(block)
+        size = abs(block[:, order]).tocoo()
+        size.eliminate_zeros()
+        row, column, sizes = size.row, size.col, size.data
+    else:
+        block = part.dense(D)[active]
+        order = pivots(block)[: len(active)] if active.size else np.zeros(0, dtype=int)
+        row, column = (k.ravel() for k in np.indices((len(active), len(order))))
+        # Singular ones have a matching too.
+        sizes = np.maximum(np.abs(block[row, order[column]]), np.finfo(float).tiny)
+    return part.rows[active[row]], part.columns[order[column]], sizes
+
+
+def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: float) -> np.ndarray:
     """Weights of the coordinates: stiff ones move as little as keeps the projection well away from the surface.
 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
-    for decade in range(1, LOOPS.decades + 1):
+    for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
         weights = 1 / (1 + stiffness / (10.0**decade * feedback**2))
-        if float(_transversality(J, J * weights)) >= LOOPS.spared:
+        if _transversality(levels, J[None], J * weights)[0] >= LOOPS.spared:
             return weights
     return np.ones(len(stiffness))
 
 
-def _transversality(J: np.ndarray, D: np.ndarray) -> np.ndarray:
-    """Cosine of the largest angle between the row spaces of J, shape (..., m, n), and D: 1 is best, 0 is singular."""
-    on = np.linalg.norm(D, axis=1) > 0
-    if not on.any():
-        return np.ones(J.shape[:-2])
-    held_by, chosen = (np.linalg.qr(np.swapaxes(A[..., on, :], -1, -2))[0] for A in (J, D))
-    return np.linalg.svd(np.swapaxes(held_by, -1, -2) @ chosen, compute_uv=False)[..., -1]
+def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray) -> np.ndarray:
+    """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular."""
+    least = np.ones(len(J))
+    for part in levels:
+        chosen = part.dense(D)
+        on = np.linalg.norm(chosen, axis=1) > 0
+        if not on.any():
+            continue
+        if len(on) > SMALL:
+            to = part.sparse(D)[on]
+            found = np.array([1 / _oblique(part.sparse(row)[on], to) for row in J])
+        else:
+            bases = (np.linalg.qr(np.swapaxes(A[..., on, :], -1, -2))[0] for A in (part.dense(J), chosen))
+            held_by, follows = bases
+            found = np.linalg.svd(np.swapaxes(held_by, -1, -2) @ follows, compute_uv=False)[..., -1]
+        least = np.fmin(least, found)
+    return least
+
+
+def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
+    """Norm of the projector D'(J D')^-1 J along the surface of J: one over the cosine of the angle (Szyld 2006)."""
+    try:
+        inner = scipy.sparse.linalg.splu((J @ D.T).tocsc())
+    except RuntimeError:
+        return np.inf
+    n = J.shape[1]
+
+    def there(v: np.ndarray) -> np.ndarray:
+        return D.T @ inner.solve(J @ v)
+
+    def back(v: np.ndarray) -> np.ndarray:
+        return J.T @ inner.solve(D @ v, "T")
+
+    projector = scipy.sparse.linalg.LinearOperator((n, n), matvec=there, rmatvec=back, dtype=float)
+    options = {"return_singular_vectors": False, "v0": np.cos(np.arange(n)), "tol": LOOPS.angles}
+    return float(scipy.sparse.linalg.svds(projector, 1, **options)[0])
 
 
 def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
@@ -136,6 +186,5 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
         Those of the segment.
     """
     c = problem.compiled.constraints
-    held, nominal = c.held(rows.x, problem.p, rows.times, constants.vector), problem.nominal[c.states]
-    D = _directions(problem.compiled, constants)[:, c.states]
-    return _transversality(held[:, :, c.states] * nominal, D / nominal)
+    held, nominal = c.held(rows.x, problem.p, rows.times, constants.vector), problem.nominal[c.entries[1]]
+    return _transversality(_levels(problem.compiled), held * nominal, constants.D / nominal)

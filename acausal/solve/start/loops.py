@@ -14,10 +14,11 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
 
-Residuals = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+Residuals = Callable[[np.ndarray], tuple[np.ndarray, scipy.sparse.csc_matrix]]
 
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
@@ -56,10 +57,10 @@ def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False
     mismatch = 0.0
     for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
-        at, left = _solve(problem, at, rows, free)
+        at, left = _solve(problem, at, rows, free, depth > 0)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
             # Near a singular position rates are known only as well as the root of the positions.
-            at, left = _solve(problem, at, rows, columns)
+            at, left = _solve(problem, at, rows, columns, depth > 0)
         mismatch = max(mismatch, left)
         if left > LOOPS.closed:
             break
@@ -79,19 +80,23 @@ def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         value, J = problem.constraints(_with(at, free, u))
-        return value[rows] / size, J[rows][:, free] / size[:, None]
+        return value[rows] / size, (scipy.sparse.diags(1 / size) @ J[rows][:, free]).tocsc()
 
     return evaluate
 
 
-def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tuple[Point, float]:
+def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linear: bool) -> tuple[Point, float]:
+    """Close one level; where it is linear in its coordinates, a step of least change is enough."""
     evaluate = _residuals(problem, at, rows, free)
-    value, _ = evaluate(at.x[free])
-    left = float(np.max(np.abs(value), initial=0.0))
+    left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
     if not free.size:
         return at, left
-    best, smallest = at.x[free], left if np.isfinite(left) else np.inf
-    scale = problem.nominal[free]
+    best, scale = at.x[free], problem.nominal[free]
+    if linear:
+        best = _polish(evaluate, best, scale)
+        left = float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
+    smallest = left if np.isfinite(left) else np.inf
+    large = len(rows) > POLICY.ranks.small
     for k, size in enumerate(LOOPS.attempts):
         if smallest <= LOOPS.closed:
             break
@@ -99,7 +104,8 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> tu
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
         options: Any = dict.fromkeys(("xtol", "ftol", "gtol"), LOOPS.ends)
-        options |= {"x_scale": scale, "max_nfev": LOOPS.evaluations, "jac": lambda u: evaluate(u)[1]}
+        options |= {"x_scale": scale, "max_nfev": LOOPS.evaluations, "tr_solver": "lsmr" if large else "exact"}
+        options["jac"] = (lambda u: evaluate(u)[1]) if large else (lambda u: evaluate(u)[1].toarray())
         u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
@@ -122,7 +128,7 @@ def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
     """Gauss-Newton steps of least norm down to rounding."""
     for _ in range(LOOPS.polishing):
         value, J = evaluate(u)
-        step = scale * np.linalg.lstsq(J * scale, -value, rcond=POLICY.ranks.polish)[0]
+        step = least_norm(J, scale, POLICY.ranks.polish)(-value)
         if not np.max(np.abs(evaluate(u + step)[0])) < np.max(np.abs(value), initial=0.0):
             break
         u = u + step

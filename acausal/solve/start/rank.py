@@ -1,4 +1,4 @@
-"""Ranks, null spaces and pivots of small matrices, with rows scaled to length 1."""
+"""Ranks, null spaces and pivots of matrices, with rows scaled to length 1."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.start.regular import complement, gram, unit_rows
+
+RANKS = POLICY.ranks
 
 
 def scaled(rows: np.ndarray) -> np.ndarray:
@@ -17,16 +20,37 @@ def scaled(rows: np.ndarray) -> np.ndarray:
     return rows / np.where(size > 0, size, 1.0)
 
 
-def rank(rows: np.ndarray, tolerance: float = POLICY.ranks.rank) -> int:
+def rank(rows: np.ndarray, tolerance: float = RANKS.rank) -> int:
     """Number of independent rows."""
-    return (
-        int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * max(rows.shape))) if rows.size else 0
-    )
+    if not rows.size:
+        return 0
+    return int(np.sum(scipy.linalg.svd(scaled(rows), compute_uv=False) > tolerance * _size(rows)))
 
 
-def least_norm(rows: np.ndarray, sizes: np.ndarray, cutoff: float) -> Callable[[np.ndarray], np.ndarray]:
+def is_regular(rows: scipy.sparse.csc_matrix, tolerance: float = RANKS.rank) -> bool:
+    """Whether all rows of a sparse matrix are independent."""
+    if gram(unit_rows(rows), tolerance * _size(rows)):
+        return True
+    return rank(rows.toarray(), tolerance) == rows.shape[0]
+
+
+def _size(rows: np.ndarray | scipy.sparse.csc_matrix) -> int:
+    """Over which rounding of singular values adds up."""
+    return min(max(rows.shape), RANKS.small)
+
+
+def least_norm(
+    rows: np.ndarray | scipy.sparse.csc_matrix, sizes: np.ndarray, cutoff: float
+) -> Callable[[np.ndarray], np.ndarray]:
     """Return a solver by least squares, of least norm over the sizes of the unknowns; smaller singular values are 0."""
-    matrix = rows * sizes
+    if isinstance(rows, np.ndarray):
+        matrix = rows * sizes
+    else:
+        sparse = (rows @ scipy.sparse.diags(sizes)).tocsc()
+        inverse = gram(sparse, cutoff)
+        if inverse:
+            return lambda right: sizes * (sparse.T @ inverse(right))
+        matrix = sparse.toarray()
 
     def solve(right: np.ndarray) -> np.ndarray:
         if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(right))):
@@ -46,16 +70,19 @@ def factored(
         return least_norm(J.toarray(), sizes, cutoff)
 
 
-def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
+def null_space(rows: np.ndarray | scipy.sparse.csc_matrix, independent: int | None = None) -> np.ndarray:
     """Orthonormal rows that span what all given rows map to 0.
 
     Parameters
     ----------
-    rows : array, shape (m, n)
+    rows : array or sparse matrix, shape (m, n)
         The rows.
     independent : int, optional
         Their rank, if it is known better.
     """
+    if not isinstance(rows, np.ndarray):
+        found = complement(rows, RANKS.rank * _size(rows))
+        return null_space(rows.toarray(), independent) if found is None else found
     if not rows.size:
         return np.eye(rows.shape[1])
     return scipy.linalg.svd(scaled(rows))[2][rank(rows) if independent is None else independent :]
@@ -64,6 +91,24 @@ def null_space(rows: np.ndarray, independent: int | None = None) -> np.ndarray:
 def row_space(rows: np.ndarray) -> np.ndarray:
     """Orthonormal rows that span the given ones."""
     return scipy.linalg.svd(scaled(rows), full_matrices=False)[2][: rank(rows)] if rows.size else rows
+
+
+def outside(rows: scipy.sparse.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a projector on what is orthogonal to all rows."""
+    own = unit_rows(rows)
+    inverse = gram(own, RANKS.rank * _size(rows))
+    if inverse:
+        return lambda v: v - own.T @ inverse(own @ v)
+    basis = row_space(rows.toarray())
+    return lambda v: v - basis.T @ (basis @ v)
+
+
+def columns_by_pivots(rows: scipy.sparse.csc_matrix) -> np.ndarray:
+    """As many columns as rows, so that these are as independent in them as pivots find."""
+    null = complement(rows, RANKS.rank * _size(rows))
+    if null is None:
+        return pivots(rows.toarray())[: rows.shape[0]]
+    return np.setdiff1d(np.arange(rows.shape[1]), pivots(null)[: len(null)])
 
 
 def pivots(matrix: np.ndarray) -> np.ndarray:

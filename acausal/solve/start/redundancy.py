@@ -10,11 +10,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.compiler import CompiledModel
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import close
-from acausal.solve.start.rank import null_space, pivots, rank, scaled
+from acausal.solve.start.parts import Part, parts_of
+from acausal.solve.start.rank import is_regular, null_space, pivots, rank, scaled
 
 RANKS = POLICY.ranks
 
@@ -29,31 +31,42 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    compiled, c = problem.compiled, problem.compiled.constraints
-    rows = [r[0] for r in c.rows]
-
-    def jacobian(at: Point) -> np.ndarray:
-        return scaled(problem.gradients(at)[rows])
-
-    here = jacobian(at)
-    if rank(here, RANKS.nearly) == len(rows):
+    lowest = np.array([r[0] for r in problem.compiled.constraints.rows])
+    J = problem.gradients(at)[lowest].tocsc()
+    doubtful = [part for part in parts_of(J) if not is_regular(part.sparse(J.data), RANKS.nearly)]
+    if not doubtful:
         return Redundancy()
-    free = np.linalg.norm(here, axis=0) > 0
-    best, singular = here, False
+    here = [scaled(part.dense(J.data)) for part in doubtful]
+    best, singular = list(here), False
     for seed in range(RANKS.motions):
-        moved = _moved(problem, at, here, free, seed)
-        there = jacobian(moved) if moved is not None else here
-        if rank(there, RANKS.nearly) > rank(best, RANKS.nearly):
-            best, singular = there, True
-    if rank(best) == len(rows):
-        return Redundancy(singular=singular)
-    # Those that cannot be dropped come first.
-    weight = np.ones(len(rows))
-    closures = compiled.reduced.flat.loops.closures
-    droppable = {c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()}
-    weight[[k for k in range(len(rows)) if k not in droppable]] = RANKS.kept
-    order = pivots((weight[:, None] * best).T)
-    return Redundancy(tuple(sorted(order[rank(best) :].tolist())), singular)
+        moved = _moved(problem, at, doubtful, here, seed)
+        if moved is None:
+            continue
+        entries = problem.gradients(moved)[lowest].tocsc().data
+        for k, part in enumerate(doubtful):
+            there = scaled(part.dense(entries))
+            if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
+                best[k], singular = there, True
+    weight = _weight(problem.compiled)
+    dropped = [row for part, rows in zip(doubtful, best, strict=True) for row in _surplus(part, rows, weight)]
+    return Redundancy(tuple(sorted(dropped)), singular)
+
+
+def _weight(compiled: CompiledModel) -> np.ndarray:
+    """Those that cannot be dropped come first."""
+    closures, c = compiled.reduced.flat.loops.closures, compiled.constraints
+    weight = np.full(len(c.rows), RANKS.kept)
+    weight[[c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()]] = 1.0
+    return weight
+
+
+def _surplus(part: Part, rows: np.ndarray, weight: np.ndarray) -> list[int]:
+    """Constraints of a part that follow from others of it."""
+    independent = rank(rows)
+    if independent == len(rows):
+        return []
+    order = pivots((weight[part.rows, None] * rows).T) if rows.size else np.arange(len(rows))
+    return part.rows[order[independent:]].tolist()
 
 
 def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
@@ -61,16 +74,21 @@ def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     if not problem.compiled.constraints.size:
         return False
     held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
-    return rank(problem.gradients(at)[held], RANKS.beside) < len(held)
+    J = problem.gradients(at)[held].tocsc()
+    return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
 
 
-def _moved(problem: Problem, at: Point, J: np.ndarray, free: np.ndarray, seed: int) -> Point | None:
-    """Return another consistent position near by, along what the constraints leave free."""
-    null = null_space(J[:, free])
-    if not len(null):
+def _moved(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndarray], seed: int) -> Point | None:
+    """Return another consistent position near by, along what the constraints leave free in each of some parts."""
+    x, random = at.x.copy(), np.random.default_rng(seed)
+    for part, J in zip(doubtful, here, strict=True):
+        free = np.linalg.norm(J, axis=0) > 0
+        null = null_space(J[:, free])
+        if len(null):
+            direction = null.T @ random.standard_normal(len(null))
+            columns = part.columns[free]
+            x[columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[columns]
+    if np.array_equal(x, at.x):
         return None
-    direction = null.T @ np.random.default_rng(seed).standard_normal(len(null))
-    x = at.x.copy()
-    x[free] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[: problem.nx][free]
     moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
     return moved if mismatch < RANKS.moved else None

@@ -192,7 +192,7 @@ class Equilibrium:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
         if self.problem.compiled.constraints.size:
             off, M = self.problem.constraints(here.point)
-            value, J = np.concatenate([value, off]), np.vstack([J, M])
+            value, J = np.concatenate([value, off]), np.vstack([J, M.toarray()])
         return value, J
 
     def _far(self, step: np.ndarray) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import casadi as ca
 import numpy as np
 
@@ -25,8 +23,7 @@ def exact(X: float) -> np.ndarray:
 
 def test_parts_are_solved_one_after_the_other():
     unknowns, equations = Dependence(ALG, z).needed(range(5))
-    reduced = SimpleNamespace(running=SimpleNamespace(alg=ALG), z=z)
-    passes = make_passes(reduced, [ca.vertcat(x), z, p, t, c], unknowns, equations)  # type: ignore[arg-type]
+    passes = make_passes(ALG, z, [ca.vertcat(x), z, p, t, c], unknowns, equations)
     assert [step.linear for step in passes] in ([True, False, True], [False, True])
     assert sorted(k for step in passes for k in step.unknowns) == list(range(5))
     X = np.array([[2.0], [3.0]])

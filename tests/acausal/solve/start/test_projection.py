@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from acausal.solve.points import Rows
 from acausal.solve.start.loop_states import _select, _spared, _transversality, choose_projection, independent, worn
 from acausal.solve.start.loops import close, levels, tighten
 from acausal.solve.start.newton import algebraic
+from acausal.solve.start.parts import Part, parts
 from acausal.solve.start.tangent import tangent
 from tests.acausal.solve.circle import compiled, plane, point, problem
 
@@ -22,6 +22,11 @@ FREE = np.empty(0, int)
 
 def held(*names: str) -> np.ndarray:
     return np.array([compiled().states.index(name) for name in names])
+
+
+def whole(m: int, n: int) -> list[Part]:
+    """A matrix without zeros."""
+    return parts(*np.indices((m, n)).reshape(2, -1), (m, n))
 
 
 def directions(constants) -> dict[str, float]:
@@ -88,26 +93,23 @@ def test_transversality_is_the_cosine_of_the_largest_angle(angle):
     """Planes with a common line, at an angle."""
     J = np.array([[5.0, 0, 0], [0, 1e-3, 0]])
     D = np.array([[1.0, 0, 0], [0, np.cos(angle), np.sin(angle)]])
-    assert _transversality(J, D) == pytest.approx(np.cos(angle), abs=1e-15)
-    assert _transversality(J[None], D).shape == (1,)
-    assert _transversality(J, np.zeros((2, 3))) == 1
+    J, D = J.ravel(), D.ravel()
+    assert _transversality(whole(2, 3), J[None], D) == pytest.approx(np.cos(angle), abs=1e-15)
+    assert _transversality(whole(2, 3), np.array([J, J]), D).shape == (2,)
+    assert _transversality(whole(2, 3), J[None], np.zeros(6)) == 1
 
 
 def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
-    J, stiffness = np.array([[1.0, 1.0]]), np.array([1e8, 0.0])
-    np.testing.assert_allclose(_spared(J, stiffness, 1.0), [1 / (1 + 1e7), 1])
-    np.testing.assert_allclose(_spared(np.array([[1.0, 1e-3]]), stiffness, 1.0), [1 / (1 + 1e3), 1])
-    np.testing.assert_allclose(_spared(np.array([[1.0, 0.0]]), stiffness, 1.0), [1 / (1 + 1e7), 1])
+    J, stiffness = np.array([1.0, 1.0]), np.array([1e8, 0.0])
+    np.testing.assert_allclose(_spared(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
+    np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1])
+    np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1])
 
 
 def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
-    D = np.array([[0.1, 0.9, 0.2], [0.9, 0.1, 0.2]])
-    entries = np.array([[0, 0, 0, 1, 1, 1], [0, 1, 2, 0, 1, 2]])
-    compiled = SimpleNamespace(constraints=SimpleNamespace(rows=[(0,), (1,)], entries=entries))
-    found = _select(compiled, D, np.array([True, True]))  # type: ignore[arg-type]
-    np.testing.assert_array_equal(found, [[0, 1, 0], [1, 0, 0]])
-    found = _select(compiled, D, np.array([False, True]))  # type: ignore[arg-type]
-    np.testing.assert_array_equal(found, [[0, 0, 0], [1, 0, 0]])
+    D = np.array([0.1, 0.9, 0.2, 0.9, 0.1, 0.2])
+    np.testing.assert_array_equal(_select(whole(2, 3), D, np.array([True, True])), [0, 1, 0, 1, 0, 0])
+    np.testing.assert_array_equal(_select(whole(2, 3), D, np.array([False, True])), [0, 0, 0, 1, 0, 0])
 
 
 def test_a_choice_wears_out_as_its_coordinate_loses_its_hold():

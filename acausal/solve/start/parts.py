@@ -1,0 +1,65 @@
+"""Parts of a sparse matrix that have neither a row nor a column in common: what is done to one leaves the others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Rows and columns of a matrix that its entries tie together.
+
+    Attributes
+    ----------
+    rows, columns : arrays of int
+        Where they are in the whole, ascending.
+    entries : array of int
+        Which entries of the whole are in the part.
+    places : array of int, shape (2, n)
+        Row and column of each of them, in the part.
+    """
+
+    rows: np.ndarray
+    columns: np.ndarray
+    entries: np.ndarray
+    places: np.ndarray
+
+    def dense(self, values: np.ndarray) -> np.ndarray:
+        """Return the part, shape (..., m, n), from the entries of the whole, shape (..., k)."""
+        full = np.zeros((*values.shape[:-1], len(self.rows), len(self.columns)))
+        full[..., self.places[0], self.places[1]] = values[..., self.entries]
+        return full
+
+    def sparse(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
+        """Return the part from the entries of the whole, shape (k,)."""
+        shape = len(self.rows), len(self.columns)
+        return scipy.sparse.csc_matrix((values[self.entries], tuple(self.places)), shape=shape)
+
+
+def parts(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list[Part]:
+    """Return the connected parts of a matrix, from the places of its entries; a row without any is a part of its own."""
+    m, n = shape
+    graph = scipy.sparse.coo_matrix((np.ones(len(rows)), (rows, m + columns)), shape=(m + n, m + n))
+    count, label = scipy.sparse.csgraph.connected_components(graph, directed=False)
+    own_rows, own_columns, own_entries = (_grouped(k, count) for k in (label[:m], label[m:], label[rows]))
+    local = np.zeros((2, max(shape)), dtype=int)
+    found = []
+    for of_rows, of_columns, entries in zip(own_rows, own_columns, own_entries, strict=True):
+        if of_rows.size:
+            local[0, of_rows], local[1, of_columns] = np.arange(len(of_rows)), np.arange(len(of_columns))
+            places = np.array([local[0, rows[entries]], local[1, columns[entries]]])
+            found.append(Part(of_rows, of_columns, entries, places))
+    return found
+
+
+def parts_of(J: scipy.sparse.csc_matrix) -> list[Part]:
+    """Return the parts of a matrix; its entries are their values in its own order."""
+    return parts(J.indices, np.repeat(np.arange(J.shape[1]), np.diff(J.indptr)), J.shape)
+
+
+def _grouped(label: np.ndarray, count: int) -> list[np.ndarray]:
+    """Places of each label, ascending."""
+    return np.split(np.argsort(label, kind="stable"), np.cumsum(np.bincount(label, minlength=count))[:-1])

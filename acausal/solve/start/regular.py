@@ -1,0 +1,54 @@
+"""Large sparse matrices of which all rows are independent: what singular values tell of small ones, by sparse factors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy
+
+from acausal.policy import POLICY
+from acausal.solve.problem import lengths
+
+RANKS = POLICY.ranks
+
+
+def unit_rows(rows: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix:
+    """Rows of length 1, where they are many; rows that vanish stay."""
+    if rows.shape[0] <= RANKS.small:
+        return rows
+    return (scipy.sparse.diags(1 / np.maximum(lengths(rows), np.finfo(float).tiny)) @ rows).tocsc()
+
+
+def gram(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarray], np.ndarray] | None:
+    """Return a solver with A A', if the rows A are many and all their singular values exceed a tolerance.
+
+    A A' - t^2 has as many negative eigenvalues as negative pivots (Sylvester's law of inertia). None if there may be smaller
+    ones, also where the square of the tolerance is rounding.
+    """
+    if rows.shape[0] <= RANKS.small:
+        return None
+    least = max(tolerance, RANKS.squared)
+    options = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+    product = (rows @ rows.T).tocsc()
+    shift = scipy.sparse.identity(len(product.indptr) - 1, format="csc") * least**2
+    try:
+        shifted = scipy.sparse.linalg.splu(product - shift, **options)
+        if not (np.array_equal(shifted.perm_r, shifted.perm_c) and np.all(shifted.U.diagonal() > 0)):
+            return None
+        return scipy.sparse.linalg.splu(product, **options).solve
+    except (RuntimeError, ValueError):
+        return None
+
+
+def complement(rows: scipy.sparse.csc_matrix, tolerance: float) -> np.ndarray | None:
+    """Orthonormal rows that span what all given rows map to 0, if these are many and independent, and leave little."""
+    m, n = rows.shape
+    own = unit_rows(rows)
+    inverse = gram(own, tolerance) if 0 < n - m <= RANKS.small else None
+    if inverse is None:
+        return None
+    null = np.random.default_rng(0).standard_normal((n, n - m))
+    for _ in range(2):  # the second time for rounding
+        null = np.linalg.qr(null - own.T @ inverse(own @ null))[0]
+    return null.T

@@ -1,0 +1,37 @@
+"""Parts of a sparse matrix that share nothing, against the matrix that they were mixed into."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from acausal.solve.start.parts import parts, parts_of
+
+
+def test_blocks_that_were_mixed_are_found():
+    random = np.random.default_rng(0)
+    blocks = [random.standard_normal(shape) for shape in ((2, 3), (1, 1), (3, 2))]
+    whole = scipy.linalg.block_diag(*blocks)
+    mixed = whole[random.permutation(6)][:, random.permutation(6)]
+    J = scipy.sparse.csc_matrix(mixed)
+    found = parts_of(J)
+    assert sorted((len(p.rows), len(p.columns)) for p in found) == [(1, 1), (2, 3), (3, 2)]
+    back = np.zeros((6, 6))
+    for part in found:
+        own = part.dense(J.data)
+        np.testing.assert_array_equal(own, mixed[np.ix_(part.rows, part.columns)])
+        np.testing.assert_array_equal(own, part.sparse(J.data).toarray())
+        back[np.ix_(part.rows, part.columns)] = own
+    np.testing.assert_array_equal(back, mixed)
+
+
+def test_a_row_without_entries_is_a_part_and_a_column_is_not():
+    found = parts(np.array([0]), np.array([1]), (2, 3))
+    assert [(p.rows.tolist(), p.columns.tolist()) for p in found] == [([0], [1]), ([1], [])]
+    assert found[1].dense(np.ones(1)).shape == (1, 0)
+
+
+def test_several_values_at_once():
+    (part,) = parts(*np.indices((2, 2)).reshape(2, -1), (2, 2))
+    values = np.arange(12.0).reshape(3, 4)
+    np.testing.assert_array_equal(part.dense(values), values.reshape(3, 2, 2))
