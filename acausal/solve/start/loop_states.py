@@ -45,7 +45,7 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
     nominal = problem.nominal[: problem.nx]
     J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[rows] * nominal[columns]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    levels = _levels(problem.compiled)
+    levels = levels_of(problem.compiled)
     weights = _spared(levels, J, stiffness[columns], problem.feedback)
     D = J * weights
     size = np.sqrt(np.bincount(rows, D**2, minlength=c.size))
@@ -62,7 +62,7 @@ def independent(compiled: CompiledModel, constants: Constants) -> tuple[str, ...
 
 
 @once
-def _levels(compiled: CompiledModel) -> list[Part]:
+def levels_of(compiled: CompiledModel) -> list[Part]:
     """Constraints of one level that share coordinates, with the entries of D."""
     c = compiled.constraints
     return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
@@ -187,4 +187,4 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     """
     c = problem.compiled.constraints
     held, nominal = c.held(rows.x, problem.p, rows.times, constants.vector), problem.nominal[c.entries[1]]
-    return _transversality(_levels(problem.compiled), held * nominal, constants.D / nominal)
+    return _transversality(levels_of(problem.compiled), held * nominal, constants.D / nominal)
