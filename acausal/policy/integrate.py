@@ -83,6 +83,10 @@ class Calls:
     # Looks at the projection after a call cost about the cube of the number of constraints each: their sum, and bounds.
     work: float = 2e7
     looks: tuple[int, int] = (8, 100)
+    # Rows of a call of a method without a Newton iteration that are solved at once: as many as one evaluation takes.
+    settled: int = 16
+    # Of the terms of an equation: a solution leaves rounding, values that are none leave about all of them.
+    holds: float = 1e-3
     # Steps after which loops are looked at for flat positions: a few turns.
     steps: int = 64
     # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may

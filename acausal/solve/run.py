@@ -22,7 +22,7 @@ from acausal.solve.events.course import Course
 from acausal.solve.failed import failure_text
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
-from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
 from acausal.solve.integrate.order import eigenvalues_of, order_limit
 from acausal.solve.integrate.settings import Progress, Settings
@@ -160,6 +160,9 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
             return replace(done, failure=interrupt)
         except (Failure, Chattering) as failure:
             done = replace(done, failure=failure)
+            if isinstance(failure, Failure) and failure.kind is Kind.ERROR_TEST:
+                # Values that grow without end are known up to a time that is as uncertain as the tolerance says.
+                integrator.trace.cut(failure.time - task.tolerance * span)
         fitting = smaller_sizes(problem, integrator.trace.rows(at).x, settings.nominal, task.tolerance, span)
         if fitting is None:
             break

@@ -15,6 +15,7 @@ from rich.table import Table
 
 import acausal as ac
 from acausal.compiler import CompiledModel
+from acausal.compiler.core_equations import core_equations
 from models import SliderCrank
 from tests.benchmarks.slider_crank_by_hand import HandModel, build
 from tests.benchmarks.slider_crank_methods import INTERVALS, STOP, SWITCH, Method, fastest, simulate
@@ -57,11 +58,12 @@ def compiled_side(model: CompiledModel, repeats: int) -> tuple[Side, ac.Result]:
     runs = [ac.simulate(model, **how) for _ in range(repeats)]
     best = min(runs, key=lambda r: r.stats["integration_seconds"]).stats
     solve = min(r.stats["solve_seconds"] for r in runs)
-    integrator = list(model.integrators.values())[-1].function
+    equations = core_equations(model, False, False)
     side = Side(
         model.nx,
         model.nz,
-        *counts(integrator),
+        len(equations.values.first),
+        len(equations.row),
         best["steps"],
         best["factorisations"],
         best["residual_evaluations"],

@@ -176,14 +176,22 @@ class Integrator:
         return found.every(parts)
 
     def _settled(self, leg: Leg, tolerance: float) -> Leg | Refusal:
-        """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read."""
-        given = leg.rows[-1:]
-        last, lost = self.consistent(given)
+        """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read.
+
+        Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
+        """
+        looks = 1 if METHODS[self.way.method].multistep else POLICY.calls.settled
+        given = leg.rows[spread(len(leg.rows), looks)] if looks > 1 else leg.rows[-1:]
+        found, lost = self.consistent(given)
+        last = found[-1:]
         end = self.problem.point(last, 0)
         q = self.problem.projected(end).x
         if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time)
-        if lost and not self.consistent.holds(given, 0, tolerance):
+        for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
+            if not self.consistent.holds(given, k, tolerance):
+                return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
+        if looks > 1 and not self.loops and not self.consistent.holds(last, 0, max(tolerance, POLICY.calls.holds)):
             return Refusal(Kind.UNSOLVABLE, end.time)
         return replace(leg, rows=Rows.joined([leg.rows[:-1], last]))
 

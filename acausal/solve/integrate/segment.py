@@ -114,6 +114,9 @@ def passage(
         if isinstance(leg, Leg):
             integrator.trace.loosened += [float(times[0])] * (loose.tolerance > way.tolerance)
             return leg
+        if found.kind is Kind.UNSOLVABLE and leg.kind is Kind.CORRECTOR:
+            # A Newton iteration tells where the solution ended, not only that there is none at an output.
+            found = min(found, leg, key=lambda refusal: refusal.time)
     return found
 
 

@@ -246,7 +246,7 @@ def test_interrupt_leaves_the_best(monkeypatch):
 
     monkeypatch.setattr(runs, "run", stopped)
     with pytest.raises(KeyboardInterrupt) as caught:
-        ac.simulate(SpinUp(), stop_time=20.0, accuracy=1e-4)
+        ac.simulate(SpinUp(), stop_time=20.0, accuracy=1e-4, method="idas")
     result = caught.value.result  # type: ignore[attr-defined]
     assert result.stats["error_estimate"] > 1e-4
     assert len(result.stats["trials"]) == 3

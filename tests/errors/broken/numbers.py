@@ -65,7 +65,7 @@ def slope_that_is_infinite(repaired):
 
 
 def root_that_ends(repaired):
-    law(lambda m: -1 - sqrt(m.x), stop=0.5 if repaired else 0.8, intervals=20)
+    law(lambda m: -1 - sqrt(m.x), stop=0.5 if repaired else 0.8, intervals=20, method="idas")
 
 
 def without_solution_later(repaired):
@@ -146,7 +146,7 @@ def jump_without_value(repaired):
         def more(self):
             yield when(self.x < 0.95, reinit(self.x, sqrt(self.x - (0 if repaired else 2))))
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, method="idas")
 
 
 def jump_of_a_derivative(repaired):

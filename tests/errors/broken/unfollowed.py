@@ -108,7 +108,7 @@ def condition_of_a_variable_without_value(repaired):
         def more(self):
             yield der(self.z) == piecewise((1, self.x > 0.51 if repaired else asin(2 * self.x - 2) > -1.5), 0)
 
-    ac.simulate(M(), stop_time=2, intervals=10)
+    ac.simulate(M(), stop_time=2, intervals=10, method="idas")
 
 
 def event_without_value(repaired):
@@ -162,7 +162,7 @@ def fall_into_the_centre_of_gravity(repaired):
             angles_fixed=True,
         )
 
-    ac.simulate(M(), stop_time=3, intervals=2)
+    ac.simulate(M(), stop_time=3, intervals=2, method="idas")
 
 
 def switching_without_measure(repaired):
