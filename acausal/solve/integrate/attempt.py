@@ -191,7 +191,11 @@ class Integrator:
         for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
             if not self.consistent.holds(given, k, tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
-        if looks > 1 and not self.loops and not self.consistent.holds(last, 0, max(tolerance, POLICY.calls.holds)):
+        if (
+            looks > 1
+            and not self.loops
+            and not any(self.consistent.holds(r, 0, POLICY.calls.holds) for r in (last, given[-1:]))
+        ):
             return Refusal(Kind.UNSOLVABLE, end.time)
         return replace(leg, rows=Rows.joined([leg.rows[:-1], last]))
 
