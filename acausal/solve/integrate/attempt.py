@@ -132,9 +132,9 @@ class Integrator:
             self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
-            return self._settled(found.every(parts), way.tolerance)
+            return self._settled(found.every(parts), way)
         rows = self._reached(integration, parts) if keep else None
-        settled = rows and self._settled(rows, way.tolerance)
+        settled = rows and self._settled(rows, way)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
     def _outcome(self, integration: Integration) -> Leg | Refusal:
@@ -175,12 +175,12 @@ class Integrator:
             return None
         return found.every(parts)
 
-    def _settled(self, leg: Leg, tolerance: float) -> Leg | Refusal:
+    def _settled(self, leg: Leg, way: Way) -> Leg | Refusal:
         """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read.
 
         Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
         """
-        looks = 1 if METHODS[self.way.method].multistep else POLICY.calls.settled
+        looks = 1 if METHODS[way.method].multistep else POLICY.calls.settled
         given = leg.rows[spread(len(leg.rows), looks)] if looks > 1 else leg.rows[-1:]
         found, lost = self.consistent(given)
         last = found[-1:]
@@ -189,7 +189,7 @@ class Integrator:
         if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time)
         for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
-            if not self.consistent.holds(given, k, tolerance):
+            if not self.consistent.holds(given, k, way.tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
         if (
             looks > 1

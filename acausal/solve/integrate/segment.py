@@ -32,7 +32,7 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
         integrator.trace.add(found)
         return found.end(at)
     n = len(times) - 1
-    integrator.way = replace(integrator.way, method=integrator.settings.methods[0])
+    integrator.way = replace(integrator.way, method=integrator.settings.careful)
     size = max(1, -(-n // RESCUE.chunks))
     for first in range(0, n, size):
         part = times[first : first + size + 1]
@@ -141,7 +141,7 @@ def approached(run: Integrator, at: Point, time: float) -> Point:
     if not np.all(np.diff(times) > 0):
         return at
     aside = run.aside()
-    way = replace(aside.way, method=run.settings.methods[0], careful=True, max_steps=RESCUE.patient)
+    way = replace(aside.way, method=run.settings.careful, careful=True, max_steps=RESCUE.patient)
     found = aside.attempt(at, times, way, works=False, keep=True)
     rows = found.reached if isinstance(found, Refusal) else found
     return rows.end(at) if rows else at

@@ -59,6 +59,11 @@ class Settings:
         moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] == "following")
         return Way(self.methods[0], moves, self.tolerance, RESCUE.long, self.max_order)
 
+    @property
+    def careful(self) -> str:
+        """The method that goes on where a whole segment was refused: one with a Newton iteration, if it may be taken."""
+        return "idas" if "idas" in self.methods else self.methods[0]
+
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
         return len(self.methods) > 1 and self.vibration * float(np.max(np.diff(times))) > 2 * np.pi
