@@ -18,7 +18,7 @@ from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
 
-Residuals = Callable[[np.ndarray], tuple[np.ndarray, scipy.sparse.csc_matrix]]
+Residuals = Callable[[np.ndarray], "tuple[np.ndarray, scipy.sparse.csc_matrix]"]
 
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
