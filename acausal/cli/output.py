@@ -160,7 +160,9 @@ def _small(stats: Statistics, series: list[Series]) -> list[str]:
 
 
 def _method(stats: Statistics) -> str:
-    text = f"method {stats.method}, order at most {stats.max_order}"
+    text = f"method {stats.method}"
+    if "idas" in stats.method_steps:
+        text += f", order at most {stats.max_order}"
     if stats.choices:
         kind = "states chosen by pivots" if stats.constraints == "states" else "projection"
         text += f"; loops closed by {kind}"

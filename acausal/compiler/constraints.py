@@ -26,6 +26,8 @@ class Constraints:
         Positions of the residuals of each constraint, lowest level first.
     multipliers : array of int
         Position of the multiplier of each residual among the algebraic unknowns.
+    lowest : array of int
+        Position of the residual of each constraint at its lowest level.
     closures : list of int
         Constraint of each closure.
     kinds : array of int
@@ -42,6 +44,7 @@ class Constraints:
         residual = {m: k for k, m in enumerate(multipliers)}
         self.rows = [tuple(residual[m] for m in c.multipliers) for c in constrained.constraints]
         self.multipliers = np.array([algebraic[m] for m in multipliers], dtype=int)
+        self.lowest = np.array([own[0] for own in self.rows], dtype=int)
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
@@ -99,6 +102,13 @@ class Constraints:
         """
         entries = [self._call(at, p, time, constants)[1][self._held] for at, time in zip(x, t, strict=True)]
         return np.where(self._held >= 0, entries, 0.0)
+
+    def counting(self, closures: np.ndarray) -> np.ndarray:
+        """Which residuals count, where closures do that are 1, and those do not that are 0, see `Constants`."""
+        counts = np.ones(self.size, dtype=bool)
+        for constraint, closure in zip(self.closures, closures, strict=True):
+            counts[list(self.rows[constraint])] = closure > 0
+        return counts
 
     def project(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:
         """Return the states with every coordinate where the constraints have it."""

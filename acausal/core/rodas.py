@@ -84,7 +84,7 @@ def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX,
     pattern = J.sparsity() + own
     entries = ca.project(J, pattern).nz[:]
     by_time = ca.jacobian(F, t)
-    slopes = ca.vertcat(entries, ca.densify(by_time)) if by_time.nnz() else entries
+    slopes = ca.vertcat(entries, dense(by_time)) if by_time.nnz() else entries
     arguments = [x, z, t, p, c]
 
     start, row = (np.array(part, dtype=np.int32) for part in (pattern.colind(), pattern.row()))
@@ -102,7 +102,11 @@ def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX)
 
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
-    return make_tape(ca.Function(name, list(arguments), [ca.densify(column)]), early=(3, 4))
+    return make_tape(ca.Function(name, list(arguments), [dense(column)]), early=(3, 4))
+
+
+def _address(array: np.ndarray | None) -> int | None:
+    return None if array is None else array.ctypes.data
 
 
 @dataclass(frozen=True)
@@ -188,26 +192,15 @@ class Rodas:
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
-        places = (array.ctypes.data for array in (times, found.x, found.z, found.integral))
-        steps = np.empty(room), np.empty((room, e.nx))
-        kept = (array.ctypes.data for array in steps)
         chosen = None if smooth is None else np.ascontiguousarray(smooth, dtype=np.int32)
-        request = RequestData(
-            tolerance,
-            first_step,
-            size.ctypes.data,
-            chosen.ctypes.data if chosen is not None else None,
-            most,
-            n,
-            *places,
-            room,
-            *kept,
-        )
-        # The library keeps the addresses of these.
+        self._steps = np.empty(room), np.empty((room, e.nx))
+        places = map(_address, (times, found.x, found.z, found.integral))
+        kept = map(_address, self._steps)
+        request = RequestData(tolerance, first_step, _address(size), _address(chosen), most, n, *places, room, *kept)
+        # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)
-        self._steps = steps
         self.progress = Progress()
-        self._library.ac_rodas_begin(self._memory, byref(request), *(array.ctypes.data for array in (x, z, p, c)))
+        self._library.ac_rodas_begin(self._memory, byref(request), *map(_address, (x, z, p, c)))
         return found
 
     def go(self, steps: int) -> End:

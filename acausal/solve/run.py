@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any, NoReturn
 
@@ -197,9 +198,9 @@ def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled = integrator.compiled
     report = compiled.report_at(done.begun.found(compiled))
-    steps: dict[str, int] = {}
+    steps = Counter[str]()
     for key, n in trace.methods.items():
-        steps[METHODS[key].name] = steps.get(METHODS[key].name, 0) + n
+        steps[METHODS[key].name] += n
     return Statistics(
         equations_flat=report["equations_flat"],
         equations_reduced=report["equations_reduced"],
@@ -218,7 +219,7 @@ def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
         sizes=absolute_sizes(compiled, integrator.settings.nominal),
         method=" and ".join(steps) or "none",
         method_reason="; ".join([why_first(task.method, task.max_order), *trace.changes]),
-        method_steps=steps,
+        method_steps=dict(steps),
         damped=any(METHODS[name].damps for name in trace.methods),
         fastest_rate=integrator.settings.fastest,
         constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",

@@ -20,18 +20,15 @@ from rich.console import Console
 from rich.table import Table
 
 import acausal as ac
-from acausal import Model, chain, fixed, parts, structural
-from components import BodyRod, Fixed, Revolute, World
+from acausal import chain, fixed, parts
+from components import BodyRod, Fixed, Revolute
 from models import NFourBar
 
 SIZES = (25, 50, 100, 200)
 
 
-class Apart(Model):
-    """N parallelograms of rods of 1 m and 1 kg, with their feet on the ground."""
-
-    N: int = structural("number of four-bars", default=2, minimum=1)
-    world = World(g=9.81)
+class Apart(NFourBar):
+    """N parallelograms that share no upright."""
 
     @parts
     def ground(self):
@@ -47,16 +44,6 @@ class Apart(Model):
     def upright(self):
         """Uprights."""
         return [BodyRod(r=(0, 1, 0), m=1) for _ in range(2 * self.N)]
-
-    @parts
-    def coupler(self):
-        """Couplers."""
-        return [BodyRod(r=(1, 0, 0), m=1) for _ in range(self.N)]
-
-    @parts
-    def pin(self):
-        """Joints at the ends of the couplers, two for each."""
-        return [Revolute() for _ in range(2 * self.N)]
 
     def connections(self):
         for i in range(2 * self.N):

@@ -29,7 +29,7 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     const size_t n = (size_t)r->n + 1, entries = (size_t)e->start[r->n] + 1;
     r->timely = e->slopes->outputs > e->start[r->n];
     r->lu = ac_lu_make(r->n, e->start, e->row);
-    r->block = calloc(length(e->values) + length(e->slopes) + length(e->powers) + (STAGES + 7) * n + entries + 4, sizeof(double));
+    r->block = calloc(length(e->values) + length(e->slopes) + length(e->powers) + (STAGES + 7) * n + entries, sizeof(double));
     if (!r->lu || !r->block) {
         ac_rodas_free(r);
         return NULL;
@@ -39,7 +39,7 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     r->powers = r->slopes + length(e->slopes);
     r->y = r->powers + length(e->powers);
     r->next = r->y + n, r->stage = r->next + n, r->b = r->stage + n, r->u = r->b + n;
-    r->dense = r->u + STAGES * n, r->matrix = r->dense + 3 * n, r->power = r->matrix + entries;
+    r->dense = r->u + STAGES * n, r->matrix = r->dense + 3 * n;
     const ac_tape *tapes[] = {e->values, e->slopes, e->powers};
     double *arrays[] = {r->values, r->slopes, r->powers};
     for (int k = 0; k < 3; k++) {

@@ -11,7 +11,7 @@ struct ac_rodas {
     ac_lu *lu;
     double *block;                              /* all the memory */
     double *values, *slopes, *powers;           /* arrays of the tapes */
-    double *y, *next, *u, *stage, *b, *matrix, *dense, *power; /* u: (STAGES, n), dense: (3, n) */
+    double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */
     double t, h, gathered[2];
     int64_t written_at; /* steps at the last output */
     int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */

@@ -180,8 +180,8 @@ class Integrator:
 
         Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
         """
-        looks = 1 if METHODS[way.method].multistep else POLICY.calls.settled
-        given = leg.rows[spread(len(leg.rows), looks)] if looks > 1 else leg.rows[-1:]
+        iterates = METHODS[way.method].multistep
+        given = leg.rows[-1:] if iterates else leg.rows[spread(len(leg.rows), POLICY.calls.settled)]
         found, lost = self.consistent(given)
         last = found[-1:]
         end = self.problem.point(last, 0)
@@ -191,11 +191,8 @@ class Integrator:
         for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
             if not self.consistent.holds(given, k, way.tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
-        if (
-            looks > 1
-            and not self.loops
-            and not any(self.consistent.holds(r, 0, POLICY.calls.holds) for r in (last, given[-1:]))
-        ):
+        ends = (last, given[-1:])
+        if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
         return replace(leg, rows=Rows.joined([leg.rows[:-1], last]))
 

@@ -9,6 +9,7 @@ from acausal.policy import POLICY
 from acausal.solve.looks import spread
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import levels_of
+from acausal.solve.start.rank import scaled
 
 
 def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
@@ -27,19 +28,14 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
         Those of the segment.
     """
     c, nominal = problem.compiled.constraints, problem.nominal
-    lowest = np.array([own[0] for own in c.rows])
-    counts = np.zeros(c.size, dtype=bool)
-    counts[lowest] = True
-    counts[lowest[c.closures]] = constants.closures > 0
+    counts = c.counting(constants.closures) & np.isin(np.arange(c.size), c.lowest)
     some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
     held = c.held(x[some], problem.p, times[some], constants.vector) * nominal[c.entries[1]]
     for part in levels_of(problem.compiled):
         on = counts[part.rows]
         if not on.any():
             continue
-        J = part.dense(held)[:, on]
-        size = np.linalg.norm(J, axis=2, keepdims=True)
-        least = np.linalg.svd(J / np.where(size > 0, size, 1.0), compute_uv=False)[:, -1]
+        least = np.linalg.svd(scaled(part.dense(held)[:, on]), compute_uv=False)[:, -1]
         if np.any(np.minimum(least[1:], least[:-1]) <= np.abs(np.diff(least))):
             return True
     return False

@@ -1,4 +1,4 @@
-"""Methods of integration: the multistep method that follows everything, the one-step method that damps."""
+"""Methods of integration: the multistep method, and the one-step method that follows vibrations or damps them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _damping(request: Request) -> Integration:
     return ByCore(request, damps=True) if library() else by_rosenbrock(request)
 
 
-# In the order in which they are taken: each leaves less to follow, or less to solve, than the one before it.
+# In the order in which they are taken: the next one solves with a Newton iteration, the last one leaves less to follow.
 METHODS = {
     "following": Method("rosenbrock", lambda request: ByCore(request, damps=False)),
     "idas": Method("idas", by_idas, multistep=True),

@@ -32,7 +32,7 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
         integrator.trace.add(found)
         return found.end(at)
     n = len(times) - 1
-    integrator.way = replace(integrator.way, method=integrator.settings.careful)
+    integrator.take(replace(integrator.way, method=integrator.settings.careful), found)
     size = max(1, -(-n // RESCUE.chunks))
     for first in range(0, n, size):
         part = times[first : first + size + 1]

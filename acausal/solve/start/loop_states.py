@@ -38,9 +38,7 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
     """
     c = problem.compiled.constraints
     rows, columns = c.entries
-    on = np.ones(c.size, dtype=bool)
-    for constraint, counts in zip(c.closures, at.constants.closures, strict=True):
-        on[list(c.rows[constraint])] = counts > 0
+    on = c.counting(at.constants.closures)
     # States count in nominal values: the least change of them, J' over their squares, is the way to the constraints.
     nominal = problem.nominal[: problem.nx]
     J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[rows] * nominal[columns]

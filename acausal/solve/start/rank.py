@@ -15,8 +15,8 @@ RANKS = POLICY.ranks
 
 
 def scaled(rows: np.ndarray) -> np.ndarray:
-    """Rows of length 1; rows that vanish stay."""
-    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    """Rows of length 1, of one matrix or of many; rows that vanish stay."""
+    size = np.linalg.norm(rows, axis=-1, keepdims=True)
     return rows / np.where(size > 0, size, 1.0)
 
 

@@ -31,7 +31,7 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    lowest = np.array([r[0] for r in problem.compiled.constraints.rows])
+    lowest = problem.compiled.constraints.lowest
     J = problem.gradients(at)[lowest].tocsc()
     doubtful = [part for part in parts_of(J) if not is_regular(part.sparse(J.data), RANKS.nearly)]
     if not doubtful:
@@ -73,7 +73,7 @@ def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     """Whether constraints that are independent elsewhere are nearly dependent in a position."""
     if not problem.compiled.constraints.size:
         return False
-    held = [rows[0] for k, rows in enumerate(problem.compiled.constraints.rows) if k not in redundancy.dropped]
+    held = np.delete(problem.compiled.constraints.lowest, redundancy.dropped)
     J = problem.gradients(at)[held].tocsc()
     return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
 
