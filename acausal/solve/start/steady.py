@@ -8,6 +8,7 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -215,17 +216,18 @@ class Equilibrium:
 
     def _relax(self, at: Point, growth: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
+        from scipy.linalg import lu_factor, lu_solve
+
         h, nx, feedback = REST.first / self.problem.feedback, self.nx, self.problem.feedback
         try:
             here = self._at(self._close(at))
         except InitializationError:
             return at
         for _ in range(REST.relaxation):
-            moving = here.rates.copy()
-            moving[np.setdiff1d(np.arange(nx), self.rows)] = 0.0
             try:
-                step = np.linalg.solve(np.eye(nx) - h * here.A, h * moving)
-            except np.linalg.LinAlgError:
+                solve = partial(lu_solve, lu_factor(np.eye(nx) - h * here.A))
+                step = solve(h * self._moving(here))
+            except (np.linalg.LinAlgError, ValueError):
                 step = np.full(nx, np.nan)
             if not np.all(np.isfinite(step)) or self._far(step) > REST.far:
                 h /= REST.shrinkage
@@ -234,10 +236,15 @@ class Equilibrium:
                 continue
             moved = _moved(here.point, step)
             try:
-                here = self._at(self._close(moved))
+                there = self._at(self._close(moved))
             except InitializationError:
                 h /= REST.lost
                 continue
+            left = solve(h * self._moving(there) - step)
+            if self._far(left) > REST.contraction * self._far(step) + REST.converged:
+                h /= REST.shrinkage
+                continue
+            here = there
             h *= growth
             if (
                 h * feedback > REST.last
@@ -245,6 +252,12 @@ class Equilibrium:
             ):
                 break
         return here.point
+
+    def _moving(self, here: Linearized) -> np.ndarray:
+        """Rates of what has to come to rest."""
+        rates = np.zeros(self.nx)
+        rates[self.rows] = here.rates[self.rows]
+        return rates
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
