@@ -61,6 +61,8 @@ class Causes:
     # A combination of equations of length 1 vanishes if so little of it is left; what weighs less in it takes no part.
     rank: float = 1e-11
     weight: float = 1e-3
+    # Digits of a weight in which rounding does not show.
+    digits: int = 6
     balancing: int = 3
     # Equations of which a dense decomposition takes a few seconds.
     largest: int = 2000

@@ -120,9 +120,6 @@ class Rest:
     growth: float = 1.5
     last: float = 1e8
     shortest: float = 1e-12
-    # What is left of an implicit step after its first iteration, over the step: beyond it Newton's method need not converge
-    # (monotonicity test, Deuflhard 2004, section 6.4).
-    contraction: float = 0.5
     # By what a step is shortened that is too long, and one after which the loops do not close.
     shrinkage: float = 2.0
     lost: float = 4.0

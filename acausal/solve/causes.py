@@ -224,10 +224,10 @@ def _sizes(J: np.ndarray, axis: int) -> np.ndarray:
 
 
 def _heavy(vectors: np.ndarray) -> list[int]:
-    """What takes part in the vectors, what weighs most first."""
+    """What takes part in the vectors, what weighs most first; what weighs the same but for rounding, in its own order."""
     weight = np.linalg.norm(vectors, axis=0)
-    order = np.argsort(-weight, kind="stable")
-    return [int(k) for k in order if weight[k] > CAUSES.weight * weight[order[0]]]
+    weight = np.round(weight / np.max(weight), CAUSES.digits)
+    return [int(k) for k in np.argsort(-weight, kind="stable") if weight[k] > CAUSES.weight]
 
 
 def _fails(there: _There, rows: list[Row]) -> bool:
