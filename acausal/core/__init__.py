@@ -1,5 +1,6 @@
 """The core: a library in C that evaluates and integrates any model, which it takes as data."""
 
+from acausal.core.curve import Curve
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
@@ -7,6 +8,7 @@ from acausal.core.tape import Tape, make_tape
 
 __all__ = [
     "LU",
+    "Curve",
     "End",
     "Equations",
     "Outputs",

@@ -39,12 +39,13 @@ class RequestData(Structure):
         ("tolerance", c_double),
         ("first_step", c_double),
         ("size", c_void_p),
-        ("smooth", c_void_p),
+        ("rate", c_void_p),
+        ("smooth", c_int32),
         ("most", c_int64),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral")),
         ("room", c_int32),
-        *((name, c_void_p) for name in ("step_time", "step_x")),
+        *((name, c_void_p) for name in ("step_time", "step_y", "step_dense")),
     )
 
 

@@ -11,6 +11,7 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
+from acausal.core.curve import Curve
 from acausal.core.library import EquationsData, Progress, RequestData, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.symbols import dense
@@ -145,7 +146,7 @@ class Rodas:
             raise MemoryError
         self.progress = Progress()
         self._request: tuple[object, ...] = ()
-        self._steps = np.empty(0), np.empty((0, equations.nx))
+        self._steps = np.empty(0), np.empty((0, 0)), None
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
@@ -162,9 +163,11 @@ class Rodas:
         size: np.ndarray,
         tolerance: float,
         first_step: float = 0.0,
-        smooth: np.ndarray | None = None,
+        rate: np.ndarray | None = None,
+        smooth: bool = False,
         most: int = 2**62,
         room: int = 0,
+        curves: bool = False,
     ) -> Outputs:
         """Prepare an integration from the first of some times to the last; return what `go` fills.
 
@@ -180,23 +183,31 @@ class Rodas:
             Relative tolerance.
         first_step : float, optional
             Length of the first step that is tried; chosen if 0.
-        smooth : array, shape (nx,), optional
-            States whose error leaves out vibrations that a step does not resolve.
+        rate : array, shape (nx,), optional
+            Whether a state is the rate of another one; the first step resolves how these change.
+        smooth : bool, optional
+            Whether the error of rates leaves out vibrations that a step does not resolve.
         most : int, optional
             Steps between two outputs.
         room : int, optional
             Most steps that are kept, see `steps`.
+        curves : bool, optional
+            Whether their interpolants are kept instead of outputs, see `curve`.
         """
         e, n = self.equations, len(times) - 1
-        found = Outputs(*(np.full((n, columns), np.nan) for columns in (e.nx, e.nz, 2)))
+        rows = 0 if curves else n
+        found = Outputs(*(np.full((rows, columns), np.nan) for columns in (e.nx, e.nz, 2)))
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
-        chosen = None if smooth is None else np.ascontiguousarray(smooth, dtype=np.int32)
-        self._steps = np.empty(room), np.empty((room, e.nx))
-        places = map(_address, (times, found.x, found.z, found.integral))
+        chosen = None if rate is None else np.ascontiguousarray(rate, dtype=np.int32)
+        ends = np.empty(room), np.empty((room, e.nx + e.nz))
+        self._steps = *ends, np.empty((room, 3, e.nx + e.nz)) if curves else None
+        self._last = times[0], np.concatenate([x, z])
+        written = (None, None, None) if curves else (found.x, found.z, found.integral)
+        places = map(_address, (times, *written))
         kept = map(_address, self._steps)
-        request = RequestData(tolerance, first_step, _address(size), _address(chosen), most, n, *places, room, *kept)
+        request = RequestData(tolerance, first_step, _address(size), _address(chosen), smooth, most, n, *places, room, *kept)
         # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)
         self.progress = Progress()
@@ -211,6 +222,9 @@ class Rodas:
         End
             `MORE` where outputs are left.
         """
+        times, y, _ = self._steps
+        if kept := self.progress.kept:
+            self._last = times[kept - 1], y[kept - 1].copy()
         end = End(self._library.ac_rodas_go(self._memory, steps, byref(self.progress)))
         if end == End.MEMORY:
             raise MemoryError
@@ -218,6 +232,15 @@ class Rodas:
 
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Times and states at the ends of the first steps since it was last told to go on."""
-        times, x = self._steps
-        return times[: self.progress.kept], x[: self.progress.kept]
+        """Times and values, of which the states come first, before and after each step since it was last told to go on.
+
+        Only as many steps as there is room for.
+        """
+        kept, (times, y, _), (time, first) = self.progress.kept, self._steps, self._last
+        return np.append(time, times[:kept]), np.vstack([first, y[:kept]])
+
+    @property
+    def curve(self) -> Curve:
+        """The interpolants of these steps, if they are kept."""
+        kept, dense = self.progress.kept, self._steps[2]
+        return Curve(*self.steps, np.empty((0, 3, 0)) if dense is None else dense[:kept].copy())

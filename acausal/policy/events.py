@@ -69,6 +69,8 @@ class Looks:
     # nothing turns back.
     densest: int = 32
     steps_a_row: int = 4
+    # Steps of the core after which conditions are checked, at first; each time twice as many.
+    steps: int = 8
     # How many times as many, where there were too few.
     denser: int = 4
     # Times since the last event in which the next one is looked for, where there are many in an interval.

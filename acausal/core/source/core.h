@@ -56,13 +56,15 @@ typedef struct {
 typedef struct {
     double tolerance, first_step;  /* first step 0: chosen */
     const double *size;            /* (nx) sizes of the states in the error test */
-    const int32_t *smooth;         /* (nx) whether vibrations that a step does not resolve are left out of the error; NULL: none */
+    const int32_t *rate;           /* (nx) whether a state is a rate of another one; NULL: none is */
+    int32_t smooth;                /* whether vibrations that a step does not resolve are left out of the error of rates */
     int64_t most;                  /* steps between two outputs */
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */
-    double *x, *z, *integral;      /* (outputs, ...) what is found */
-    int32_t room;                  /* for steps that are kept */
-    double *step_time, *step_x;    /* (room, ...) ends of the first steps since one was told to go on */
+    double *x, *z, *integral;      /* (outputs, ...) what is found; NULL: nothing is written */
+    int32_t room;                  /* for steps that are kept: the first ones since one was told to go on */
+    double *step_time, *step_y;    /* (room), (room, nx + nz) their ends */
+    double *step_dense;            /* (room, 3, nx + nz) coefficients of their interpolants, see `outputs.c`; NULL: none */
 } ac_request;
 
 /* How it ended: more steps to do, too many between two outputs; steps too short for the tolerance, or for the equations to be solved. */

@@ -44,7 +44,7 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
     const int32_t n = r->n;
     int32_t *written = &r->progress.written;
     const int due = *written < q->outputs && (last || q->time[*written + 1] <= r->t + h);
-    if (!due && !r->of.powers) return;
+    if (!due && !r->of.powers && !q->step_dense) return;
     for (int32_t j = 0; j < 3; j++) {
         double *d = r->dense + (size_t)j * (size_t)n;
         memset(d, 0, (size_t)n * sizeof *d);
@@ -56,10 +56,13 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
     while (*written < q->outputs && (last || q->time[*written + 1] <= r->t + h)) {
         const double s = fmin((q->time[*written + 1] - r->t) / h, 1);
         if (r->of.powers) gather(r, from, s, h);
-        interpolate(r, from = s, r->stage);
-        if (nx) memcpy(q->x + (size_t)*written * nx, r->stage, nx * sizeof(double));
-        if (nz) memcpy(q->z + (size_t)*written * nz, r->stage + nx, nz * sizeof(double));
-        memcpy(q->integral + 2 * (size_t)*written, r->gathered, sizeof r->gathered);
+        from = s;
+        if (q->x) {
+            interpolate(r, s, r->stage);
+            if (nx) memcpy(q->x + (size_t)*written * nx, r->stage, nx * sizeof(double));
+            if (nz) memcpy(q->z + (size_t)*written * nz, r->stage + nx, nz * sizeof(double));
+            memcpy(q->integral + 2 * (size_t)*written, r->gathered, sizeof r->gathered);
+        }
         ++*written;
     }
     if (r->of.powers && from < 1) gather(r, from, 1, h);

@@ -14,6 +14,8 @@
 #define LEAST 0.2             /* change of a step at most, likewise */
 #define MOST 6.0
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
+#define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
+#define MOST_SHORTENED 12
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 static size_t length(const ac_tape *tape) {
@@ -82,8 +84,9 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
     r->gathered[0] = r->gathered[1] = 0;
-    r->refused = r->unsolved = 0;
+    r->begun = r->refused = r->unsolved = 0;
     r->stale = 1;
+    r->factored = 0;
     r->written_at = 0;
 }
 
@@ -101,12 +104,12 @@ static double norm(const ac_rodas *r, const double *change) {
 /* Errors of a step, in b: where it is asked for, without vibrations that it does not resolve. Of one of frequency omega
    (I - h gamma J)^-1 leaves 1 / |1 + i h gamma omega| (Shampine, Hosea 1996). */
 static const double *smoothed(ac_rodas *r, const double *change, double h) {
-    const int32_t *smooth = r->request.smooth;
-    if (!smooth) return change;
+    const int32_t *rate = r->request.rate;
+    if (!r->request.smooth || !rate) return change;
     for (int32_t k = 0; k < r->n; k++) r->b[k] = k < r->of.nx ? change[k] / (h * GAMMA) : 0;
     ac_lu_solve(r->lu, r->b);
     for (int32_t k = 0; k < r->of.nx; k++) {
-        if (!smooth[k]) r->b[k] = change[k];
+        if (!rate[k]) r->b[k] = change[k];
     }
     return r->b;
 }
@@ -127,9 +130,45 @@ static double first_step(ac_rodas *r) {
 static int32_t factorise(ac_rodas *r, double h) {
     const ac_tape *tape = r->of.slopes;
     const int32_t entries = r->of.start[r->n];
+    if (r->stale) {
+        ac_rodas_evaluate(r, tape, r->slopes, r->y, r->t);
+        r->progress.slopes++;
+        r->stale = 0;
+    } else if (r->factored == h) {
+        return 0;
+    }
+    r->factored = 0;
     for (int32_t k = 0; k < entries; k++) r->matrix[k] = -r->slopes[tape->output[k]];
     for (int32_t k = 0; k < r->of.nx; k++) r->matrix[r->of.diagonal[k]] += 1 / (h * GAMMA);
-    return ac_lu_factor(r->lu, r->matrix);
+    const int32_t failed = ac_lu_factor(r->lu, r->matrix);
+    if (!failed) r->factored = h;
+    return failed;
+}
+
+/* Shorten the first step until it resolves what moves: an L-stable method takes vibrations that it does not resolve to rest,
+   and no error test sees it, such as that of a body which has just met a stiff stop. Of a mode of eigenvalue l among the rates,
+   D = I - (I - h gamma J)^-1 leaves the part -h gamma l / (1 - h gamma l): little where it is resolved, all where it is not;
+   its fifth power is as small as the error of a step that resolves it. */
+static void begin(ac_rodas *r) {
+    const int32_t nx = r->of.nx, *rate = r->request.rate;
+    r->h = fmin(r->h > 0 ? r->h : first_step(r), r->request.time[r->request.outputs] - r->t);
+    for (int tries = 0; rate && tries < MOST_SHORTENED; tries++) {
+        double *left = r->stage;
+        int32_t failed = factorise(r, r->h);
+        for (int32_t k = 0; k < nx; k++) left[k] = rate[k] ? r->y[k] : 0;
+        for (int power = 0; power < 5 && !failed; power++) {
+            for (int32_t k = 0; k < r->n; k++) r->b[k] = k < nx ? left[k] / (r->h * GAMMA) : 0;
+            ac_lu_solve(r->lu, r->b);
+            for (int32_t k = 0; k < nx; k++) left[k] -= r->b[k];
+        }
+        double most = 0;
+        for (int32_t k = 0; k < nx && !failed; k++) {
+            if (rate[k]) most = fmax(most, fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k]))));
+        }
+        if (most <= 1) break;
+        r->h *= SHORTENED;
+    }
+    r->begun = 1;
 }
 
 /* All stages, and where they lead. */
@@ -162,10 +201,11 @@ static void stages(ac_rodas *r, double h) {
 /* Keep where a step ended. */
 static void keep(ac_rodas *r) {
     const ac_request *q = &r->request;
-    const size_t nx = (size_t)r->of.nx;
+    const size_t n = (size_t)r->n, k = (size_t)r->progress.kept;
     if (r->progress.kept == q->room) return;
-    q->step_time[r->progress.kept] = r->t;
-    if (nx) memcpy(q->step_x + (size_t)r->progress.kept * nx, r->y, nx * sizeof(double));
+    q->step_time[k] = r->t;
+    memcpy(q->step_y + k * n, r->y, n * sizeof(double));
+    if (q->step_dense) memcpy(q->step_dense + 3 * k * n, r->dense, 3 * n * sizeof(double));
     r->progress.kept++;
 }
 
@@ -182,7 +222,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
     int32_t found = AC_DONE;
     const int64_t most = r->progress.steps + r->progress.refused + steps;
     r->progress.kept = 0;
-    if (!(r->h > 0)) r->h = first_step(r);
+    if (!r->begun) begin(r);
     while (r->progress.written < r->request.outputs) {
         if (r->progress.steps + r->progress.refused >= most) {
             found = AC_MORE;
@@ -198,11 +238,6 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
             found = r->unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
-        }
-        if (r->stale) {
-            ac_rodas_evaluate(r, r->of.slopes, r->slopes, r->y, r->t);
-            r->progress.slopes++;
-            r->stale = 0;
         }
         const int32_t failed = factorise(r, h);
         if (failed < 0) {

@@ -12,9 +12,9 @@ struct ac_rodas {
     double *block;                              /* all the memory */
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */
-    double t, h, gathered[2];
+    double t, h, factored, gathered[2]; /* factored: step whose factors stand in the LU, 0 for none */
     int64_t written_at; /* steps at the last output */
-    int32_t refused, unsolved, stale; /* last step was; equations had no value there; slopes are not those of y */
+    int32_t begun, refused, unsolved, stale; /* first step is chosen; last step was; equations had no value there; slopes are not those of y */
     ac_request request;
     ac_progress progress;
 };

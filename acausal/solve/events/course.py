@@ -22,6 +22,8 @@ from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
+from acausal.solve.integrate.march import March
+from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
 from acausal.solve.integrate.segment import passage, segment
 from acausal.solve.integrate.trace import Leg
@@ -65,6 +67,8 @@ class Course:
         self.stride = Stride(times)
         self.weak, self.hasty = 0, False
         self.first: Point | None = None
+        self.march: March | None = None
+        self.step = 0.0
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -145,8 +149,51 @@ class Course:
             self.integrator.report(at.time)
         return at
 
+    def _marched(self, at: Point, end: float) -> Point:
+        """Take some steps and go to their end, or to the first event in them."""
+        if self.march is None or self.march.at is not at or self.march.end != end:
+            self.march = March(self.integrator, at, self.stride.outputs(at.time, end), self.step)
+        march, integrator = self.march, self.integrator
+        refusal = march.go()
+        leg = None if refusal and refusal.kind is Kind.FLAT else march.leg(self.stride.density)
+        if leg:
+            crossing = self._crossing(at, march, leg)
+            last = int(np.searchsorted(leg.times, crossing.after.time)) if crossing else len(leg.times)
+            kept = march.accepted(leg.part(0, last)) if last else leg
+            if isinstance(kept, Refusal):
+                refusal = kept
+            elif crossing:
+                self.step, self.march = march.step(crossing.after.time), None
+                return self._event(at, kept, crossing)
+            else:
+                integrator.trace.add(kept)
+                at = march.at = kept.end(at)
+        if refusal:
+            self.march, before = None, integrator.way.method
+            here = self._otherwise(at, self.stride.grid(at.time, end), refusal)
+            # Near a flat position of a loop no method can begin: another one takes the whole segment.
+            return march.withdrawn() if integrator.loops and integrator.way.method != before else here
+        self.step = march.step(at.time)
+        return at
+
+    def _crossing(self, at: Point, march: March, leg: Leg) -> Crossing | None:
+        """The first event in some steps, which are looked at as closely as that needs."""
+        while True:
+            try:
+                return self.locator.first(at, leg, content=self.hasty)
+            except TooCoarse:
+                if not self.stride.look_closer():
+                    self._warn_of_haste(at)
+                leg = march.leg(self.stride.density) or leg
+            except Undecided as failure:
+                if n := int(np.searchsorted(leg.times, failure.time)):
+                    self.integrator.trace.add(leg.part(0, n))
+                raise
+
     def _advance(self, at: Point, end: float) -> Point:
         """Integrate one leg and go to its end, or to the first event in it."""
+        if METHODS[self.integrator.way.method].marches and self.integrator.compiled.nx:
+            return self._marched(at, end)
         grid = self.stride.grid(at.time, end)
         integrator = self.integrator
         way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, grid))
@@ -191,7 +238,10 @@ class Course:
             choose(integrator, at, grid[:2])
             if integrator.way.order != integrator.settings.max_order:
                 return at
-        following = next_ways(integrator.way, refusal, integrator.settings.rescues(grid, integrator.loops))
+        settings = integrator.settings
+        following = next_ways(integrator.way, refusal, settings.rescues(grid, integrator.loops))
+        if integrator.loops and not following and integrator.way.method == settings.methods[0] != settings.careful:
+            following = (replace(integrator.way, method=settings.careful),)
         if not following:
             return self._shorter(at, grid, Failure.of(refusal))
         integrator.take(following[0], refusal)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -72,6 +73,7 @@ class Locator:
         self.integrator, self.instants = integrator, instants
         self.shortest = LOCATE.shortest * instants.span
         self.passed: np.ndarray | float = 0.0
+        self._rows: Callable[[np.ndarray], Rows] | None = None
 
     def first(self, at: Point, leg: Leg, depth: int = 0, content: bool = False) -> Crossing | None:
         """Return the first change after `at` along a leg that begins there.
@@ -94,6 +96,7 @@ class Locator:
         Failure
             If the motion cannot be followed up to the change.
         """
+        self._rows = leg.inside
         samples = self._samples(replace(at, constants=leg.constants), leg.since(at))
         known, text = self._known(samples)
         if not text:
@@ -207,7 +210,9 @@ class Locator:
         return found
 
     def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
-        """Rows between two others; None where the cubic does not follow the motion."""
+        """Rows between two others, of the leg or on their cubic; None where that does not follow the motion."""
+        if self._rows:
+            return self._samples(a.at, self._rows(times))
         found = between(self.integrator, Rows.of(a.at, b.at), times)
         if np.any(found.defect > POLICY.between.faithful):
             return None
@@ -216,7 +221,11 @@ class Locator:
     def _inside(self, a: Sample, b: Sample, depth: int) -> Crossing | None:
         """Look closer between two samples."""
         times = np.linspace(a.time, b.time, LOOKS.fine + 1)
-        return self.first(a.at, accepted(self.integrator.trial(a.at, times, LOCATE.trial_steps)), depth + 1)
+        if self._rows:
+            leg = Leg(self._rows(times[1:]), np.zeros((LOOKS.fine, 2)), a.at.constants, 0, self._rows)
+        else:
+            leg = accepted(self.integrator.trial(a.at, times, LOCATE.trial_steps))
+        return self.first(a.at, leg, depth + 1)
 
     def _narrow(self, at: Point, a: Sample, b: Sample, slack: np.ndarray, peak: np.ndarray) -> Crossing:
         """Narrow an interval: the cubic tells where to look next, a little to the side where no sample is near.

@@ -39,10 +39,14 @@ class Stride:
         self.densest = max(LOOKS.densest, LOOKS.rows // (len(times) - 1))
         self.density, self.block, self.piece = 1, 0, np.inf
 
+    def outputs(self, now: float, end: float) -> np.ndarray:
+        """Return a time, the outputs after it, and an end."""
+        first, last = np.searchsorted(self.times, now, "right"), np.searchsorted(self.times, end)
+        return np.concatenate([[now], self.times[first:last], [end]])
+
     def grid(self, now: float, end: float) -> np.ndarray:
         """Return the next times: all up to the end at first, blocks of equal intervals after an event."""
-        ahead = self.times[(self.times > now) & (self.times < end)]
-        grid = np.concatenate([[now], ahead, [end]])
+        grid = self.outputs(now, end)
         if now + self.piece < grid[1]:
             return np.array([now, now + self.piece])
         if not self.block:

@@ -77,8 +77,8 @@ class Integrator:
             self.trace.changes.append(f"{method.name} from t = {refusal.time:.6g} s on{damped}: {refusal.kind.value}")
         self.way = way
 
-    def _choose(self, at: Point, moves: bool) -> Point:
-        """Restart from where the constraints hold, with a projection that suits the position."""
+    def restarted(self, at: Point, moves: bool) -> Point:
+        """Return a point where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
         z = at.z.copy()
@@ -87,7 +87,7 @@ class Integrator:
         self.trace.choices += 1
         return replace(at, constants=choose_projection(self.problem, at, moves=moves))
 
-    def _is_worn(self, rows: Rows, constants: Constants) -> bool:
+    def is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
         if not self.loops or constants.moves:
             return False
@@ -111,7 +111,7 @@ class Integrator:
         c = self.compiled
         if not c.nx:
             return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
-        at = self._choose(at, way.moves)
+        at = self.restarted(at, way.moves)
         parts = -(-POLICY.calls.fine // (len(times) - 1)) if self.loops and not way.moves else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
@@ -132,9 +132,9 @@ class Integrator:
             self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
-            return self._settled(found.every(parts), way)
+            return self.settled(found.every(parts), way)
         rows = self._reached(integration, parts) if keep else None
-        settled = rows and self._settled(rows, way)
+        settled = rows and self.settled(rows, way)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
     def _outcome(self, integration: Integration) -> Leg | Refusal:
@@ -148,7 +148,7 @@ class Integrator:
         if refusal:
             return refusal
         found = integration.leg()
-        if self._is_worn(found.rows, at.constants):
+        if self.is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)
         few = POLICY.energy.resolved if METHODS[way.method].multistep and way.order <= 2 else 1
         if request.works and not self.compiled.powers.is_zero() and steps < n * few:
@@ -171,13 +171,14 @@ class Integrator:
     def _reached(self, integration: Integration, parts: int) -> Leg | None:
         """Return the rows that an integration had written before it ended, if they can be used."""
         found = reached(self.consistent, integration)
-        if found is None or self._is_worn(found.rows, found.constants) or len(found.rows) < parts:
+        if found is None or self.is_worn(found.rows, found.constants) or len(found.rows) < parts:
             return None
         return found.every(parts)
 
-    def _settled(self, leg: Leg, way: Way) -> Leg | Refusal:
-        """The last row satisfies the equations, as the next call starts from it; the other rows are solved when they are read.
+    def settled(self, leg: Leg, way: Way) -> Leg | Refusal:
+        """Return a leg whose last row satisfies the equations, as the next call starts from it.
 
+        The other rows are solved when they are read.
         Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
         """
         iterates = METHODS[way.method].multistep

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations
-from acausal.core import End, Rodas
+from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
 from acausal.solve.integrate.flat import passes_flat
 from acausal.solve.integrate.integration import Integration, Request
@@ -36,15 +36,17 @@ class ByCore(Integration):
         is_rate = np.zeros(problem.nx, dtype=np.int32)
         is_rate[[rate for _, rate in problem.rates]] = 1
         self._wary = bool(problem.compiled.constraints.size) and not damps
-        self._last = np.array([at.time]), at.x[None]
+        self.ended = False
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
             size=sizes(request) if damps else request.settings.nominal[: problem.nx],
             tolerance=way.tolerance,
-            first_step=first_step(request) * request.span,
-            smooth=None if damps else is_rate,
-            room=POLICY.calls.steps if self._wary else 0,
+            first_step=min(request.first_step, request.span) or first_step(request) * request.span,
+            rate=is_rate,
+            smooth=not damps,
+            room=POLICY.calls.steps if self._wary or request.curves else 0,
+            curves=request.curves,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
         )
 
@@ -56,20 +58,28 @@ class ByCore(Integration):
 
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
-        end, at_once = End.MORE, min(self._at_once, POLICY.calls.steps) if self._wary else self._at_once
-        while end == End.MORE:
-            end = self._rodas.go(at_once)
-            if self._wary and self._passed_flat():
-                return Refusal(Kind.FLAT, self._rodas.progress.time)
-        if self._wary and self.request.way.moves and end in (End.SHORT, End.UNSOLVED):
-            return Refusal(Kind.FLAT, self._rodas.progress.time)
-        return None if end == End.DONE else Refusal(REFUSALS[end], self._rodas.progress.time)
+        refusal = None
+        while not (refusal or self.ended):
+            refusal = self.advance(POLICY.calls.steps if self._wary else self._at_once)
+        return refusal
+
+    def advance(self, steps: int) -> Refusal | None:
+        """Take some steps at most, refused ones among them, and no more than take some hundredths of a second."""
+        end, time = self._rodas.go(min(steps, self._at_once)), self._rodas.progress.time
+        self.ended = end == End.DONE
+        if self._wary and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
+            return Refusal(Kind.FLAT, time)
+        return Refusal(REFUSALS[end], time) if end in REFUSALS else None
+
+    @property
+    def curve(self) -> Curve:
+        """The motion in the last steps."""
+        return self._rodas.curve
 
     def _passed_flat(self) -> bool:
         """Whether loops may have passed a flat position in the last steps."""
-        times, x = (np.concatenate([last, now]) for last, now in zip(self._last, self._rodas.steps, strict=True))
-        self._last = times[-1:], x[-1:]
-        return passes_flat(self.request.problem, times, x, self.request.at.constants)
+        times, y = self._rodas.steps
+        return passes_flat(self.request.problem, times, y[:, : self.request.problem.nx], self.request.at.constants)
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

@@ -34,6 +34,10 @@ class Request:
         Whether to integrate the powers.
     floor : array
         Errors that rounding causes, see `rounding`.
+    first_step : float
+        Step in s with which to begin, where one is known; else 0.
+    curves : bool
+        Whether the motion between steps is looked at, in place of outputs.
     """
 
     problem: Problem
@@ -43,6 +47,8 @@ class Request:
     times: np.ndarray
     works: bool
     floor: np.ndarray
+    first_step: float = 0.0
+    curves: bool = False
 
     @property
     def span(self) -> float:

@@ -39,6 +39,11 @@ class Method:
     multistep: bool = False
     damps: bool = False
 
+    @property
+    def marches(self) -> bool:
+        """Whether it can be looked at after each step, see `March`."""
+        return not self.multistep and library() is not None
+
 
 def _damping(request: Request) -> Integration:
     return ByCore(request, damps=True) if library() else by_rosenbrock(request)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -56,9 +57,9 @@ class Trace:
         ends = [np.searchsorted(piece.rows.times, time) for piece in self.pieces]
         self.pieces = [Piece(rows[:n], energy[:n]) for (rows, energy), n in zip(self.pieces, ends, strict=True) if n]
 
-    def count(self, method: str, steps: int, factorisations: int, evaluations: int) -> int:
-        """Add the counts of a call, and return its steps."""
-        self.calls += 1
+    def count(self, method: str, steps: int, factorisations: int, evaluations: int, calls: int = 1) -> int:
+        """Add the counts of a call, or of a part of one, and return its steps."""
+        self.calls += calls
         self.steps += steps
         self.factorisations += factorisations
         self.residual_evaluations += evaluations
@@ -93,12 +94,16 @@ class Trace:
 
 @dataclass(frozen=True)
 class Leg:
-    """Rows of one call; integrals of power since its start, shape (n, 2); constants and steps."""
+    """Rows of one call; integrals of power since its start, shape (n, 2); constants and steps.
+
+    `inside` returns rows at any times in it, algebraic unknowns nearly right, where the integrator knows them.
+    """
 
     rows: Rows
     energy: np.ndarray
     constants: Constants
     steps: int
+    inside: Callable[[np.ndarray], Rows] | None = None
 
     @property
     def times(self) -> np.ndarray:
