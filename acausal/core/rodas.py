@@ -207,7 +207,9 @@ class Rodas:
         written = (None, None, None) if curves else (found.x, found.z, found.integral)
         places = map(_address, (times, *written))
         kept = map(_address, self._steps)
-        request = RequestData(tolerance, first_step, _address(size), _address(chosen), smooth, most, n, *places, room, *kept)
+        request = RequestData(
+            tolerance, first_step, _address(size), _address(chosen), smooth, most, n, *places, room, *kept
+        )
         # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)
         self.progress = Progress()

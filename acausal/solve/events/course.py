@@ -10,26 +10,22 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.errors import InitializationError, caution
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
+from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.instant import Cycling, Instants
-from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
+from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
-from acausal.solve.events.stride import Stride
 from acausal.solve.integrate.attempt import Integrator
-from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, next_ways
-from acausal.solve.integrate.march import March
-from acausal.solve.integrate.methods import METHODS
-from acausal.solve.integrate.order_trial import choose, is_open
-from acausal.solve.integrate.segment import passage, segment
+from acausal.solve.integrate.ladder import Failure
+from acausal.solve.integrate.segment import segment
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import Lost
-from acausal.solve.start.start import places_text
 from acausal.solve.undecided import undecided
 
 INSTANTS = POLICY.instants
@@ -60,15 +56,12 @@ class Course:
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
         self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
-        self.locator = Locator(integrator, self.instants)
+        self.ahead = Ahead(integrator, self.instants, times)
         self.agenda = Agenda(self.guards, problem.p, times)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
-        self.stride = Stride(times)
-        self.weak, self.hasty = 0, False
+        self.weak = 0
         self.first: Point | None = None
-        self.march: March | None = None
-        self.step = 0.0
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -96,7 +89,7 @@ class Course:
         """Switch what the clock switches: the timed guards that hold from now on, and that held before."""
         if at.time in self.found and bool((on != held).any()):
             self._count(at.time, [self.guards.timed[k] for k in np.flatnonzero(on != held)])
-            self.stride.begin()
+            self.ahead.stride.begin()
         return self._at_row(at, self.agenda.fired(on, held), self.agenda.constants(at.constants, on))
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
@@ -106,7 +99,7 @@ class Course:
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
         if acted and plan and plan[0] <= at.time + self.agenda.near:
-            self.stride.begin()
+            self.ahead.stride.begin()
             if self.events[-1:] != [at.time]:
                 self._count(at.time, self.guards.watched)
             self._refuse_chattering(at.time, self.guards.watched)
@@ -137,145 +130,29 @@ class Course:
     def _segment(self, at: Point, end: float) -> Point:
         if not self.guards.watched:
             while at.time < end:
-                at = segment(self.integrator, at, self.stride.grid(at.time, end))
-                self.stride.lengthen()
+                at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
+                self.ahead.stride.lengthen()
         while at.time < end:
-            instant, row = self.agenda.planned(at, at.time + self.locator.shortest) or (np.inf, np.inf)
+            instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)
-            if row <= end and target - self.locator.shortest <= at.time:
+            if row <= end and target - self.ahead.locator.shortest <= at.time:
                 self.integrator.trace.delay(row)
                 at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
 
-    def _marched(self, at: Point, end: float) -> Point:
-        """Take some steps and go to their end, or to the first event in them."""
-        if self.march is None or self.march.at is not at or self.march.end != end:
-            self.march = March(self.integrator, at, self.stride.outputs(at.time, end), self.step)
-        march, integrator = self.march, self.integrator
-        refusal = march.go()
-        leg = None if refusal and refusal.kind is Kind.FLAT else march.leg(self.stride.density)
-        if leg:
-            crossing = self._crossing(at, march, leg)
-            last = int(np.searchsorted(leg.times, crossing.after.time)) if crossing else len(leg.times)
-            kept = march.accepted(leg.part(0, last)) if last else leg
-            if isinstance(kept, Refusal):
-                refusal = kept
-            elif crossing:
-                self.step, self.march = march.step(crossing.after.time), None
-                return self._event(at, kept, crossing)
-            else:
-                integrator.trace.add(kept)
-                at = march.at = kept.end(at)
-        if refusal:
-            self.march, before = None, integrator.way.method
-            here = self._otherwise(at, self.stride.grid(at.time, end), refusal)
-            # Near a flat position of a loop no method can begin: another one takes the whole segment.
-            return march.withdrawn() if integrator.loops and integrator.way.method != before else here
-        self.step = march.step(at.time)
-        return at
-
-    def _crossing(self, at: Point, march: March, leg: Leg) -> Crossing | None:
-        """The first event in some steps, which are looked at as closely as that needs."""
-        while True:
-            try:
-                return self.locator.first(at, leg, content=self.hasty)
-            except TooCoarse:
-                if not self.stride.look_closer():
-                    self._warn_of_haste(at)
-                leg = march.leg(self.stride.density) or leg
-            except Undecided as failure:
-                if n := int(np.searchsorted(leg.times, failure.time)):
-                    self.integrator.trace.add(leg.part(0, n))
-                raise
-
     def _advance(self, at: Point, end: float) -> Point:
-        """Integrate one leg and go to its end, or to the first event in it."""
-        if METHODS[self.integrator.way.method].marches and self.integrator.compiled.nx:
-            return self._marched(at, end)
-        grid = self.stride.grid(at.time, end)
-        integrator = self.integrator
-        way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, grid))
-        leg = integrator.attempt(at, self.stride.looks(grid), way)
-        if isinstance(leg, Refusal):
-            return self._otherwise(at, grid, leg)
-        if not self.stride.is_enough(leg, grid):
-            return at
-        try:
-            crossing = self.locator.first(at, leg, content=self.hasty)
-        except TooCoarse:
-            if not self.stride.look_closer():
-                self._warn_of_haste(at)
-            return at
-        except Undecided as failure:
-            if n := int(np.searchsorted(leg.times, failure.time)):
-                self.integrator.trace.add(leg.part(0, n))
-            raise
-        except Failure as failure:
-            return self._shorter(at, grid, failure)
-        if crossing is None:
-            self.stride.lengthen()
-        return self._passed(at, leg, crossing)
-
-    def _warn_of_haste(self, at: Point) -> None:
-        self.hasty = True
-        caution(
-            f"from t = {at.time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
-            "interval; a change that reverts in between is missed. One of these:\n"
-            f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
-            "More intervals mean more checks: simulate(..., intervals=...)."
-        )
-
-    def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Point:
-        """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
-        integrator = self.integrator
-        if (
-            refusal.kind is Kind.STEPS
-            and is_open(integrator, grid)
-            and integrator.way.order == integrator.settings.max_order
-        ):
-            choose(integrator, at, grid[:2])
-            if integrator.way.order != integrator.settings.max_order:
-                return at
-        settings = integrator.settings
-        following = next_ways(integrator.way, refusal, settings.rescues(grid, integrator.loops))
-        if integrator.loops and not following and integrator.way.method == settings.methods[0] != settings.careful:
-            following = (replace(integrator.way, method=settings.careful),)
-        if not following:
-            return self._shorter(at, grid, Failure.of(refusal))
-        integrator.take(following[0], refusal)
-        return at
-
-    def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Point:
-        """Shorten the time: the law may no longer be valid beyond an event."""
-        integrator = self.integrator
-        if self.stride.shorten(grid):
-            return at
-        for k in range(POLICY.locate.halvings):
-            times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
-            if times[1] - times[0] <= self.locator.shortest:
-                break
-            way = replace(integrator.way, max_steps=POLICY.rescue.long, careful=True)
-            leg = integrator.attempt(at, times, way) if k else passage(integrator, at, times, 1)
-            try:
-                crossing = self.locator.first(at, accepted(leg), depth=1)
-            except Failure as later:
-                failure = later
-                continue
-            return self._passed(at, accepted(leg), crossing)
-        here = self.locator.sample(at, at)
-        due = (here.rate < 0) & (here.value <= -here.rate * INSTANTS.due * self.instants.span)
-        if not due.any():
-            raise failure
-        return self._jump(at, at.time, np.zeros(2), due=due)
-
-    def _passed(self, at: Point, leg: Leg, crossing: Crossing | None) -> Point:
-        """Keep a leg, up to the first event in it."""
-        if crossing:
-            return self._event(at, leg, crossing)
-        self.integrator.trace.add(leg)
-        return leg.end(at)
+        """Go as far as one looks ahead at once, or to the first event."""
+        found = self.ahead.look(at, end)
+        if found.due is not None:
+            return self._jump(at, at.time, np.zeros(2), due=found.due)
+        if found.leg is None:
+            return found.at
+        if found.crossing:
+            return self._event(at, found.leg, found.crossing)
+        self.integrator.trace.add(found.leg)
+        return found.leg.end(at)
 
     def _event(self, at: Point, leg: Leg, crossing: Crossing) -> Point:
         """Keep what was before the event, apply it, and continue from it."""
@@ -283,7 +160,7 @@ class Course:
         out = after.value <= 0
         width = self.instants.width(at)
         # An event at an output may be found only from there on: what the legs before it have shown counts as well.
-        peak, self.locator.passed = np.maximum(crossing.peak, self.locator.passed), 0.0
+        peak, self.ahead.locator.passed = np.maximum(crossing.peak, self.ahead.locator.passed), 0.0
         self.weak = self.weak + 1 if np.all(peak[out] <= width[out]) else 0
         delay = np.min(width[out] / np.maximum(np.abs(after.rate[out]), np.finfo(float).tiny), initial=np.inf)
         snap = min(float(delay), POLICY.locate.snap * self.instants.span / (len(self.times) - 1))
@@ -303,7 +180,7 @@ class Course:
         new = self._jump(reached, label, gained, crossed=out)
         if on_output and near == at.time:
             self.integrator.trace.put(-2, new)
-        self.stride.begin(after.time - at.time)
+        self.ahead.stride.begin(after.time - at.time)
         return new
 
     def _happen(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:

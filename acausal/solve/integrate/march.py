@@ -37,16 +37,18 @@ class March:
 
     Attributes
     ----------
-    at : Point
-        The last one that was accepted.
-    end : float
-        Where the segment ends, in s.
+    refusal : Refusal or None
+        Why it does not go on.
+    step : float
+        Length in s of the longer of the last two steps that were kept.
     """
 
     def __init__(self, integrator: Integrator, at: Point, outputs: np.ndarray, first_step: float) -> None:
-        self.integrator, self.outputs, self.at, self.end = integrator, outputs, at, float(outputs[-1])
+        self.integrator, self._outputs, self._start, self._at = integrator, outputs, at, at
         way, self._steps, self._calls = integrator.way, LOOKS.steps, 1
-        self._start, self._pieces = at, len(integrator.trace.pieces)
+        self._pieces = len(integrator.trace.pieces)
+        self.refusal: Refusal | None = None
+        self.step = first_step
         self._way = replace(way, max_steps=integrator.settings.patience(way, outputs))
         start = integrator.restarted(at, way.moves)
         request = Request(
@@ -56,24 +58,35 @@ class March:
         self._integration = ByCore(request, METHODS[way.method].damps)
         self._counted = np.zeros(3, dtype=int)
 
-    def go(self) -> Refusal | None:
-        """Take some steps, twice as many as before."""
+    def goes_on(self, at: Point, end: float) -> bool:
+        """Whether it has come to a point, on its way to an end."""
+        return end == self._outputs[-1] and at.time == self._at.time and not at.differs(self._at)
+
+    def go(self, density: int) -> Leg | None:
+        """Take some steps, twice as many as before, and return them as `leg` does; None if it is refused at once."""
+        leg = None
+        while not (leg or self.refusal):
+            self._advance()
+            if not (self.refusal and self.refusal.kind is Kind.FLAT):
+                leg = self.leg(density)
+        return leg
+
+    def _advance(self) -> None:
         trace, started = self.integrator.trace, clock.perf_counter()
-        refusal = self._integration.advance(self._steps)
+        self.refusal = self._integration.advance(self._steps)
         trace.seconds += clock.perf_counter() - started
         counts = np.array(self._integration.counts)
         trace.count(self._way.method, *(counts - self._counted).tolist(), calls=self._calls)
         self._counted, self._calls = counts, 0
         self._steps = min(2 * self._steps, POLICY.calls.steps)
         self._curve = self._integration.curve
-        return refusal
 
     def leg(self, density: int) -> Leg | None:
         """Return the last steps, with so many pairs of looks in each, and between two outputs; None if there are no steps."""
         ends = self._curve.times
         if len(ends) == 1:
             return None
-        inside = self.outputs[(self.outputs > ends[0]) & (self.outputs < ends[-1])]
+        inside = self._outputs[(self._outputs > ends[0]) & (self._outputs < ends[-1])]
         grid = np.union1d(ends, inside)
         parts = 2 ** max(1 + int(np.ceil(np.log2(density))), int(np.log2(LOOKS.fine / (len(grid) - 1))))
         times = uneven(grid, parts)
@@ -88,18 +101,21 @@ class March:
         y, nx = self._curve(times), self.integrator.problem.nx
         return Rows.within(times, y[:, :nx], y[:, nx:], self._integration.request.at.constants.vector)
 
-    def accepted(self, leg: Leg) -> Leg | Refusal:
-        """Return a part of a leg of this march whose last row satisfies the equations, or why it is of no use."""
+    def keep(self, leg: Leg, time: float) -> Leg | None:
+        """Return a leg up to a time, with a last row that satisfies the equations; None if it is refused."""
+        last = int(np.searchsorted(leg.times, time))
+        kept = self.integrator.settled(leg.part(0, last), self._way) if last else leg
         if self.integrator.is_worn(leg.rows, leg.constants):
-            return Refusal(Kind.WORN, float(leg.times[0]))
-        return self.integrator.settled(leg, self._way)
+            kept = Refusal(Kind.WORN, float(leg.times[0]))
+        if isinstance(kept, Refusal):
+            self.refusal = kept
+            return None
+        k = int(np.searchsorted(self._curve.times, min(time, leg.times[-1])))
+        self.step = float(np.max(np.diff(self._curve.times[max(k - 2, 0) : k + 1])))
+        self._at = kept.end(self._at)
+        return kept
 
     def withdrawn(self) -> Point:
         """Return where it began, and let nothing be kept of what it has integrated."""
         del self.integrator.trace.pieces[self._pieces :]
         return self._start
-
-    def step(self, time: float) -> float:
-        """Length in s of the longer of two steps, the one that a time lies in and the one before it."""
-        k = int(np.searchsorted(self._curve.times, time))
-        return float(np.max(np.diff(self._curve.times[max(k - 2, 0) : k + 1]), initial=0.0))
