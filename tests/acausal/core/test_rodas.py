@@ -206,3 +206,39 @@ def test_steps_are_kept():
     assert len(times) == rodas.progress.steps
     assert np.all(np.diff(times) > 0)
     assert times[-1] == TIMES[-1]
+
+
+def oscillator(**options) -> Found:
+    """A mass at 1 m/s on a spring of 1e6 rad/s, over 100 s in steps of any length."""
+    e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)
+    given = (np.array(v, dtype=float) for v in ([0, 1], [], [1e6], []))
+    return integrated(
+        Rodas(e), np.array([0, 100.0]), *given, size=np.ones(2), tolerance=1e-4, first_step=1.0, **options
+    )
+
+
+def test_a_first_step_resolves_what_moves():
+    """Else an L-stable method would take it to rest at once, within the tolerance of the place."""
+    assert abs(oscillator().x[-1, 1]) < 1e-3
+    assert oscillator(rate=np.array([0, 1]), most=1).progress.time * 1e6 < 2
+
+
+def test_steps_are_known_everywhere_between_their_ends():
+    """The interpolant has order 4: half the steps, a 16th to a 32nd of the error."""
+    e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
+    errors = []
+    for tolerance in (1e-5, 1e-7, 1e-9):
+        rodas = Rodas(e)
+        rodas.begin(TIMES, *given, size=np.ones(2), tolerance=tolerance, room=4, curves=True)
+        worst, steps, end = 0.0, 0, End.MORE
+        while end == End.MORE:
+            end = rodas.go(4)
+            curve = rodas.curve
+            times = np.linspace(curve.times[0], curve.times[-1], 40)
+            worst = max(worst, float(np.max(np.abs(curve(times)[:, :2] - solution(times)[:, :2]))))
+            np.testing.assert_array_equal(curve(curve.times), curve.y)
+            steps += len(curve.dense)
+        assert steps == rodas.progress.steps
+        errors.append((steps, worst))
+    (n, coarse), _, (m, fine) = errors
+    assert np.log(coarse / fine) / np.log(m / n) > 3.5

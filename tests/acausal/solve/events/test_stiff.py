@@ -1,0 +1,76 @@
+"""Laws that become stiff at an event: a first step that does not resolve them would take what moves to rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model, Scalar, der, parameter, piecewise, time, variable
+
+G = 9.81
+METHODS = ["auto", "rosenbrock", "idas"]
+# At 1e12 1/s2, errors of 1e-6 m, which the multistep method may make in a step, are 1e6 m/s2.
+CASES = [(k, method) for k in (1e4, 1e8, 1e12) for method in METHODS if k < 1e12 or method != "idas"]
+
+
+class Trampoline(Model):
+    """A ball dropped from 1 m on a spring without mass or damping."""
+
+    k: Scalar = parameter("stiffness over mass", unit="1/s2", default=1e8)
+    x: Scalar = variable("height", unit="m", start=1.0, fixed=True)
+    v: Scalar = variable("speed", unit="m/s", start=0.0, fixed=True)
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == -G + piecewise((-self.k * self.x, self.x < 0), 0.0)
+
+
+def bounces(k: float, stop: float) -> np.ndarray:
+    """Times at which the ball meets or leaves the spring."""
+    v = np.sqrt(2 * G)
+    omega, rest = np.sqrt(k), G / k
+    # Below 0, x = -rest (1 - cos(omega t)) - v / omega sin(omega t).
+    contact = 2 * (np.pi - np.arctan2(v / omega, rest)) / omega
+    flight = 2 * v / G
+    times = [flight / 2]
+    while times[-1] < stop:
+        times += [times[-1] + contact, times[-1] + contact + flight]
+    return np.array([t for t in times if t < stop])
+
+
+@pytest.mark.parametrize(("k", "method"), CASES)
+@pytest.mark.parametrize("intervals", [3, 400])
+def test_a_ball_bounces_however_stiff_what_it_meets(k: float, intervals: int, method: Any) -> None:
+    result = ac.simulate(
+        Trampoline(), stop_time=2.0, tolerance=1e-6, intervals=intervals, method=method, parameters={"k": k}
+    )
+    exact = bounces(k, 2.0)
+    assert len(exact) == 4
+    np.testing.assert_allclose(result.stats["event_times"], exact, atol=2e-4 if method == "idas" else 1e-5)
+    if method != "idas":
+        assert result.stats["calls"] <= 1 + len(exact)
+        assert result.stats["steps"] <= 30 * len(exact)
+
+
+class Kicked(Model):
+    """A mass at 1 m/s that a spring turns back, from one instant on and for half a period of its vibration."""
+
+    omega: Scalar = parameter("frequency", unit="rad/s", default=1e4)
+    x: Scalar = variable("place", unit="m", start=0.0, fixed=True)
+    v: Scalar = variable("speed", unit="m/s", start=1.0, fixed=True)
+
+    def equations(self):
+        until = 1.0 + np.pi / self.omega
+        yield der(self.x) == self.v
+        yield der(self.v) == piecewise((0.0, time < 1.0), (-(self.omega**2) * (self.x - 1), time < until), 0.0)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("intervals", [2, 400])
+def test_a_law_that_the_clock_makes_stiff(intervals: int, method: Any) -> None:
+    result = ac.simulate(Kicked(), stop_time=2.0, tolerance=1e-6, intervals=intervals, method=method)
+    assert result["v"][-1] == pytest.approx(-1, abs=1e-4)
+    assert result["x"][-1] == pytest.approx(np.pi / 1e4, abs=1e-4)
