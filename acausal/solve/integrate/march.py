@@ -102,7 +102,10 @@ class March:
         return Rows.within(times, y[:, :nx], y[:, nx:], self._integration.request.at.constants.vector)
 
     def keep(self, leg: Leg, time: float) -> Leg | None:
-        """Return a leg up to a time, with a last row that satisfies the equations; None if it is refused."""
+        """Return a leg up to a time: outputs, some ends of steps, and a last row that satisfies the equations.
+
+        None if it is refused.
+        """
         last = int(np.searchsorted(leg.times, time))
         kept = self.integrator.settled(leg.part(0, last), self._way) if last else leg
         if self.integrator.is_worn(leg.rows, leg.constants):
@@ -113,7 +116,9 @@ class March:
         k = int(np.searchsorted(self._curve.times, min(time, leg.times[-1])))
         self.step = float(np.max(np.diff(self._curve.times[max(k - 2, 0) : k + 1])))
         self._at = kept.end(self._at)
-        return kept
+        shown = np.concatenate([self._outputs, self._curve.times[:: LOOKS.steps_a_row], kept.times[-1:]])
+        some = np.isin(kept.times, shown)
+        return replace(kept, rows=kept.rows[some], energy=kept.energy[some])
 
     def withdrawn(self) -> Point:
         """Return where it began, and let nothing be kept of what it has integrated."""
