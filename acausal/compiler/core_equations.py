@@ -6,7 +6,7 @@ import casadi as ca
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
-from acausal.core import Equations, make_equations, with_powers
+from acausal.core import Equations, Square, make_equations, make_square, with_powers
 from acausal.language.functions import time
 
 
@@ -30,3 +30,18 @@ def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equatio
         return with_powers(core_equations(compiled, False, moves), arguments, powers)
     ode, alg = (ca.substitute(column, r.projections.moves, moves) for column in (r.running.ode, r.running.alg))
     return make_equations(*arguments, ode, alg)
+
+
+@once
+def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
+    """Return the equations that determine algebraic unknowns and all that they need, of p, constants, x, z and time.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    wanted : tuple of int
+        Algebraic unknowns.
+    """
+    r, (unknowns, equations) = compiled.reduced, compiled.dependence.needed(wanted)
+    return make_square([r.p, r.constants, r.x, r.z, time.sx], 2, r.running.alg[equations.tolist()], 3, unknowns)

@@ -4,6 +4,7 @@ from acausal.core.curve import Curve
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
+from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
 
 __all__ = [
@@ -13,9 +14,12 @@ __all__ = [
     "Equations",
     "Outputs",
     "Rodas",
+    "Settler",
+    "Square",
     "Tape",
     "library",
     "make_equations",
+    "make_square",
     "make_tape",
     "why_not",
     "with_powers",

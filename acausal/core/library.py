@@ -22,6 +22,16 @@ class TapeData(Structure):
     )
 
 
+class SquareData(Structure):
+    """What the library takes as equations with as many unknowns, see `core.h`."""
+
+    _fields_ = (
+        ("n", c_int32),
+        ("tape", POINTER(TapeData)),
+        *((name, c_void_p) for name in ("start", "row", "unknown")),
+    )
+
+
 class EquationsData(Structure):
     """What the library takes as equations, see `core.h`."""
 
@@ -69,6 +79,9 @@ _FUNCTIONS = {
     "ac_lu_solve": (None, (c_void_p, c_void_p)),
     "ac_lu_counts": (None, (c_void_p, POINTER(c_int64))),
     "ac_lu_free": (None, (c_void_p,)),
+    "ac_settler_make": (c_void_p, (POINTER(SquareData),)),
+    "ac_settle_rows": (c_int64, (c_void_p, *[c_int32] * 3, *[c_void_p] * 4, c_double, *[c_void_p] * 2)),
+    "ac_settler_free": (None, (c_void_p,)),
     "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
     "ac_rodas_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
     "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),

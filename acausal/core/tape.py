@@ -84,22 +84,35 @@ class Tape:
         *arguments : arrays
             Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
         """
+        given, n, (lengths, strides, addresses) = self.parts(*arguments)
+        found, work = np.empty((n, len(self._output))), np.empty(self.size)
+        call = loaded().ac_tape_rows
+        call(
+            *(self.data, work.ctypes.data, n, len(given), lengths.ctypes.data, strides.ctypes.data, addresses),
+            found.ctypes.data,
+        )
+        return found
+
+    def parts(
+        self, *arguments: np.ndarray
+    ) -> tuple[list[np.ndarray], int, tuple[np.ndarray, np.ndarray, ctypes.Array[ctypes.c_void_p]]]:
+        """Return arguments at many places as the library takes them: arrays, their number of places, and lengths, strides,
+        addresses of the arrays, which have to be kept meanwhile.
+
+        Raises
+        ------
+        ValueError
+            If they do not fit.
+        """
         given = [np.ascontiguousarray(a, dtype=float) for a in arguments]
         counts = {len(a) for a in given if a.ndim == 2}
         if len(counts) > 1 or tuple(a.shape[-1] for a in given) != self.sizes:
             raise ValueError(
                 f"arguments of {self.sizes} numbers are expected, not of shapes {[a.shape for a in given]}"
             )
-        n = counts.pop() if counts else 1
-        sizes = np.array(self.sizes, dtype=np.int32)
         strides = np.array([a.shape[1] if a.ndim == 2 else 0 for a in given], dtype=np.int32)
-        parts = (ctypes.c_void_p * len(given))(*(a.ctypes.data for a in given))
-        found, work = np.empty((n, len(self._output))), np.empty(self.size)
-        call = loaded().ac_tape_rows
-        call(
-            self.data, work.ctypes.data, n, len(given), sizes.ctypes.data, strides.ctypes.data, parts, found.ctypes.data
-        )
-        return found
+        addresses = (ctypes.c_void_p * len(given))(*(a.ctypes.data for a in given))
+        return given, counts.pop() if counts else 1, (np.array(self.sizes, dtype=np.int32), strides, addresses)
 
 
 def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:

@@ -41,6 +41,22 @@ AC_PUBLIC void ac_lu_solve(ac_lu *lu, double *b);
 AC_PUBLIC void ac_lu_counts(const ac_lu *lu, int64_t counts[4]);
 AC_PUBLIC void ac_lu_free(ac_lu *lu);
 
+/* As many equations as unknowns, which stand among the inputs of a tape. */
+typedef struct {
+    int32_t n;
+    const ac_tape *tape;        /* residuals, then entries of their Jacobian */
+    const int32_t *start, *row; /* sparsity of the Jacobian in columns */
+    const int32_t *unknown;     /* (n) places among the inputs */
+} ac_square;
+
+typedef struct ac_settler ac_settler;
+
+AC_PUBLIC ac_settler *ac_settler_make(const ac_square *square);
+AC_PUBLIC int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early, const int32_t *length,
+                                 const int32_t *stride, const double *const *part, const double *size, double enough,
+                                 double *found, int32_t *settled);
+AC_PUBLIC void ac_settler_free(ac_settler *s);
+
 /* Equations x' = f, 0 = g of states x and algebraic unknowns z at times t, for parameters p and constants c of a segment.
    The inputs of all tapes are x, z, t, p, c in this order. */
 typedef struct {

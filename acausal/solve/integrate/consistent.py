@@ -9,7 +9,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from acausal.compiler.core_equations import core_square
 from acausal.compiler.passes import Pass
+from acausal.core import Settler, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.looks import spread
@@ -38,6 +40,7 @@ class Consistent:
         self.problem, self.compiled = problem, problem.compiled
         self.evaluations = 0
         self._natural: dict[tuple[int, ...], np.ndarray] = {}
+        self._settlers: dict[tuple[int, ...], Settler] = {}
 
     def __call__(self, rows: Rows, wanted: Iterable[int] | None = None) -> tuple[Rows, list[float]]:
         """Return rows whose algebraic unknowns satisfy their equations, and times at which no such are found.
@@ -58,8 +61,9 @@ class Consistent:
         found = rows.with_z(rows.z.copy())
         size = self._sizes(rows, unknowns, equations)
         doubtful: set[int] = set()
-        for step in c.passes(tuple(unknowns.tolist())):
-            doubtful |= self._settle(step, size[step.unknowns], found)
+        left = self._by_core(unknowns, size, found)
+        for step in c.passes(tuple(unknowns.tolist())) if left.size else ():
+            doubtful |= self._settle(step, size[step.unknowns], found, left)
         rounding = POLICY.newton.terms * np.finfo(float).eps
         wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
@@ -97,10 +101,25 @@ class Consistent:
         nominal = c.nominal[c.nx :]
         return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
-    def _settle(self, step: Pass, size: np.ndarray, rows: Rows) -> set[int]:
-        """Repeat a pass in place until nothing changes; return the rows where it did not get there."""
+    def _by_core(self, unknowns: np.ndarray, size: np.ndarray, rows: Rows) -> np.ndarray:
+        """Solve for unknowns in place, all at once; return the rows where that does not converge, which are as they were."""
+        if not library():
+            return np.arange(len(rows))
+        key = tuple(unknowns.tolist())
+        if key not in self._settlers:
+            self._settlers[key] = Settler(core_square(self.compiled, key))
+        settler = self._settlers[key]
+        before = settler.evaluations
+        given = self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
+        found, settled = settler(*given, size=size[unknowns], enough=CONSISTENT.settled)
+        self.evaluations += settler.evaluations - before
+        rows.z[np.ix_(settled, unknowns)] = found[settled]
+        return np.flatnonzero(~settled)
+
+    def _settle(self, step: Pass, size: np.ndarray, rows: Rows, some: np.ndarray) -> set[int]:
+        """Repeat a pass in place in some rows until nothing changes; return those where it did not get there."""
         enough = CONSISTENT.once if step.linear else CONSISTENT.settled
-        some, before, doubtful = np.arange(len(rows)), np.full(len(rows), np.inf), set()
+        before, doubtful = np.full(len(rows), np.inf), set()
         while some.size:
             found = self._newton(step, rows[some])
             change = np.max(np.abs(found - rows.z[np.ix_(some, step.unknowns)]) / size, axis=1)
