@@ -14,6 +14,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.parts import part_of
 from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
@@ -77,10 +78,13 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
     """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
     size = problem.sizes(at)[rows]
+    part = part_of(problem.constraints(at)[1], rows, free)
 
-    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         value, J = problem.constraints(_with(at, free, u))
-        return value[rows] / size, (scipy.sparse.diags(1 / size) @ J[rows][:, free]).tocsc()
+        own = part.sparse(J.data)
+        own.data /= size[own.indices]
+        return value[rows] / size, own
 
     return evaluate
 
