@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 import scipy
 
+Places = np.ndarray | list[int]
+
 
 @dataclass(frozen=True, eq=False)
 class Part:
@@ -32,7 +34,7 @@ class Part:
     def placed(cls, rows: np.ndarray, columns: np.ndarray, entries: np.ndarray, places: np.ndarray) -> Part:
         """Return a part from its entries in any order."""
         order = np.lexsort(places)
-        return cls(rows, columns, entries[order], places[:, order].astype(np.int32))
+        return cls(rows, columns, entries[order], places[:, order].astype(np.int32, order="C"))
 
     @cached_property
     def _starts(self) -> np.ndarray:
@@ -51,7 +53,7 @@ class Part:
         return scipy.sparse.csc_matrix((values[self.entries], self.places[0], self._starts), shape=shape)
 
 
-def part_of(J: scipy.sparse.csc_matrix, rows: np.ndarray | list[int], columns: np.ndarray) -> Part:
+def part_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Part:
     """Return the part in some rows and columns of a matrix, in the order in which they are given."""
     row, column = (np.full(n, -1, dtype=np.int32) for n in J.shape)
     row[rows], column[columns] = np.arange(len(rows)), np.arange(len(columns))
