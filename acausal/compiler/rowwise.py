@@ -38,19 +38,22 @@ class Rowwise:
         constants : array, shape (n, m)
             Constants of the segment of each time.
         """
-        n = len(t)
-        size = AT_ONCE if n > 1 else 1
-        if size not in self._calls:
-            self._calls[size] = Call(self.function.map(size))
-        call = self._calls[size]
+        n, first = len(t), 0
         found = np.full((n, self.function.nnz_out(0)), np.nan)
         with quiet():
-            for first in range(0, n, size):
-                rows = np.minimum(np.arange(first, first + size), n - 1)
-                given = (x[rows], z[rows], np.tile(p, size), t[rows], constants[rows])
+            while first < n:
+                size = AT_ONCE if n - first >= AT_ONCE else 1
+                rows = slice(first, first + size)
+                call = self._call(size)
+                given = (x[rows], z[rows], p, t[rows, None], constants[rows])
                 for array, value in zip(call.inputs, given, strict=True):
-                    array[:] = value.ravel()
+                    array.reshape(size, -1)[:] = value
                 if call.succeeds():
-                    here = found[first : first + size]
-                    here[:] = call.outputs[0].reshape(size, -1)[: len(here)]
+                    found[rows] = call.outputs[0].reshape(size, -1)
+                first += size
         return found
+
+    def _call(self, size: int) -> Call:
+        if size not in self._calls:
+            self._calls[size] = Call(self.function.map(size))
+        return self._calls[size]
