@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cached_property
+
 import casadi as ca
 import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
+from acausal.compiler.rowwise import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
 from acausal.symbols import stacked
@@ -61,8 +65,9 @@ class Constraints:
         arguments = [r.x, r.p, time.sx, r.constants]
         J = ca.jacobian(column, r.x)
         self._pattern = tuple(np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind()))
-        nonzero = {pair: k for k, pair in enumerate(zip(*J.sparsity().get_triplet(), strict=True))}
-        self._held = np.array([nonzero.get(pair, -1) for pair in pairs], dtype=int)
+        nonzero = dict(zip(zip(*J.sparsity().get_triplet(), strict=True), J.nonzeros(), strict=True))
+        held = stacked([ca.SX(nonzero.get(pair, 0)) for pair in pairs])
+        self._held = ca.Function("held", arguments, [ca.densify(held)])
         self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
         coordinates = r.resolve(r.projections.coordinates)
@@ -100,8 +105,11 @@ class Constraints:
         -------
         array, shape (n, entries)
         """
-        entries = [self._call(at, p, time, constants)[1][self._held] for at, time in zip(x, t, strict=True)]
-        return np.where(self._held >= 0, entries, 0.0)
+        return self._many(x, p, t[:, None], constants)
+
+    @cached_property
+    def _many(self) -> Callable[..., np.ndarray]:
+        return often(self._held)
 
     def counting(self, closures: np.ndarray) -> np.ndarray:
         """Which residuals count, where closures do that are 1, and those do not that are 0, see `Constants`."""

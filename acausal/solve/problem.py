@@ -123,7 +123,7 @@ class Problem:
 
     def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
         """Return the values of a function, one row for each time."""
-        return function(rows.x, rows.z, self.p, rows.times, rows.constants)
+        return function(rows.x, rows.z, self.p, rows.times[:, None], rows.constants)
 
     def stored(self, at: Point) -> float:
         """Return the stored energy in J."""

@@ -47,7 +47,7 @@ def test_rows_are_those_of_single_calls(n):
     rng = np.random.default_rng(n)
     xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
     cs, p0 = rng.random((n, 2)), rng.random(1)
-    found = Rowwise(function)(xs, zs, p0, ts, cs)
+    found = Rowwise(function)(xs, zs, p0, ts[:, None], cs)
     expected = [np.array(function(xs[k], zs[k], p0, ts[k], cs[k])).ravel() for k in range(n)]
     np.testing.assert_array_equal(found, expected)
 
