@@ -38,6 +38,8 @@ class Constraints:
         Residuals that are entries of one equation, or the same time derivative of it, have one number.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
+    pattern : csc_matrix, shape (size, nx)
+        Sparsity of the Jacobian: all its entries are 0.
     """
 
     def __init__(self, reduced: ReducedModel) -> None:
@@ -64,7 +66,8 @@ class Constraints:
         r = reduced
         arguments = [r.x, r.p, time.sx, r.constants]
         J = ca.jacobian(column, r.x)
-        self._pattern = tuple(np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind()))
+        pattern = [np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind())]
+        self.pattern = scipy.sparse.csc_matrix((np.zeros(J.nnz()), *pattern), shape=J.shape)
         nonzero = dict(zip(zip(*J.sparsity().get_triplet(), strict=True), J.nonzeros(), strict=True))
         held = stacked([ca.SX(nonzero.get(pair, 0)) for pair in pairs])
         self._held = ca.Function("held", arguments, [ca.densify(held)])
@@ -86,8 +89,14 @@ class Constraints:
         self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray
     ) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
-        value, J = self._call(x, p, t, constants)
-        return value.copy(), scipy.sparse.csc_matrix((J.copy(), *self._pattern), shape=(self.size, len(x)))
+        value, entries = self.values(x, p, t, constants)
+        J = self.pattern
+        return value, scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape)
+
+    def values(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return residuals, and the entries of their Jacobian as `pattern` has them."""
+        value, entries = self._call(x, p, t, constants)
+        return value.copy(), entries.copy()
 
     def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Jacobian of the constraints by the coordinates that each holds at its level, at n points, as `entries` has it.
