@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -44,6 +45,7 @@ class Integrator:
         self.consistent = Consistent(problem)
         self.way = settings.way
         self._floor: np.ndarray | None = None
+        self._chosen: Any = (None, False, None)  # the last choice: where, whether it moves, and what was chosen
 
     def aside(self) -> Integrator:
         """Return an integrator that goes on in the same way, and counts for itself."""
@@ -81,11 +83,15 @@ class Integrator:
         """Restart from where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
-        z = at.z.copy()
-        z[self.compiled.constraints.multipliers] = 0.0
-        at = replace(self.problem.projected(at), z=z)
         self.trace.choices += 1
-        return replace(at, constants=choose_projection(self.problem, at, moves=moves))
+        given, moved, chosen = self._chosen
+        if given is not at or moved != moves:
+            z = at.z.copy()
+            z[self.compiled.constraints.multipliers] = 0.0
+            held = replace(self.problem.projected(at), z=z)
+            chosen = replace(held, constants=choose_projection(self.problem, held, moves=moves))
+            self._chosen = at, moves, chosen
+        return chosen
 
     def _is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
