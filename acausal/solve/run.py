@@ -153,7 +153,9 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
     counts = Trace()
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
-        done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None)
+        done = _Done(
+            beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None
+        )
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:

@@ -111,7 +111,11 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linea
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
         options: Any = dict.fromkeys(("xtol", "ftol", "gtol"), LOOPS.ends)
-        options |= {"x_scale": scale, "max_nfev": LOOPS.evaluations, "tr_solver": "lsmr" if _are_many(rows) else "exact"}
+        options |= {
+            "x_scale": scale,
+            "max_nfev": LOOPS.evaluations,
+            "tr_solver": "lsmr" if _are_many(rows) else "exact",
+        }
         options["jac"] = lambda u: evaluate(u)[1]
         u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
