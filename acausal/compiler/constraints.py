@@ -13,7 +13,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.rowwise import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
-from acausal.symbols import stacked
+from acausal.symbols import scalars, stacked
 
 
 class Constraints:
@@ -68,8 +68,8 @@ class Constraints:
         J = ca.jacobian(column, r.x)
         pattern = [np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind())]
         self.pattern = scipy.sparse.csc_matrix((np.zeros(J.nnz()), *pattern), shape=J.shape)
-        nonzero = dict(zip(zip(*J.sparsity().get_triplet(), strict=True), J.nonzeros(), strict=True))
-        held = stacked([ca.SX(nonzero.get(pair, 0)) for pair in pairs])
+        nonzero = dict(zip(zip(*J.sparsity().get_triplet(), strict=True), scalars(J.nz[:]), strict=True))
+        held = stacked([nonzero.get(pair, ca.SX(0)) for pair in pairs])
         self._held = ca.Function("held", arguments, [ca.densify(held)])
         self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 import scipy
@@ -19,8 +19,7 @@ from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
 
-Jacobian = Union[np.ndarray, "scipy.sparse.csc_matrix"]
-Residuals = Callable[[np.ndarray], tuple[np.ndarray, Jacobian]]
+Residuals = Callable[[np.ndarray], "tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]"]
 
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
@@ -82,7 +81,7 @@ def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -
     part, of_entry = part_of(c.pattern, rows, free), size[c.pattern.indices]
     matrix = part.sparse if _are_many(rows) else part.dense
 
-    def evaluate(u: np.ndarray) -> tuple[np.ndarray, Jacobian]:
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]:
         value, entries = c.values(_with(at, free, u).x, problem.p, at.time, at.constants.vector)
         return value[rows] / size[rows], matrix(entries / of_entry)
 

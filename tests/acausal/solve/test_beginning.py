@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -23,16 +25,18 @@ class Decay(Model):
 
 
 @pytest.fixture
-def starts(monkeypatch):
+def starts(monkeypatch) -> list[Any]:
     """Count how often a start is sought."""
-    seen, start = [], beginning.start
+    seen: list[Any] = []
+    start = beginning.start
     monkeypatch.setattr(beginning, "start", lambda *arguments: seen.append(arguments) or start(*arguments))
     return seen
 
 
 def test_another_tolerance_method_or_grid_keeps_it(starts):
     compiled = ac.compile(Decay(x=fixed(1.0)))
-    for options in ({}, {"tolerance": 1e-9}, {"method": "idas"}, {"intervals": 7}, {"energy": True}):
+    changes: list[dict[str, Any]] = [{}, {"tolerance": 1e-9}, {"method": "idas"}, {"intervals": 7}, {"energy": True}]
+    for options in changes:
         ac.simulate(compiled, stop_time=1.0, **options)
     assert len(starts) == 1
 
@@ -43,12 +47,13 @@ def test_another_tolerance_method_or_grid_keeps_it(starts):
 def test_anything_else_seeks_another(starts, other):
     compiled = ac.compile(Decay(x=fixed(1.0)))
     for options in ({}, other, {}):
-        ac.simulate(compiled, **{"stop_time": 1.0, **options})
+        given: Any = {"stop_time": 1.0, **options}
+        ac.simulate(compiled, **given)
     assert len(starts) == 3
 
 
 def test_a_run_again_is_the_same_to_the_last_bit():
-    options = {"stop_time": 0.5, "tolerance": 1e-4}
+    options: dict[str, Any] = {"stop_time": 0.5, "tolerance": 1e-4}
     compiled = ac.compile(FourBar())
     first, again = (ac.simulate(compiled, **options) for _ in range(2))
     ac.simulate(compiled, parameters={"world.g": 1.0}, **options)
