@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time as clock
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -45,7 +44,7 @@ class Integrator:
         self.consistent = Consistent(problem)
         self.way = settings.way
         self._floor: np.ndarray | None = None
-        self._chosen: Any = (None, False, None)  # the last choice: where, whether it moves, and what was chosen
+        self._chosen: tuple[Point, bool, Point] | None = None  # the last choice: where, whether it moves, and what
 
     def aside(self) -> Integrator:
         """Return an integrator that goes on in the same way, and counts for itself."""
@@ -84,14 +83,12 @@ class Integrator:
         if not self.loops:
             return at
         self.trace.choices += 1
-        given, moved, chosen = self._chosen
-        if given is not at or moved != moves:
+        if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
             z = at.z.copy()
             z[self.compiled.constraints.multipliers] = 0.0
             held = replace(self.problem.projected(at), z=z)
-            chosen = replace(held, constants=choose_projection(self.problem, held, moves=moves))
-            self._chosen = at, moves, chosen
-        return chosen
+            self._chosen = at, moves, replace(held, constants=choose_projection(self.problem, held, moves=moves))
+        return self._chosen[2]
 
     def _is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
