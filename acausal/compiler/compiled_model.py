@@ -184,14 +184,15 @@ class CompiledModel:
     def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float) -> Local:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, constants, flag)
-        rows, starts, shape = self._pattern
-        return Local(value.copy(), scipy.sparse.csc_matrix((entries.copy(), rows, starts), shape=shape))
+        J = self.pattern
+        return Local(value.copy(), scipy.sparse.csc_matrix((entries.copy(), J.indices, J.indptr), shape=J.shape))
 
     @cached_property
-    def _pattern(self) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
-        """Row indices, column starts and shape of the Jacobian."""
-        pattern = self.local.function.sparsity_out(1)
-        return np.array(pattern.row(), dtype=np.int32), np.array(pattern.colind(), dtype=np.int32), pattern.shape
+    def pattern(self) -> scipy.sparse.csc_matrix:
+        """Sparsity of the Jacobian: all its entries are 0."""
+        found = self.local.function.sparsity_out(1)
+        rows, starts = (np.array(k, dtype=np.int32) for k in (found.row(), found.colind()))
+        return scipy.sparse.csc_matrix((np.zeros(len(rows)), rows, starts), shape=found.shape)
 
     @cached_property
     def start(self) -> Call:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cached_property
+
 import casadi as ca
 import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
+from acausal.compiler.rowwise import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
-from acausal.symbols import stacked
+from acausal.symbols import scalars, stacked
 
 
 class Constraints:
@@ -34,6 +38,8 @@ class Constraints:
         Residuals that are entries of one equation, or the same time derivative of it, have one number.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
+    pattern : csc_matrix, shape (size, nx)
+        Sparsity of the Jacobian: all its entries are 0.
     """
 
     def __init__(self, reduced: ReducedModel) -> None:
@@ -60,9 +66,11 @@ class Constraints:
         r = reduced
         arguments = [r.x, r.p, time.sx, r.constants]
         J = ca.jacobian(column, r.x)
-        self._pattern = tuple(np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind()))
-        nonzero = {pair: k for k, pair in enumerate(zip(*J.sparsity().get_triplet(), strict=True))}
-        self._held = np.array([nonzero.get(pair, -1) for pair in pairs], dtype=int)
+        pattern = [np.array(k, dtype=np.int32) for k in (J.sparsity().row(), J.sparsity().colind())]
+        self.pattern = scipy.sparse.csc_matrix((np.zeros(J.nnz()), *pattern), shape=J.shape)
+        nonzero = dict(zip(zip(*J.sparsity().get_triplet(), strict=True), scalars(J.nz[:]), strict=True))
+        held = stacked([nonzero.get(pair, ca.SX(0)) for pair in pairs])
+        self._held = ca.Function("held", arguments, [ca.densify(held)])
         self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
         coordinates = r.resolve(r.projections.coordinates)
@@ -81,8 +89,14 @@ class Constraints:
         self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray
     ) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
-        value, J = self._call(x, p, t, constants)
-        return value.copy(), scipy.sparse.csc_matrix((J.copy(), *self._pattern), shape=(self.size, len(x)))
+        value, entries = self.values(x, p, t, constants)
+        J = self.pattern
+        return value, scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape)
+
+    def values(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return residuals, and the entries of their Jacobian as `pattern` has them."""
+        value, entries = self._call(x, p, t, constants)
+        return value.copy(), entries.copy()
 
     def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Jacobian of the constraints by the coordinates that each holds at its level, at n points, as `entries` has it.
@@ -100,8 +114,11 @@ class Constraints:
         -------
         array, shape (n, entries)
         """
-        entries = [self._call(at, p, time, constants)[1][self._held] for at, time in zip(x, t, strict=True)]
-        return np.where(self._held >= 0, entries, 0.0)
+        return self._many(x, p, t[:, None], constants)
+
+    @cached_property
+    def _many(self) -> Callable[..., np.ndarray]:
+        return often(self._held)
 
     def counting(self, closures: np.ndarray) -> np.ndarray:
         """Which residuals count, where closures do that are 1, and those do not that are 0, see `Constants`."""

@@ -1,4 +1,4 @@
-"""Functions of a compiled model that are evaluated once for each model."""
+"""Functions of a compiled model whose results are kept with it."""
 
 from __future__ import annotations
 
@@ -30,5 +30,23 @@ def once(function: Callable[..., R]) -> Callable[..., R]:
         if place not in compiled.kept:
             compiled.kept[place] = function(compiled, *key)
         return compiled.kept[place]
+
+    return call
+
+
+def latest(function: Callable[..., R]) -> Callable[..., R]:
+    """Evaluate a function of a compiled model again only where its other arguments are not those of the last call.
+
+    Parameters
+    ----------
+    function : callable
+        Takes a compiled model first; its result follows from the arguments alone, and nobody changes it.
+    """
+
+    @wraps(function)
+    def call(compiled: Compiled, *key: Hashable) -> R:
+        if function not in compiled.kept or compiled.kept[function][0] != key:
+            compiled.kept[function] = key, function(compiled, *key)
+        return compiled.kept[function][1]
 
     return call

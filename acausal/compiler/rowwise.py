@@ -1,56 +1,66 @@
-"""A function of the model at many times: some of them in one call."""
+"""A function of the model at many places: some of them in one call."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call, quiet
+from acausal.core import library, make_tape
 
-# Times in one call.
+# Places in one call.
 AT_ONCE = 16
 
 
 class Rowwise:
-    """A function of x, z, parameters, time and constants, with one result.
+    """A function with one result, at many places.
 
     Parameters
     ----------
     function : casadi.Function
-        The function at one time.
+        The function at one place.
     """
 
     def __init__(self, function: ca.Function) -> None:
         self.function = function
         self._calls: dict[int, Call] = {}
 
-    def __call__(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
-        """Return one row for each time; nan where the evaluation failed, and in those evaluated with it.
+    def __call__(self, *arguments: np.ndarray) -> np.ndarray:
+        """Return one row for each place; nan where the evaluation failed, and in those evaluated with it.
 
         Parameters
         ----------
-        x, z : arrays, shapes (n, ...)
-            States and algebraic unknowns.
-        p : array
-            Parameters.
-        t : array, shape (n,)
-            Times in s.
-        constants : array, shape (n, m)
-            Constants of the segment of each time.
+        *arguments : arrays
+            Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
         """
-        n = len(t)
-        size = AT_ONCE if n > 1 else 1
-        if size not in self._calls:
-            self._calls[size] = Call(self.function.map(size))
-        call = self._calls[size]
+        n, first = next(len(a) for a in arguments if a.ndim == 2), 0
         found = np.full((n, self.function.nnz_out(0)), np.nan)
         with quiet():
-            for first in range(0, n, size):
-                rows = np.minimum(np.arange(first, first + size), n - 1)
-                given = (x[rows], z[rows], np.tile(p, size), t[rows], constants[rows])
-                for array, value in zip(call.inputs, given, strict=True):
-                    array[:] = value.ravel()
+            while first < n:
+                size = AT_ONCE if n - first >= AT_ONCE else 1
+                rows = slice(first, first + size)
+                call = self._call(size)
+                for array, value in zip(call.inputs, arguments, strict=True):
+                    array.reshape(size, -1)[:] = value[rows] if value.ndim == 2 else value
                 if call.succeeds():
-                    here = found[first : first + size]
-                    here[:] = call.outputs[0].reshape(size, -1)[: len(here)]
+                    found[rows] = call.outputs[0].reshape(size, -1)
+                first += size
         return found
+
+    def _call(self, size: int) -> Call:
+        if size not in self._calls:
+            self._calls[size] = Call(self.function.map(size))
+        return self._calls[size]
+
+
+def often(function: ca.Function) -> Callable[..., np.ndarray]:
+    """Return a function at many places, as `Rowwise` takes it, that is called often enough to pay for a tape.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        The function at one place, made from SX.
+    """
+    return make_tape(function).rows if library() else Rowwise(function)

@@ -20,7 +20,8 @@ class Statistics(Mapping[str, Any]):
     steps, factorisations, residual_evaluations, calls, choices : int
         Of the integrators; `choices` counts how often states of loops were chosen.
     compile_seconds, solve_seconds, integration_seconds : float
-        Seconds; the first are those of the model and of the integrators that the run made, the last those inside them.
+        Seconds; the first are those of the model and of the integrators that the run made, the last those inside them. Where
+        the run before began in the same way, its beginning is taken, and its seconds count again.
     method, method_reason, method_steps, damped, max_order, order_reason, tolerance, fastest_rate, constraints
         What was chosen and why: the methods with their steps, whether vibrations that positions do not show were damped, the
         order limit, the tolerance, the size of the fastest eigenvalue at the start in 1/s, and how loops stayed closed.

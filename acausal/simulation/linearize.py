@@ -21,7 +21,7 @@ from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.problem import Problem
 from acausal.solve.start.start import start
-from acausal.solve.start.tangent import tangent
+from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
@@ -128,15 +128,16 @@ def linearize(
         )
     pattern = linear.function.sparsity_out(0)
     M = scipy.sparse.csc_matrix((values.copy(), pattern.row(), pattern.colind()), shape=J.shape)
+    states, unknowns, rest = np.split(np.arange(max(M.shape)), [nx, nx + nz])
+    rows, columns = (np.append(states, rest[: n - nx - nz]) for n in M.shape)
     try:
-        solve = scipy.sparse.linalg.splu(M[nx : nx + nz, nx : nx + nz].tocsc()).solve if nz else None
+        slopes = Elimination.of(M, rows, columns, unknowns, unknowns).matrix(M.data)
     except RuntimeError:
         raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
     N, chosen = tangent(problem, at)
     # By the independent states and the inputs.
-    direct = np.hstack([M[:, :nx] @ N, M[:, nx + nz :].toarray()])
-    slopes = direct - (M[:, nx : nx + nz] @ solve(direct[nx : nx + nz]) if solve else 0)
-    (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx + nz :]))
+    slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
+    (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx:]))
     names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
     return Linearization(
         A=A,

@@ -83,9 +83,7 @@ class Problem:
 
     def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
         """Return the Jacobian of the constraints by the states over their nominal values."""
-        J = self.constraints(at)[1]
-        J.data *= np.repeat(self.nominal[: self.nx], np.diff(J.indptr))
-        return J
+        return by_columns(self.constraints(at)[1], self.nominal[: self.nx])
 
     def gaps(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that nominal values of the states make in them.
@@ -125,7 +123,7 @@ class Problem:
 
     def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
         """Return the values of a function, one row for each time."""
-        return function(rows.x, rows.z, self.p, rows.times, rows.constants)
+        return function(rows.x, rows.z, self.p, rows.times[:, None], rows.constants)
 
     def stored(self, at: Point) -> float:
         """Return the stored energy in J."""
@@ -135,6 +133,12 @@ class Problem:
         """Return a row as a point."""
         constants = self.compiled.layout.constants(rows.constants[k])
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
+
+
+def by_columns(J: scipy.sparse.csc_matrix, factors: np.ndarray) -> scipy.sparse.csc_matrix:
+    """Return a matrix with every column times a factor."""
+    entries = J.data * np.repeat(factors, np.diff(J.indptr))
+    return scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape)
 
 
 def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:

@@ -14,9 +14,10 @@ from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
+from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.promises import broken_promises
-from acausal.solve.checks.validity import check_start, doubts
+from acausal.solve.checks.validity import doubts
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
@@ -25,14 +26,13 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
-from acausal.solve.integrate.order import eigenvalues_of, order_limit
+from acausal.solve.integrate.order import order_limit
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
-from acausal.solve.start.start import go_on, start
 
 PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message
@@ -70,13 +70,13 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    started = clock.perf_counter()
     problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
     plan = _plan(problem, task)
-    begun = start(problem, task.start_time, plan.inside, task.initial)
-    check_start(problem, begun.point)
-    done = _integrated(problem, task, plan, begun)
-    seconds = clock.perf_counter() - started - done.integrator.trace.building
+    beginning = begin(problem, task.start_time, plan.inside, task.initial)
+    begun = clock.perf_counter()
+    done = _integrated(problem, task, plan, beginning)
+    # A run costs what it costs, whichever run before it left its beginning.
+    seconds = beginning.seconds + clock.perf_counter() - begun - done.integrator.trace.building
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
@@ -133,10 +133,9 @@ def _plan(problem: Problem, task: Task) -> _Plan:
     return _Plan(times, breaks, _breaks([*breaks, *found], begin, end))
 
 
-def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Done:
+def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning) -> _Done:
     """Integrate, again where states turn out to be much smaller than they were taken for."""
-    at, span = go_on(problem, begun), task.stop_time - task.start_time
-    rates = eigenvalues_of(problem, at)
+    at, rates, span = beginning.at, beginning.eigenvalues, task.stop_time - task.start_time
     max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
     fastest, vibration = (float(np.max(np.abs(some), initial=0.0)) for some in (rates, rates[np.imag(rates) != 0]))
     settings = Settings(
@@ -154,7 +153,9 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, begun: Start) -> _Don
     counts = Trace()
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
-        done = _Done(begun, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None)
+        done = _Done(
+            beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None
+        )
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:

@@ -37,6 +37,7 @@ SOLVE = (
     "events",
     "checks",
     "failed",
+    "beginning",
     "run",
 )
 OUTSIDE_STRUCTURE = {"numpy", "scipy", "networkx"}

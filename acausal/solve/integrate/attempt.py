@@ -44,6 +44,7 @@ class Integrator:
         self.consistent = Consistent(problem)
         self.way = settings.way
         self._floor: np.ndarray | None = None
+        self._chosen: tuple[Point, bool, Point] | None = None  # the last choice: where, whether it moves, and what
 
     def aside(self) -> Integrator:
         """Return an integrator that goes on in the same way, and counts for itself."""
@@ -81,11 +82,13 @@ class Integrator:
         """Return a point where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
-        z = at.z.copy()
-        z[self.compiled.constraints.multipliers] = 0.0
-        at = replace(self.problem.projected(at), z=z)
         self.trace.choices += 1
-        return replace(at, constants=choose_projection(self.problem, at, moves=moves))
+        if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
+            z = at.z.copy()
+            z[self.compiled.constraints.multipliers] = 0.0
+            held = replace(self.problem.projected(at), z=z)
+            self._chosen = at, moves, replace(held, constants=choose_projection(self.problem, held, moves=moves))
+        return self._chosen[2]
 
     def is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""

@@ -18,6 +18,7 @@ from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.newton import algebraic, terms
+from acausal.solve.start.parts import part_of
 
 CONSISTENT = POLICY.consistent
 
@@ -78,7 +79,7 @@ class Consistent:
         c, at = self.compiled, self.problem.point(rows, k)
         local = self.problem.local(at)
         own = c.nx + (np.arange(c.nz) if equations is None else equations)
-        sizes = terms(local.jacobian[own, : c.nx + c.nz], at.y, c.nominal)
+        sizes = terms(local.jacobian, at.y, c.nominal)[own]
         return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
 
     def _sizes(self, rows: Rows, unknowns: np.ndarray, equations: np.ndarray) -> np.ndarray:
@@ -86,15 +87,14 @@ class Consistent:
         c = self.compiled
         key = tuple(unknowns)
         if key not in self._natural or len(rows) > CONSISTENT.many:
-            size = np.zeros(c.nz)
+            size, part = np.zeros(c.nz), part_of(c.pattern, c.nx + equations, c.nx + unknowns)
             for k in spread(len(rows), CONSISTENT.looks):
                 at = self.problem.point(rows, k)
-                J = abs(self.problem.local(at).jacobian[c.nx + equations])
-                entries = J[:, c.nx + unknowns].tocoo()
-                terms = (J @ np.abs(at.y))[entries.row]
+                J = abs(self.problem.local(at).jacobian)
+                terms = (J @ np.abs(at.y))[part.rows[part.places[0]]]
                 here = np.full(len(unknowns), np.inf)
                 with np.errstate(divide="ignore", invalid="ignore"):
-                    np.fmin.at(here, entries.col, terms / entries.data)
+                    np.fmin.at(here, part.places[1], terms / J.data[part.entries])
                 size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
             self._natural[key] = size
         size = np.maximum(self._natural[key], np.max(np.abs(rows.z), axis=0))

@@ -15,7 +15,7 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.tangent import state_matrix, tangent
+from acausal.solve.start.tangent import of_states, tangent
 
 ORDER = POLICY.order
 
@@ -33,13 +33,13 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
 
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
-    J = problem.local(at).jacobian[: nx + nz]
-    if not np.all(np.isfinite(J.data)):
+    J = problem.local(at).jacobian
+    if not np.all(np.isfinite(J.data[J.indices < nx + nz])):
         return np.zeros(0, complex)
     if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
         N, chosen = tangent(problem, at)
-        return np.linalg.eigvals((state_matrix(J, nx) @ N)[chosen])
-    J = J.tocsc()
+        return np.linalg.eigvals((of_states(problem.compiled).matrix(J.data) @ N)[chosen])
+    J = J[: nx + nz]
     inner = scipy.sparse.linalg.splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
     to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]
 

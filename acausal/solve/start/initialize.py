@@ -153,10 +153,9 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     direct : dict of int to int
         Condition -> the state that it gives.
     """
-    compiled, nz = problem.compiled, problem.nz
-    direct = _direct(problem, list(range(nz, nz + compiled.conditions.numel())), _rows(problem, at))
+    compiled = problem.compiled
     # The first condition on a state gives it, another one must agree.
-    first = {state: row for row, state in reversed(direct.items())}
+    first = {state: row for row, state in reversed(_giving(compiled).items())}
     direct = {row: state for state, row in first.items()}
     at = _direct_values(problem, tuple(direct.items()), at)
     if not compiled.constraints.size:
@@ -205,7 +204,7 @@ def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
         raise InitializationError(missing_text(compiled, guessed))
     used = [nz + k for k in done.used if k < given]
     surplus = [nz + k for k in done.surplus if k < given]
-    direct = _direct(problem, used, rows)
+    direct = {row: state for row, state in _giving(compiled).items() if row in used}
     solved = [row for row in used if row not in direct]
     known = sorted([*guessed, *direct.values()])
     return InitialSystem(
@@ -230,18 +229,19 @@ def _rows(problem: Problem, at: Point) -> list[list[int]]:
     return [part.tolist() for part in np.split(column[order], ends)][: J.shape[0]]
 
 
-def _direct(problem: Problem, used: list[int], rows: list[list[int]]) -> dict[int, int]:
-    """Conditions that give one state by themselves."""
-    if not used:
-        return {}
-    compiled = problem.compiled
+@once
+def _giving(compiled: CompiledModel) -> dict[int, int]:
+    """Conditions that give one state by themselves, counted from the first algebraic equation, and that state."""
+    J, nx, nz = compiled.pattern, compiled.nx, compiled.nz
+    unknowns = np.bincount(J.indices, minlength=J.shape[0])[nx + nz :]
+    last = np.zeros(J.shape[0], dtype=int)
+    last[J.indices] = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
     curved = _curved(compiled)
-    found: dict[int, int] = {}
-    for row in used:
-        inside = rows[compiled.nx + row]
-        if len(inside) == 1 and inside[0] < compiled.nx and not curved[row - compiled.nz]:
-            found[row] = inside[0]
-    return found
+    return {
+        nz + k: state
+        for k, state in enumerate(last[nx + nz :].tolist())
+        if unknowns[k] == 1 and state < nx and not curved[k]
+    }
 
 
 def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:

@@ -16,7 +16,7 @@ from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part, parts
 from acausal.solve.start.rank import columns_by_pivots, pivots
-from acausal.solve.start.tangent import state_slopes
+from acausal.solve.start.tangent import Elimination
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
@@ -71,20 +71,27 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
 
     Seen without the projection: constraints at all levels but the highest, and their multipliers, are left out.
     """
-    compiled, nx = problem.compiled, problem.nx
-    plan, c = compiled.reduced.plan, compiled.constraints
+    left = _unprojected(problem.compiled)
+    rates, coordinates = left.own.rows, left.own.columns
+    stiffness = np.zeros(problem.nx)
+    with suppress(RuntimeError):  # singular: nothing is stiff
+        slopes = left.diagonal(problem.local(at).jacobian.data)
+        stiffness[coordinates] = stiffness[rates] = np.abs(slopes)
+    return stiffness
+
+
+@once
+def _unprojected(compiled: CompiledModel) -> Elimination:
+    """What is left of the derivatives of the rates by their coordinates, see `_stiffness`."""
+    plan, c, nx = compiled.reduced.plan, compiled.constraints, compiled.nx
     lower = {row for constraint in plan.constrained.constraints for row in constraint.rows}
-    rows = [*range(nx), *(nx + k for k, e in enumerate(plan.residuals) if e not in lower)]
-    columns = np.setdiff1d(np.arange(nx + compiled.nz), nx + c.multipliers)
-    J = problem.local(at).jacobian[rows][:, columns]
+    equations = [nx + k for k, e in enumerate(plan.residuals) if e not in lower]
+    unknowns = np.setdiff1d(np.arange(nx, nx + compiled.nz), nx + c.multipliers)
     place = {v: k for k, v in enumerate(plan.states)}
     of = {q.coordinate: place[q.state] for q in plan.constrained.projections}
     pairs = [(of[q.coordinate], of[q.rate]) for q in plan.constrained.projections if q.rate in of]
-    here, rate = np.array(pairs, dtype=int).reshape(-1, 2).T
-    stiffness = np.zeros(nx)
-    with suppress(RuntimeError):  # singular: nothing is stiff
-        stiffness[here] = stiffness[rate] = np.abs(state_slopes(J, nx, rate, here))
-    return stiffness
+    coordinates, rates = np.array(pairs, dtype=int).reshape(-1, 2).T
+    return Elimination.of(compiled.pattern, rates, coordinates, equations, unknowns)
 
 
 def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:

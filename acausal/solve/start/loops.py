@@ -14,11 +14,12 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.parts import part_of
 from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
 
-Residuals = Callable[[np.ndarray], "tuple[np.ndarray, scipy.sparse.csc_matrix]"]
+Residuals = Callable[[np.ndarray], "tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]"]
 
 
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
@@ -76,13 +77,19 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
     """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
-    size = problem.sizes(at)[rows]
+    c, size = problem.compiled.constraints, problem.sizes(at)
+    part, of_entry = part_of(c.pattern, rows, free), size[c.pattern.indices]
+    matrix = part.sparse if _are_many(rows) else part.dense
 
-    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        value, J = problem.constraints(_with(at, free, u))
-        return value[rows] / size, (scipy.sparse.diags(1 / size) @ J[rows][:, free]).tocsc()
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]:
+        value, entries = c.values(_with(at, free, u).x, problem.p, at.time, at.constants.vector)
+        return value[rows] / size[rows], matrix(entries / of_entry)
 
     return evaluate
+
+
+def _are_many(rows: list[int]) -> bool:
+    return len(rows) > POLICY.ranks.small
 
 
 def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linear: bool) -> tuple[Point, float]:
@@ -96,7 +103,6 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linea
         best = _polish(evaluate, best, scale)
         left = float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
     smallest = left if np.isfinite(left) else np.inf
-    large = len(rows) > POLICY.ranks.small
     for k, size in enumerate(LOOPS.attempts):
         if smallest <= LOOPS.closed:
             break
@@ -104,8 +110,12 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linea
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
         options: Any = dict.fromkeys(("xtol", "ftol", "gtol"), LOOPS.ends)
-        options |= {"x_scale": scale, "max_nfev": LOOPS.evaluations, "tr_solver": "lsmr" if large else "exact"}
-        options["jac"] = (lambda u: evaluate(u)[1]) if large else (lambda u: evaluate(u)[1].toarray())
+        options |= {
+            "x_scale": scale,
+            "max_nfev": LOOPS.evaluations,
+            "tr_solver": "lsmr" if _are_many(rows) else "exact",
+        }
+        options["jac"] = lambda u: evaluate(u)[1]
         u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:

@@ -11,7 +11,7 @@ import scipy
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
-from acausal.solve.problem import Problem
+from acausal.solve.problem import Problem, by_columns
 from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text, worst_lines
 
@@ -97,12 +97,12 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= NEWTON.converged:
             y[free] -= simplified if change > NEWTON.rounding else 0.0
-            if np.any(np.abs(value) > NEWTON.consistent * reach(J[rows], y, problem.nominal)):
+            if np.any(np.abs(value) > NEWTON.consistent * reach(J, y, problem.nominal)[rows]):
                 break
             return at.with_y(y)
     here = residual(y)
-    J = problem.local(at.with_y(y), flag).jacobian[rows]
-    if np.all(np.abs(here) <= rounding(J, y, problem.nominal)):
+    J = problem.local(at.with_y(y), flag).jacobian
+    if np.all(np.abs(here) <= rounding(J, y, problem.nominal)[rows]):
         return at.with_y(y)
     raise lost(here)
 
@@ -144,11 +144,13 @@ def reach(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.
 
 def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
-    least = abs(J).multiply(nominal).tocsr()
-    least.eliminate_zeros()
+    size = by_columns(abs(J), nominal)
+    rows = size.indices[size.data != 0]
+    least = np.full(J.shape[0], np.inf)
+    np.minimum.at(least, rows, size.data[size.data != 0])
     found = abs(J) @ np.abs(y)
-    rows = np.flatnonzero(np.diff(least.indptr))
-    found[rows] += np.minimum.reduceat(least.data, least.indptr[rows]) if rows.size else 0.0
+    own = np.unique(rows)
+    found[own] += least[own]
     return found
 
 

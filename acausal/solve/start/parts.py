@@ -1,23 +1,26 @@
-"""Parts of a sparse matrix that have neither a row nor a column in common: what is done to one leaves the others."""
+"""Parts of a sparse matrix: some rows and columns, or those that share none with others, so that each is dealt with alone."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy
 
+Places = np.ndarray | list[int]
+
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Rows and columns of a matrix that its entries tie together.
+    """Rows and columns of a matrix, and which of its entries are in them: the same for all matrices of one sparsity.
 
     Attributes
     ----------
     rows, columns : arrays of int
-        Where they are in the whole, ascending.
+        Where they are in the whole.
     entries : array of int
-        Which entries of the whole are in the part.
+        Which entries of the whole are in the part, column by column.
     places : array of int, shape (2, n)
         Row and column of each of them, in the part.
     """
@@ -26,6 +29,17 @@ class Part:
     columns: np.ndarray
     entries: np.ndarray
     places: np.ndarray
+
+    @classmethod
+    def placed(cls, rows: np.ndarray, columns: np.ndarray, entries: np.ndarray, places: np.ndarray) -> Part:
+        """Return a part from its entries in any order."""
+        order = np.lexsort(places)
+        return cls(rows, columns, entries[order], places[:, order].astype(np.int32, order="C"))
+
+    @cached_property
+    def _starts(self) -> np.ndarray:
+        """Where the entries of each column begin."""
+        return np.searchsorted(self.places[1], np.arange(len(self.columns) + 1)).astype(np.int32)
 
     def dense(self, values: np.ndarray) -> np.ndarray:
         """Return the part, shape (..., m, n), from the entries of the whole, shape (..., k)."""
@@ -36,7 +50,16 @@ class Part:
     def sparse(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
         """Return the part from the entries of the whole, shape (k,)."""
         shape = len(self.rows), len(self.columns)
-        return scipy.sparse.csc_matrix((values[self.entries], tuple(self.places)), shape=shape)
+        return scipy.sparse.csc_matrix((values[self.entries], self.places[0], self._starts), shape=shape)
+
+
+def part_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Part:
+    """Return the part in some rows and columns of a matrix, in the order in which they are given."""
+    row, column = (np.full(n, -1, dtype=np.int32) for n in J.shape)
+    row[rows], column[columns] = np.arange(len(rows)), np.arange(len(columns))
+    places = np.array([row[J.indices], np.repeat(column, np.diff(J.indptr))])
+    entries = np.flatnonzero(np.all(places >= 0, axis=0))
+    return Part.placed(np.asarray(rows), np.asarray(columns), entries, places[:, entries])
 
 
 def parts(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list[Part]:
@@ -51,7 +74,7 @@ def parts(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> list
         if of_rows.size:
             local[0, of_rows], local[1, of_columns] = np.arange(len(of_rows)), np.arange(len(of_columns))
             places = np.array([local[0, rows[entries]], local[1, columns[entries]]])
-            found.append(Part(of_rows, of_columns, entries, places))
+            found.append(Part.placed(of_rows, of_columns, entries, places))
     return found
 
 

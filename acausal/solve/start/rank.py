@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.policy import POLICY
+from acausal.solve.problem import by_columns
 from acausal.solve.start.regular import complement, gram, unit_rows
 
 RANKS = POLICY.ranks
@@ -46,7 +47,7 @@ def least_norm(
     if isinstance(rows, np.ndarray):
         matrix = rows * sizes
     else:
-        sparse = (rows @ scipy.sparse.diags(sizes)).tocsc()
+        sparse = by_columns(rows, sizes)
         inverse = gram(sparse, cutoff)
         if inverse:
             return lambda right: sizes * (sparse.T @ inverse(right))

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.parts import Part, Places, part_of
 from acausal.solve.start.rank import null_space, pivots
 
 # Columns in one call of a sparse solver.
@@ -32,7 +36,8 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.
-    weight = np.where(np.isin(np.arange(problem.nx), J.nonzero()[1]), 1.0, POLICY.ranks.unheld)
+    weight = np.full(problem.nx, POLICY.ranks.unheld)
+    weight[np.repeat(np.arange(problem.nx), np.diff(J.indptr))[J.data != 0]] = 1.0
     weight[[k for k in rate_of if weight[k] == 1.0]] = POLICY.ranks.coordinate
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
@@ -42,26 +47,56 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     return size[:, None] * np.linalg.solve(null[:, chosen], null).T / size[chosen], chosen
 
 
-def state_matrix(J: Any, nx: int) -> np.ndarray:
-    """Eliminate the algebraic unknowns: A = f_x - f_z g_z^-1 g_x, dense."""
-    own, f_z, right, solve = _split(J, nx)
-    return own.toarray() - f_z @ solve(right.toarray()) if solve else own.toarray()
+@dataclass(frozen=True)
+class Elimination:
+    """What is left of some rows and columns of a Jacobian once the algebraic unknowns are eliminated.
+
+    Attributes
+    ----------
+    own, through, equations, inner : Part
+        The rows by the columns and by the algebraic unknowns, and the algebraic equations by both.
+    """
+
+    own: Part
+    through: Part
+    equations: Part
+    inner: Part
+
+    @classmethod
+    def of(cls, J: scipy.sparse.csc_matrix, rows: Places, columns: Places, alg: Places, z: Places) -> Elimination:
+        """Return that for all matrices of one sparsity, from one of them; `alg` are equations, `z` algebraic unknowns."""
+        return cls(part_of(J, rows, columns), part_of(J, rows, z), part_of(J, alg, columns), part_of(J, alg, z))
+
+    def matrix(self, entries: np.ndarray) -> np.ndarray:
+        """Return J_rx - J_rz J_az^-1 J_ax, dense, from the entries of the Jacobian."""
+        own = self.own.dense(entries)
+        if not self.inner.rows.size:
+            return own
+        return own - self.through.sparse(entries) @ self._solve(entries)(self.equations.dense(entries))
+
+    def diagonal(self, entries: np.ndarray) -> np.ndarray:
+        """Return the diagonal of the same, some columns at a time."""
+        found = np.zeros(len(self.own.rows))
+        on = self.own.places[0] == self.own.places[1]
+        found[self.own.places[0, on]] = entries[self.own.entries[on]]
+        if not self.inner.rows.size:
+            return found
+        solve, right = self._solve(entries), self.equations.sparse(entries)
+        (row, column), values = self.through.places, entries[self.through.entries]
+        for first in range(0, len(found), AT_ONCE):
+            here = found[first : first + AT_ONCE]
+            dz = solve(right[:, first : first + len(here)].toarray())
+            some = (row >= first) & (row < first + len(here))
+            terms = values[some] * dz[column[some], row[some] - first]
+            here -= np.bincount(row[some] - first, terms, minlength=len(here))
+        return found
+
+    def _solve(self, entries: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+        return scipy.sparse.linalg.splu(self.inner.sparse(entries)).solve
 
 
-def state_slopes(J: Any, nx: int, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Entries (rows[k], columns[k]) of what `state_matrix` returns, some columns at a time."""
-    own, f_z, right, solve = _split(J, nx)
-    found = np.asarray(own[rows, columns]).ravel()
-    for first in range(0, len(rows) if solve else 0, AT_ONCE):
-        some = slice(first, first + AT_ONCE)
-        dz = solve(right[:, columns[some]].toarray())
-        found[some] -= np.asarray(f_z[rows[some]].multiply(dz.T).sum(axis=1)).ravel()
-    return found
-
-
-def _split(J: Any, nx: int) -> tuple[Any, Any, Any, Any]:
-    """Return f_x, f_z, g_x, and a solver with g_z if there are algebraic unknowns."""
-    J = scipy.sparse.csc_matrix(J)
-    f, g = J[:nx], J[nx:]
-    solve = scipy.sparse.linalg.splu(g[:, nx:].tocsc()).solve if g.shape[0] else None
-    return f[:, :nx], f[:, nx:].tocsr(), g[:, :nx], solve
+@once
+def of_states(compiled: CompiledModel) -> Elimination:
+    """What is left of the derivatives of the states by the states: their matrix A = f_x - f_z g_z^-1 g_x."""
+    x, z = np.split(np.arange(compiled.nx + compiled.nz), [compiled.nx])
+    return Elimination.of(compiled.pattern, x, x, z, z)

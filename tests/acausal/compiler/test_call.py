@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from acausal.compiler.call import Call
-from acausal.compiler.once import once
+from acausal.compiler.once import latest, once
 from acausal.compiler.rowwise import AT_ONCE, Rowwise
 
 X = ca.SX.sym("x", 2)
@@ -47,7 +47,7 @@ def test_rows_are_those_of_single_calls(n):
     rng = np.random.default_rng(n)
     xs, zs, ts = rng.random((n, 2)), rng.random((n, 3)), rng.random(n)
     cs, p0 = rng.random((n, 2)), rng.random(1)
-    found = Rowwise(function)(xs, zs, p0, ts, cs)
+    found = Rowwise(function)(xs, zs, p0, ts[:, None], cs)
     expected = [np.array(function(xs[k], zs[k], p0, ts[k], cs[k])).ravel() for k in range(n)]
     np.testing.assert_array_equal(found, expected)
 
@@ -63,3 +63,16 @@ def test_once_for_each_model_and_argument():
     a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
     assert [twice(a, 1), twice(a, 1), twice(a, 2), twice(b, 1)] == [2, 2, 4, 2]
     assert counted == [("a", 1), ("a", 2), ("b", 1)]
+
+
+def test_the_latest_of_each_model():
+    counted = []
+
+    @latest
+    def twice(model, number):
+        counted.append((model.name, number))
+        return 2 * number
+
+    a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
+    assert [twice(m, k) for m, k in ((a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1))] == [2, 2, 2, 2, 4, 2]
+    assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 1)]

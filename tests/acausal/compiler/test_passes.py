@@ -30,5 +30,5 @@ def test_parts_are_solved_one_after_the_other():
     found = np.tile([0.3, 1.0, 1.8, 0.0, 0.0], (2, 1))
     for step in passes:
         for _ in range(1 if step.linear else 8):
-            found[:, step.unknowns] = step.function(X, found, np.ones(1), np.full(2, 3.0), np.full((2, 1), 2.0))
+            found[:, step.unknowns] = step.function(X, found, np.ones(1), np.full((2, 1), 3.0), np.full((2, 1), 2.0))
     np.testing.assert_allclose(found, [exact(2.0), exact(3.0)], rtol=1e-13)

@@ -31,7 +31,12 @@ class Made:
         plan = SimpleNamespace(residuals=range(n), differentiated=())
         reduced = SimpleNamespace(flat=SimpleNamespace(equations=equations), plan=plan)
         self.compiled = SimpleNamespace(
-            nz=self.nz, reduced=reduced, constraints=SimpleNamespace(size=0), states=[f"x{k}" for k in range(nx)]
+            nx=nx,
+            nz=self.nz,
+            reduced=reduced,
+            constraints=SimpleNamespace(size=0),
+            states=[f"x{k}" for k in range(nx)],
+            kept={},
         )
 
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
@@ -49,4 +54,6 @@ class Made:
 
 def linear(A: np.ndarray, nx: int) -> Made:
     """Return y' = A y, of which the rows beyond the first `nx` are 0 = A y."""
-    return Made(lambda y: A @ y, lambda y: A, len(A), nx)
+    made = Made(lambda y: A @ y, lambda y: A, len(A), nx)
+    made.compiled.pattern = scipy.sparse.csc_matrix(A)
+    return made

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from acausal.solve.start.parts import parts, parts_of
+from acausal.solve.start.parts import part_of, parts, parts_of
 
 
 def test_blocks_that_were_mixed_are_found():
@@ -35,3 +35,14 @@ def test_several_values_at_once():
     (part,) = parts(*np.indices((2, 2)).reshape(2, -1), (2, 2))
     values = np.arange(12.0).reshape(3, 4)
     np.testing.assert_array_equal(part.dense(values), values.reshape(3, 2, 2))
+
+
+def test_rows_and_columns_in_any_order():
+    random = np.random.default_rng(1)
+    whole = np.where(random.random((6, 5)) < 0.6, random.standard_normal((6, 5)), 0.0)
+    J = scipy.sparse.csc_matrix(whole)
+    part = part_of(J, [4, 0, 3], np.array([3, 1]))
+    expected = whole[np.ix_([4, 0, 3], [3, 1])]
+    np.testing.assert_array_equal(part.dense(J.data), expected)
+    np.testing.assert_array_equal(part.sparse(J.data).toarray(), expected)
+    assert part.sparse(J.data).has_sorted_indices

@@ -1,0 +1,67 @@
+"""What a run begins with, kept for the next one: another tolerance, method or grid leaves it as it is."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import latest
+from acausal.solve.checks.validity import check_start
+from acausal.solve.integrate.order import eigenvalues_of
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.start.initialize import Start
+from acausal.solve.start.start import go_on, start
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """Where a run starts, and from where it goes on.
+
+    Attributes
+    ----------
+    start : Start
+        Consistent values.
+    at : Point
+        The same point, or one beside it where that is singular.
+    eigenvalues : array of complex
+        Of the linearised system there.
+    seconds : float
+        What it took to find them.
+    """
+
+    start: Start
+    at: Point
+    eigenvalues: np.ndarray
+    seconds: float
+
+
+def begin(problem: Problem, time: float, later: float, initial: str) -> Beginning:
+    """Find where a run starts, see `start`, or take what the last run of the model found for the same numbers."""
+    if initial == "steady":  # a warning of an unstable equilibrium belongs to every run
+        return _found(problem, time, later, initial)
+    # Equal to the last bit, as numbers are not: 0 and -0 are.
+    numbers = np.array([problem.feedback, time, later, *problem.p])
+    return _kept(problem.compiled, numbers.tobytes(), initial)
+
+
+@latest
+def _kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
+    (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
+    found = _found(Problem(compiled, p, float(feedback)), float(time), float(later), initial)
+    # Two runs share it.
+    for at in (found.start.point, found.at):
+        for array in (at.x, at.z, at.truth):
+            array.setflags(write=False)
+    return found
+
+
+def _found(problem: Problem, time: float, later: float, initial: str) -> Beginning:
+    started = clock.perf_counter()
+    begun = start(problem, time, later, initial)
+    check_start(problem, begun.point)
+    at = go_on(problem, begun)
+    return Beginning(begun, at, eigenvalues_of(problem, at), clock.perf_counter() - started)

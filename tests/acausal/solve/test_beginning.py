@@ -1,0 +1,96 @@
+"""The beginning of a run, which the next one may take over, changes no bit of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import AcausalWarning, Model, Scalar, chain, der, fixed, guess, parameter, sin, variable
+from acausal.solve import beginning
+from components import Body, FixedTranslation, Revolute, World
+from models import FourBar
+
+
+class Decay(Model):
+    """Falls to where the initial value and a parameter say."""
+
+    k: Scalar = parameter("rate", default=1.0)
+    x: Scalar = variable("state")
+
+    def equations(self):
+        yield der(self.x) == -self.k * sin(self.x)
+
+
+@pytest.fixture
+def starts(monkeypatch) -> list[Any]:
+    """Count how often a start is sought."""
+    seen: list[Any] = []
+    start = beginning.start
+    monkeypatch.setattr(beginning, "start", lambda *arguments: seen.append(arguments) or start(*arguments))
+    return seen
+
+
+def test_another_tolerance_method_or_grid_keeps_it(starts):
+    compiled = ac.compile(Decay(x=fixed(1.0)))
+    changes: list[dict[str, Any]] = [{}, {"tolerance": 1e-9}, {"method": "idas"}, {"intervals": 7}, {"energy": True}]
+    for options in changes:
+        ac.simulate(compiled, stop_time=1.0, **options)
+    assert len(starts) == 1
+
+
+@pytest.mark.parametrize(
+    "other", [{"parameters": {"k": 2.0}}, {"start_time": -1.0}, {"stop_time": 2.0}, {"initial": "guesses"}]
+)
+def test_anything_else_seeks_another(starts, other):
+    compiled = ac.compile(Decay(x=fixed(1.0)))
+    for options in ({}, other, {}):
+        given: Any = {"stop_time": 1.0, **options}
+        ac.simulate(compiled, **given)
+    assert len(starts) == 3
+
+
+def test_a_run_again_is_the_same_to_the_last_bit():
+    options: dict[str, Any] = {"stop_time": 0.5, "tolerance": 1e-4}
+    compiled = ac.compile(FourBar())
+    first, again = (ac.simulate(compiled, **options) for _ in range(2))
+    ac.simulate(compiled, parameters={"world.g": 1.0}, **options)
+    for result in (again, ac.simulate(compiled, **options)):
+        np.testing.assert_array_equal(result["j1.phi"], first["j1.phi"])
+        np.testing.assert_array_equal(result["j1.w"], first["j1.w"])
+        assert result.stats.steps == first.stats.steps
+
+
+def test_seconds_of_the_beginning_count_in_every_run():
+    compiled = ac.compile(FourBar())
+    runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
+    kept = compiled.kept[beginning._kept.__wrapped__][1]
+    assert all(run.stats.solve_seconds > kept.seconds > 0 for run in runs)
+
+
+def test_zeros_of_both_signs_are_not_the_same(starts):
+    compiled = ac.compile(Decay(x=fixed(1.0)))
+    for time in (0.0, -0.0):
+        ac.simulate(compiled, start_time=time, stop_time=1.0)
+    assert len(starts) == 2
+
+
+class Standing(Model):
+    """A pendulum that stands on its head."""
+
+    world = World(g=9.81)
+    hinge = Revolute(phi=guess(np.pi / 2), w=guess(0))
+    bar = FixedTranslation(r=(1, 0, 0))
+    mass = Body(m=1)
+
+    def connections(self):
+        yield chain(self.world, self.hinge, self.bar, self.mass)
+
+
+def test_every_run_from_an_unstable_equilibrium_warns():
+    compiled = ac.compile(Standing())
+    for _ in range(2):
+        with pytest.warns(AcausalWarning, match="unstable"):
+            ac.simulate(compiled, stop_time=0.1, initial="steady")
