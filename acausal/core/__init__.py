@@ -2,6 +2,7 @@
 
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
+from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
 from acausal.core.tape import Tape, make_tape
 
@@ -11,6 +12,7 @@ __all__ = [
     "Equations",
     "Outputs",
     "Rodas",
+    "StoredModel",
     "Tape",
     "library",
     "make_equations",
