@@ -1,4 +1,4 @@
-/* Integrate a stored model: replay FILE SPAN OUTPUTS TOLERANCE. Names of the states; time, states and algebraic unknowns at
+/* Integrate a stored model: replay FILE SPAN OUTPUTS TOLERANCE. Names of the states; time, states, algebraic unknowns and integrals at
    each output; how it ended, counts and the time that was reached. */
 #include "core.h"
 
@@ -18,11 +18,8 @@ static void *read_file(const char *path, size_t *length) {
     return bytes;
 }
 
-static void print_row(double time, const double *x, int32_t nx, const double *z, int32_t nz) {
-    printf("%.17g", time);
-    for (int32_t k = 0; k < nx; k++) printf(" %.17g", x[k]);
-    for (int32_t k = 0; k < nz; k++) printf(" %.17g", z[k]);
-    printf("\n");
+static void print_all(const double *number, size_t count) {
+    for (size_t k = 0; k < count; k++) printf(" %.17g", number[k]);
 }
 
 static int replay(const ac_model *m, double span, int32_t outputs, double tolerance) {
@@ -47,7 +44,13 @@ static int replay(const ac_model *m, double span, int32_t outputs, double tolera
             while (*name++) {}
         }
         printf("\n");
-        for (size_t k = 0; k < (size_t)done.written; k++) print_row(time[k + 1], x + k * nx, e->nx, z + k * nz, e->nz);
+        for (size_t k = 0; k < (size_t)done.written; k++) {
+            print_all(time + k + 1, 1);
+            print_all(x + k * nx, nx);
+            print_all(z + k * nz, nz);
+            print_all(integral + 2 * k, 2);
+            printf("\n");
+        }
         printf("%d %lld %lld %lld %lld %lld %.17g\n", (int)end, (long long)done.steps, (long long)done.refused,
                (long long)done.slopes, (long long)done.values, (long long)done.pivots, done.time);
     }
