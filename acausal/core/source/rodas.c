@@ -14,6 +14,7 @@
 #define LEAST 0.2             /* change of a step at most, likewise */
 #define MOST 6.0
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
+#define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 static size_t length(const ac_tape *tape) {
@@ -111,6 +112,14 @@ static const double *smoothed(ac_rodas *r, const double *change, double h) {
     return r->b;
 }
 
+/* A step on a grid. Where steps are refused again and again their lengths are chaotic: the last bits of a power or a sine, which
+   differ between machines, would lead to other steps soon. */
+static double measured(double h) {
+    int exponent;
+    const double part = frexp(h, &exponent);
+    return ldexp(floor(part * GRID) / GRID, exponent);
+}
+
 /* First step in which an explicit step would change the states by a hundredth of themselves (Hairer, Norsett, Wanner, II.4). */
 static double first_step(ac_rodas *r) {
     const double span = r->request.time[r->request.outputs] - r->t;
@@ -194,7 +203,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         }
         const double left = end - r->t;
         const int last = r->h >= left * (1 - 1e-10);
-        const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : r->h;
+        const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : measured(r->h);
         if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
             found = r->unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
