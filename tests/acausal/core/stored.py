@@ -85,9 +85,7 @@ def integrated(model: StoredModel, span: float, outputs: int, tolerance: float) 
     """Integrate a model by the library."""
     rodas, times = Rodas(model.equations), model.time + span * np.arange(outputs + 1) / outputs
     given = (model.x, model.z, model.p, model.c)
-    found = rodas.begin(
-        times, *given, size=model.size, smooth=model.smooth, tolerance=tolerance, most=1_000_000
-    )
+    found = rodas.begin(times, *given, size=model.size, smooth=model.smooth, tolerance=tolerance, most=1_000_000)
     end, done = rodas.go(1_000_000), rodas.progress
     rows = np.column_stack([times[1:], found.x, found.z, found.integral])[: done.written]
     counts = done.steps, done.refused, done.slopes, done.values, done.pivots
