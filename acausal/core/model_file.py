@@ -48,8 +48,8 @@ class StoredModel:
     names: tuple[str, ...]
 
     @property
-    def bytes(self) -> bytes:
-        """The content of the file."""
+    def content(self) -> bytes:
+        """The bytes of the file."""
         e = self.equations
         given = (len(self.x), len(self.z), len(self.p), len(self.c), len(self.size), len(self.smooth), len(self.names))
         if given != (e.nx, e.nz, e.np, e.nc, e.nx, e.nx, e.nx):

@@ -41,7 +41,7 @@ def scene(name: str) -> StoredModel:
 def written(name: str, folder: Path) -> Path:
     """Write a scene into a folder; return its file."""
     path = folder / f"{name}.bin"
-    path.write_bytes(scene(name).bytes)
+    path.write_bytes(scene(name).content)
     return path
 
 

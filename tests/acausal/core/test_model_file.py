@@ -110,7 +110,7 @@ def test_damaged_files_are_refused_and_never_believed(name, changes, made, tmp_p
 
 
 def test_what_is_no_whole_file_is_told():
-    content = scene("simple-pendulum").bytes
+    content = scene("simple-pendulum").content
     assert why(content) == READ
     assert why(b"") == why(b"PK\x03\x04" + content) == FOREIGN
     assert why(content[:-8]) == why(content[:9]) == why(content + bytes(8)) == LENGTH
@@ -169,13 +169,13 @@ def wrong(m: StoredModel) -> dict[str, StoredModel]:
 
 
 def test_what_cannot_be_is_refused():
-    found = {what: why(model.bytes) for what, model in wrong(scene("simple-pendulum")).items()}
+    found = {what: why(model.content) for what, model in wrong(scene("simple-pendulum")).items()}
     assert found == dict.fromkeys(found, CONTENT)
 
 
 def test_a_start_that_does_not_fit_is_not_written():
     with pytest.raises(ValueError, match="does not fit"):
-        _ = replace(scene("simple-pendulum"), x=np.zeros(1)).bytes
+        _ = replace(scene("simple-pendulum"), x=np.zeros(1)).content
 
 
 def test_numbers_of_operations_stay():

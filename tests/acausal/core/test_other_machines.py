@@ -17,7 +17,7 @@ from tests.acausal.core.stored import SPANS, driver, integrated, replayed, scene
 
 pytestmark = pytest.mark.slow
 WINE = "/usr/lib/wine"  # where Debian puts it
-# Of the range of each state; where rates of stiff beams hardly move, the last bit of a parameter changes more than that here.
+# Of the range of each state; where states hardly move, the last bit of a parameter changes more than that here.
 WANTED = 1e-11
 # Command of the compiler, its options, and what runs the result.
 MACHINES = {
