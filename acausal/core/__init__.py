@@ -3,6 +3,7 @@
 from acausal.core.curve import Curve
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
+from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
@@ -16,6 +17,7 @@ __all__ = [
     "Rodas",
     "Settler",
     "Square",
+    "StoredModel",
     "Tape",
     "library",
     "make_equations",

@@ -68,12 +68,21 @@ class Tape:
     @cached_property
     def data(self) -> TapeData:
         """What the library takes; it holds addresses of the arrays of this tape."""
-        arrays = (self.constants, self.kinds, self.lengths, self.first, self.second, self._output)
-        counts = (len(self.constants), sum(self.sizes), len(self.first), len(self.kinds), self.early, len(self._output))
-        return TapeData(*counts, *(array.ctypes.data for array in arrays))
+        return TapeData(*self.counts, *(array.ctypes.data for array in self.arrays))
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """Constants, inputs, results, runs, early ones and outputs, as the library counts them."""
+        return len(self.constants), sum(self.sizes), len(self.first), len(self.kinds), self.early, len(self.output)
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """Constants, runs, arguments and places of the outputs, in the order of the library."""
+        return self.constants, self.kinds, self.lengths, self.first, self.second, self.output
 
     @cached_property
-    def _output(self) -> np.ndarray:
+    def output(self) -> np.ndarray:
+        """Where the nonzeros of all results stand."""
         return np.concatenate([np.zeros(0, dtype=np.int32), *self.outputs])
 
     def rows(self, *arguments: np.ndarray) -> np.ndarray:
@@ -85,7 +94,7 @@ class Tape:
             Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
         """
         given, n, (lengths, strides, addresses) = self.parts(*arguments)
-        found, work = np.empty((n, len(self._output))), np.empty(self.size)
+        found, work = np.empty((n, len(self.output))), np.empty(self.size)
         call = loaded().ac_tape_rows
         call(
             *(self.data, work.ctypes.data, n, len(given), lengths.ctypes.data, strides.ctypes.data, addresses),

@@ -2,6 +2,7 @@
 #ifndef ACAUSAL_CORE_H
 #define ACAUSAL_CORE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #if defined(_WIN32)
@@ -100,5 +101,21 @@ AC_PUBLIC void ac_rodas_begin(ac_rodas *r, const ac_request *request, const doub
                               const double *c);
 AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress);
 AC_PUBLIC void ac_rodas_free(ac_rodas *r);
+
+/* A model as a file has it; the format is in docs/model-file.md. */
+typedef struct {
+    ac_equations equations;
+    double time;                 /* where it starts, consistent */
+    const double *x, *z, *p, *c;
+    const double *size;          /* (nx) and the next as in ac_request */
+    const int32_t *rate;
+    const char *names;           /* of the states, each with a 0 at its end */
+} ac_model;
+
+/* Why a file is not read: no model, another version of the format, cut, damaged, not what a model has to be, no memory. */
+enum { AC_READ, AC_FOREIGN, AC_VERSION, AC_LENGTH, AC_CHECKSUM, AC_CONTENT, AC_NO_MEMORY };
+
+AC_PUBLIC ac_model *ac_model_read(const void *bytes, size_t length, int32_t *why);
+AC_PUBLIC void ac_model_free(ac_model *model);
 
 #endif

@@ -46,7 +46,8 @@ static int make(lists *m, int32_t n, const int32_t *count, int values) {
 /* Move a list to the end, with twice the room. */
 static int widen(lists *m, int32_t k) {
     const int32_t room = 2 * m->room[k];
-    if (m->end + room > m->capacity) {
+    if (m->end > m->capacity - room) {
+        if (m->capacity > (INT32_MAX - room) / 2) return 0;
         const int32_t capacity = 2 * m->capacity + room;
         int32_t *index = realloc(m->index, (size_t)capacity * sizeof *index);
         if (!index) return 0;

@@ -16,6 +16,7 @@
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
 #define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
 #define MOST_SHORTENED 12
+#define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 static size_t length(const ac_tape *tape) {
@@ -114,6 +115,14 @@ static const double *smoothed(ac_rodas *r, const double *change, double h) {
     return r->b;
 }
 
+/* A step on a grid. Where steps are refused again and again their lengths are chaotic: the last bits of a power or a sine, which
+   differ between machines, would lead to other steps soon. */
+static double measured(double h) {
+    int exponent;
+    const double part = frexp(h, &exponent);
+    return ldexp(floor(part * GRID) / GRID, exponent);
+}
+
 /* First step in which an explicit step would change the states by a hundredth of themselves (Hairer, Norsett, Wanner, II.4). */
 static double first_step(ac_rodas *r) {
     const double span = r->request.time[r->request.outputs] - r->t;
@@ -151,7 +160,9 @@ static int32_t factorise(ac_rodas *r, double h) {
    its fifth power is as small as the error of a step that resolves it. */
 static void begin(ac_rodas *r) {
     const int32_t nx = r->of.nx, *rate = r->request.rate;
-    r->h = fmin(r->h > 0 ? r->h : first_step(r), r->request.time[r->request.outputs] - r->t);
+    const double span = r->request.time[r->request.outputs] - r->t;
+    if (!(r->h > 0)) r->h = first_step(r);
+    r->h = r->h < span ? measured(r->h) : span;
     for (int tries = 0; rate && tries < MOST_SHORTENED; tries++) {
         double *left = r->stage;
         int32_t failed = factorise(r, r->h);
@@ -166,7 +177,7 @@ static void begin(ac_rodas *r) {
             if (rate[k]) most = fmax(most, fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k]))));
         }
         if (most <= 1) break;
-        r->h *= SHORTENED;
+        r->h = measured(SHORTENED * r->h);
     }
     r->begun = 1;
 }
@@ -234,7 +245,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         }
         const double left = end - r->t;
         const int last = r->h >= left * (1 - 1e-10);
-        const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : r->h;
+        const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : measured(r->h);
         if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
             found = r->unsolved ? AC_UNSOLVED : AC_SHORT;
             break;

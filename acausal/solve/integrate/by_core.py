@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
 from acausal.solve.integrate.flat import passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
-from acausal.solve.integrate.one_step import first_step, sizes
+from acausal.solve.integrate.one_step import are_rates, first_step, sizes
 from acausal.solve.integrate.trace import Leg
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
@@ -33,8 +31,6 @@ class ByCore(Integration):
         problem, way, at = request.problem, request.way, request.at
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
-        is_rate = np.zeros(problem.nx, dtype=np.int32)
-        is_rate[[rate for _, rate in problem.rates]] = 1
         self._wary = bool(problem.compiled.constraints.size) and not damps
         self.ended = False
         self._rodas = Rodas(equations)
@@ -43,7 +39,7 @@ class ByCore(Integration):
             size=sizes(request) if damps else request.settings.nominal[: problem.nx],
             tolerance=way.tolerance,
             first_step=min(request.first_step, request.span) or first_step(request) * request.span,
-            rate=is_rate,
+            rate=are_rates(problem),
             smooth=not damps,
             room=POLICY.calls.steps if self._wary or request.curves else 0,
             curves=request.curves,

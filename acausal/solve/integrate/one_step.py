@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.integrate.integration import Request
+from acausal.solve.problem import Problem
 
 CALLS = POLICY.calls
 
@@ -22,6 +23,13 @@ def sizes(request: Request) -> np.ndarray:
     for coordinate, rate in problem.rates:
         size[rate] = max(size[rate], size[coordinate] * request.settings.vibration)
     return size
+
+
+def are_rates(problem: Problem) -> np.ndarray:
+    """Return which states are rates of others, as the core takes them, shape (nx,)."""
+    found = np.zeros(problem.nx, dtype=np.int32)
+    found[[rate for _, rate in problem.rates]] = 1
+    return found
 
 
 def first_step(request: Request) -> float:

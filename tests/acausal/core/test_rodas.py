@@ -175,9 +175,13 @@ def vibration(amplitude: float, **options) -> Found:
 
 def test_errors_of_rates_leave_out_what_steps_do_not_resolve():
     rates = np.array([0, 1, 0, 1])
-    plain, smooth = (vibration(3e-5, rate=rates, smooth=smooth) for smooth in (False, True))
-    assert smooth.progress.steps < 0.7 * plain.progress.steps
-    for found in (plain, smooth):
+    # Steps of one run are chaotic where many are refused.
+    few = [
+        [vibration(amplitude, rate=rates, smooth=smooth) for smooth in (False, True)]
+        for amplitude in (1e-5, 2e-5, 3e-5)
+    ]
+    assert sum(smooth.progress.steps for _, smooth in few) < 0.7 * sum(plain.progress.steps for plain, _ in few)
+    for found in (found for pair in few for found in pair):
         assert found.x[-1, :2] == pytest.approx([np.cos(1.0), -np.sin(1.0)], abs=1e-5)
         assert abs(found.x[-1, 2]) < 3e-5
     # What positions show is followed all the same.
