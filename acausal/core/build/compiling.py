@@ -24,8 +24,8 @@ PLATFORMS = {
     "musl-x86_64": ("x86_64-linux-musl", "libacausal-musl-x86_64.so"),
     "musl-aarch64": ("aarch64-linux-musl", "libacausal-musl-aarch64.so"),
     "windows-x86_64": ("x86_64-windows-gnu", "acausal-windows-x86_64.dll"),
-    "macos-x86_64": ("x86_64-macos", "libacausal-macos-x86_64.dylib"),
-    "macos-arm64": ("aarch64-macos", "libacausal-macos-arm64.dylib"),
+    "macos-x86_64": ("x86_64-macos.10.13", "libacausal-macos-x86_64.dylib"),
+    "macos-arm64": ("aarch64-macos.11.0", "libacausal-macos-arm64.dylib"),
 }
 
 
