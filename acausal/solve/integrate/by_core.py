@@ -56,9 +56,9 @@ class ByCore(Integration):
 
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
-        end, at_once = End.MORE, min(self._at_once, POLICY.calls.steps) if self._wary else self._at_once
+        end, steps = End.MORE, min(self._at_once, POLICY.calls.steps) if self._wary else 2**62
         while end == End.MORE:
-            end = self._rodas.go(at_once)
+            end = self._rodas.go(steps, self._at_once)
             if self._wary and self._passed_flat():
                 return Refusal(Kind.FLAT, self._rodas.progress.time)
         if self._wary and self.request.way.moves and end in (End.SHORT, End.UNSOLVED):
