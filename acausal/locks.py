@@ -24,9 +24,16 @@ class _Thread(local):
 
 
 _THREAD = _Thread()
+
+
+def _alone_in_child() -> None:
+    Signals.forget()
+    LOCK.release()
+
+
 if hasattr(os, "register_at_fork"):
     # A child has no other threads: one that held the lock would hold it forever there.
-    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=LOCK.release)
+    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=_alone_in_child)
 
 
 def alone(function: Callable[P, R]) -> Callable[P, R]:

@@ -70,10 +70,17 @@ class Signals:
                 raise lost
 
     @classmethod
+    def forget(cls) -> None:
+        """Close what the main thread had open where another thread went on as a process of its own."""
+        if cls._wait:
+            cls._wait = False
+            cls._open[0]._close()
+
+    @classmethod
     @contextmanager
     def waiting(cls) -> Iterator[None]:
         """Raise at the end of this block, or where `raise_lost` is called in it, what handlers raise within open blocks."""
-        if current_thread() is not main_thread() or cls._wait:
+        if current_thread() is not main_thread() or cls._wait or not cls._open:
             yield
             return
         cls._wait = True

@@ -14,7 +14,7 @@ def main() -> int:
     if not compiler:
         print("there is no C compiler: install one, or `python -m pip install ziglang`", file=sys.stderr)
         return 2
-    for name in PLATFORMS if ziglang() else [own_platform()]:
+    for name in dict.fromkeys([own_platform(), *(PLATFORMS if ziglang() else ())]):
         try:
             path = compile_core(name, compiler)
         except (subprocess.CalledProcessError, OSError) as error:
