@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from threading import current_thread, main_thread
 from types import FrameType, TracebackType
 from typing import Any, ClassVar
@@ -17,6 +19,7 @@ class Signals:
     """
 
     _open: ClassVar[list[Signals]] = []
+    _wait: ClassVar[bool] = False
 
     def __init__(self) -> None:
         self._before: dict[int, Any] = {}
@@ -48,7 +51,8 @@ class Signals:
             self._before[number](number, frame)
         except BaseException as error:
             self._caught = error
-            raise
+            if not self._wait:
+                raise
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -64,3 +68,24 @@ class Signals:
             lost, block._caught = block._caught, None
             if lost is not None:
                 raise lost
+
+    @classmethod
+    def forget(cls) -> None:
+        """Close what the main thread had open where another thread went on as a process of its own."""
+        if cls._wait:
+            cls._wait = False
+            cls._open[0]._close()
+
+    @classmethod
+    @contextmanager
+    def waiting(cls) -> Iterator[None]:
+        """Raise at the end of this block, or where `raise_lost` is called in it, what handlers raise within open blocks."""
+        if current_thread() is not main_thread() or cls._wait or not cls._open:
+            yield
+            return
+        cls._wait = True
+        try:
+            yield
+        finally:
+            cls._wait = False
+        cls.raise_lost()

@@ -8,6 +8,7 @@ from typing import Any
 
 import casadi as ca
 
+from acausal.core import why_not
 from acausal.flatten.flat_model import FlatClosure, FlatUnknowns
 from acausal.reduce import ReducedModel
 from acausal.symbols import scalars
@@ -69,6 +70,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
         "independent_states": list(found.independent),
         "break_switches": len(flat.discontinuities.switches),
+        "core_missing": why_not(),
         "seconds": dict(seconds),
     }
 
@@ -94,6 +96,8 @@ def summary(r: Mapping[str, Any]) -> str:
             f"  independent   {_list(r['independent_states'])}: the other states follow from the loops; chosen by "
             "pivoting at the start, and again where the pivots become small"
         )
+    missing = r["core_missing"]
+    lines.append(f"  integrator    {f'CasADi, which takes longer than the core: {missing}' if missing else 'the core'}")
     seconds = r["seconds"]
     lines.append("  seconds       " + ", ".join(f"{k} {v:.3f}" for k, v in seconds.items()))
     return "\n".join(lines)

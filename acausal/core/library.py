@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p
+from ctypes import POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
 from functools import cache
 
-from acausal.core.build.compiling import file_of, own_platform
+from acausal.core.build.compiling import file_of, own_platform, version
 
 # What switches the library off: whatever it holds, unless it is empty.
 WITHOUT = "ACAUSAL_WITHOUT_CORE"
+MEND = "with a C compiler or the package ziglang, `python -m acausal.core.build` makes it"
 
 
 class TapeData(Structure):
@@ -71,7 +72,8 @@ class Progress(Structure):
 
 
 # Result and arguments of each function; arrays are addresses.
-_FUNCTIONS = {
+FUNCTIONS = {
+    "ac_version": (c_char_p, ()),
     "ac_tape_run": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32)),
     "ac_tape_rows": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32, c_void_p, c_void_p, c_void_p, c_void_p)),
     "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
@@ -94,17 +96,18 @@ def _loaded() -> ctypes.CDLL | str:
     """The library, or why there is none."""
     if os.environ.get(WITHOUT):
         return f"it is switched off by {WITHOUT}"
-    platform = own_platform()
-    path = file_of(platform)
+    path = file_of(platform := own_platform())
     if not path.exists():
-        return f"it was not built for {platform}; install a C compiler, and acausal again"
+        return f"it was not built for {platform}; {MEND}"
     try:
         found = ctypes.CDLL(str(path))
-        for name, (result, arguments) in _FUNCTIONS.items():
+        for name, (result, arguments) in FUNCTIONS.items():
             function = getattr(found, name)
             function.restype, function.argtypes = result, arguments
     except (OSError, AttributeError) as error:
-        return f"it cannot be loaded: {error}"
+        return f"it cannot be loaded: {error}; {MEND}"
+    if found.ac_version() != version().encode():
+        return f"{path.name} was built from other sources; {MEND}"
     return found
 
 

@@ -14,6 +14,8 @@ import numpy as np
 from acausal.core.curve import Curve
 from acausal.core.library import EquationsData, Progress, RequestData, loaded
 from acausal.core.tape import Tape, make_tape
+from acausal.locks import apart
+from acausal.signals import Signals
 from acausal.symbols import dense
 
 
@@ -216,8 +218,15 @@ class Rodas:
         self._library.ac_rodas_begin(self._memory, byref(request), *map(_address, (x, z, p, c)))
         return found
 
-    def go(self, steps: int) -> End:
-        """Take some steps at most, refused ones among them; an interrupt waits for their end.
+    def go(self, steps: int, at_once: int = 2**62) -> End:
+        """Take some steps at most, refused ones among them, while other threads may go on.
+
+        Parameters
+        ----------
+        steps : int
+            How many.
+        at_once : int, optional
+            How many of them an interrupt waits for.
 
         Returns
         -------
@@ -227,10 +236,18 @@ class Rodas:
         times, y, _ = self._steps
         if kept := self.progress.kept:
             self._last = times[kept - 1], y[kept - 1].copy()
-        end = End(self._library.ac_rodas_go(self._memory, steps, byref(self.progress)))
+        end = apart(lambda: self._go(steps, at_once))
         if end == End.MEMORY:
             raise MemoryError
         return end
+
+    def _go(self, steps: int, at_once: int) -> End:
+        while True:
+            end = End(self._library.ac_rodas_go(self._memory, min(steps, at_once), byref(self.progress)))
+            steps -= at_once
+            if end != End.MORE or steps <= 0:
+                return end
+            Signals.raise_lost()
 
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:

@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from acausal.cli import app
+from acausal.compiler import report
 from tests.shared import CONTRACT
 
 
@@ -82,6 +83,17 @@ def test_check_finds_what_only_ranks_tell():
     (loop,) = json.loads(run("check", "bricard", "--json", "-").stdout)["loops"]
     assert (loop["kind"], loop["redundant"], loop["redundant_by_rank"]) == ("loop", 1, 1)
     assert sorted(loop["parts"]) == [f"joint[{k}]" for k in range(6)]
+
+
+@pytest.mark.parametrize(
+    ("why", "line"),
+    [("", "the core"), ("it was not built", "CasADi, which takes longer than the core: it was not built")],
+)
+def test_check_tells_what_integrates(monkeypatch, why, line):
+    monkeypatch.setattr(report, "why_not", lambda: why)
+    done = run("check", "simple-pendulum", "--json", "-")
+    assert f"  integrator    {line}\n" in done.stderr
+    assert json.loads(done.stdout)["core_missing"] == why
 
 
 def test_linearize_has_a_state_for_each_freedom():

@@ -11,6 +11,9 @@
 #define AC_PUBLIC __attribute__((visibility("default")))
 #endif
 
+/* What tells the sources that this was compiled from, and their layouts, from others. */
+AC_PUBLIC const char *ac_version(void);
+
 /* What an operation does to x and y; the numbers are part of the file format. */
 enum {
     AC_ADD, AC_SUB, AC_MUL, AC_DIV, AC_NEG, AC_SQ, AC_TWICE, AC_INV, AC_SQRT, AC_SIN, AC_COS, AC_TAN, AC_ASIN, AC_ACOS,

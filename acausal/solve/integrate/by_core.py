@@ -32,7 +32,7 @@ class ByCore(Integration):
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
         self._wary = bool(problem.compiled.constraints.size) and not damps
-        self.ended = False
+        self.ended, self._keeps = False, self._wary or request.curves
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -41,7 +41,7 @@ class ByCore(Integration):
             first_step=min(request.first_step, request.span) or first_step(request) * request.span,
             rate=are_rates(problem),
             smooth=not damps,
-            room=POLICY.calls.steps if self._wary or request.curves else 0,
+            room=POLICY.calls.steps if self._keeps else 0,
             curves=request.curves,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
         )
@@ -56,12 +56,13 @@ class ByCore(Integration):
         """Integrate to the end, or as far as possible."""
         refusal = None
         while not (refusal or self.ended):
-            refusal = self.advance(POLICY.calls.steps if self._wary else self._at_once)
+            refusal = self.advance(POLICY.calls.steps if self._wary else 2**62)
         return refusal
 
     def advance(self, steps: int) -> Refusal | None:
-        """Take some steps at most, refused ones among them, and no more than take some hundredths of a second."""
-        end, time = self._rodas.go(min(steps, self._at_once)), self._rodas.progress.time
+        """Take some steps at most, refused ones among them; where they are kept, as many as take some hundredths of a second."""
+        steps = min(steps, self._at_once) if self._keeps else steps
+        end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
         if self._wary and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
             return Refusal(Kind.FLAT, time)

@@ -72,11 +72,12 @@ def chosen(method: str, max_order: int | None = None) -> tuple[str, ...]:
 
 def why_first(method: str, max_order: int | None) -> str:
     """Say why the first of the methods is taken first."""
+    why = why_not()
     if method != "auto":
-        return "given"
+        return f"given; by CasADi, as the core is missing: {why}" if why and method == "rosenbrock" else "given"
     if max_order is not None:
         return "idas, whose order has a limit, as one is given"
-    if why := why_not():
+    if why:
         return f"idas, as the core is missing: {why}"
     return "rosenbrock takes less time at equal error"
 
