@@ -50,6 +50,7 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
     return Watch(stated, Rowwise(function), compiled.dependence.inside(column))
 
 
+@once
 def _validity(compiled: CompiledModel) -> list[Stated]:
     return statements(compiled.tree, "validity", (Expectation, Separation))
 
