@@ -141,6 +141,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
     settings = Settings(
         nominal=problem.nominal,
         tolerance=task.tolerance,
+        outputs=task.intervals,
         max_order=max_order,
         energy=task.energy,
         progress=task.progress,

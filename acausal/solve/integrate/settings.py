@@ -25,6 +25,8 @@ class Settings:
         Sizes of states and algebraic unknowns.
     tolerance : float
         Relative tolerance.
+    outputs : int
+        Output intervals of the whole run.
     max_order : int
         Limit of the order of the multistep method.
     energy : bool
@@ -43,6 +45,7 @@ class Settings:
 
     nominal: np.ndarray
     tolerance: float
+    outputs: int
     max_order: int
     energy: bool
     methods: tuple[str, ...]
@@ -78,5 +81,5 @@ class Settings:
         if way.method == self.methods[-1] or not self.may_ring(times):
             return max(RESCUE.fewest_long, RESCUE.long // n)
         if way.method == "following":
-            return max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / n))
+            return max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))
         return max(RESCUE.fewest_short, RESCUE.short // n)
