@@ -45,11 +45,12 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
         return _found(problem, time, later, initial)
     # Equal to the last bit, as numbers are not: 0 and -0 are.
     numbers = np.array([problem.feedback, time, later, *problem.p])
-    return _kept(problem.compiled, numbers.tobytes(), initial)
+    return kept(problem.compiled, numbers.tobytes(), initial)
 
 
 @latest
-def _kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
+def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
+    """Return the beginning of runs with the same feedback, start time, first instant and parameters, given as bytes."""
     (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
     found = _found(Problem(compiled, p, float(feedback)), float(time), float(later), initial)
     # Two runs share it.

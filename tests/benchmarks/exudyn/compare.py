@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import acausal as ac
+from tests.benchmarks.anew import run_anew
 from tests.benchmarks.exudyn.cable import Outputs, Run, simulate
 from tests.benchmarks.exudyn.scenes import INTERVALS, Curve, Scene
 
@@ -92,7 +93,7 @@ def ours(scene: Scene, curve: Curve, exact: Outputs, repeats: int) -> list[Point
         how = {"tolerance": tolerance, "intervals": INTERVALS, "method": curve.method}
         try:
             runs = [
-                _timed(lambda how=how: ac.simulate(compiled, stop_time=model.stop_time, **how)) for _ in range(repeats)
+                _timed(lambda how=how: run_anew(compiled, stop_time=model.stop_time, **how)) for _ in range(repeats)
             ]
         except ac.AcausalError as error:
             print(f"{scene.name}, {curve.name}, {tolerance:g}: {str(error).partition(chr(10))[0]}")

@@ -1,0 +1,14 @@
+"""Runs that begin anew: a compiled model keeps where its last run began, for the next one with equal parameters."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import acausal as ac
+from acausal.solve.beginning import kept
+
+
+def run_anew(compiled: ac.CompiledModel, **how: Any) -> ac.Result:
+    """Simulate as if no run had been before; what was compiled for runs stays."""
+    compiled.kept.pop(vars(kept)["__wrapped__"], None)
+    return ac.simulate(compiled, **how)
