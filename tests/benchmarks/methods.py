@@ -1,6 +1,6 @@
 """Every scene with the core's method, with IDAS and with what "auto" takes: errors and processor times in one run.
 
-python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7]
+python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7] [--markdown]
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from rich import box
 from rich.console import Console
 from rich.table import Table
 
@@ -111,6 +112,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenes", nargs="*", default=list(models.SCENES))
     parser.add_argument("--tolerances", default="1e-3,1e-5,1e-7")
+    parser.add_argument("--markdown", action="store_true", help="table in Markdown")
     given = parser.parse_args()
     head = (
         "scene",
@@ -119,7 +121,7 @@ def main() -> None:
         "taken",
         "misses",
     )
-    table = Table(*head, caption=LEGEND)
+    table = Table(*head, box=box.MARKDOWN if given.markdown else box.HEAVY_HEAD)
     cells = missed = 0
     for scene in given.scenes:
         for row in runs(scene, [float(t) for t in given.tolerances.split(",")]):
@@ -127,7 +129,7 @@ def main() -> None:
             cells, missed = cells + 1, missed + bool(missing)
             values = [text for r in row for text in (f"{r.error:.1e}", f"{1e3 * r.seconds:.0f}", f"{r.steps:,}")]
             table.add_row(scene, f"{row[0].tolerance:g}", *values, row[-1].used, missing)
-    Console(width=220).print(table)
+    Console(width=220).print(table, LEGEND)
     print(f"{cells - missed} of {cells} cells keep what auto promises")
 
 
