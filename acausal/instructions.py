@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+OUTPUT, INPUT, CONSTANT = ca.OP_OUTPUT, ca.OP_INPUT, ca.OP_CONST
+
 
 @dataclass(frozen=True)
 class Instructions:
@@ -40,19 +42,23 @@ def read_instructions(function: ca.Function) -> Instructions:
     function : casadi.Function
         Made from SX.
     """
+    every = range(function.n_instructions())
+    asked = (function.instruction_id, function.instruction_input, function.instruction_output)
     slot: dict[int, int] = {}
     read = Instructions([], [], [], {}, [[-1] * function.nnz_out(k) for k in range(function.n_out())])
-    kind, taken, given = function.instruction_id, function.instruction_input, function.instruction_output
-    for k in range(function.n_instructions()):
-        op, inputs, outputs = kind(k), taken(k), given(k)
-        if op == ca.OP_OUTPUT:
+    for k, op, inputs, outputs in zip(every, *(map(what, every) for what in asked), strict=True):
+        node, arguments, constant = len(read.op), (), 0.0
+        if op == OUTPUT:
             read.results[outputs[0]][outputs[1]] = slot[inputs[0]]
             continue
-        node, leaf = len(read.op), op in (ca.OP_INPUT, ca.OP_CONST)
-        if op == ca.OP_INPUT:
+        if op == INPUT:
             read.place[node] = inputs[0], inputs[1]
+        elif op == CONSTANT:
+            constant = function.instruction_constant(k)
+        else:
+            arguments = tuple([slot[i] for i in inputs])
         read.op.append(op)
-        read.arguments.append(() if leaf else tuple([slot[i] for i in inputs]))
-        read.constant.append(function.instruction_constant(k) if op == ca.OP_CONST else 0.0)
+        read.arguments.append(arguments)
+        read.constant.append(constant)
         slot[outputs[0]] = node
     return read

@@ -14,6 +14,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.core.library import TapeData, loaded
+from acausal.garbage import uncollected
 from acausal.instructions import Instructions, read_instructions
 
 # In the order of `core.h`: the numbers are part of the file format.
@@ -134,7 +135,11 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
     early : collection of int
         Arguments that change rarely: what follows from them alone stands in front.
     """
-    read = _merged(read_instructions(function))
+    with uncollected():
+        return _made(_merged(read_instructions(function)), function, set(early))
+
+
+def _made(read: Instructions, function: ca.Function, early: set[int]) -> Tape:
     sizes = tuple(function.nnz_in(k) for k in range(function.n_in()))
     starts = np.cumsum([0, *sizes])
     constant_places = [node for node, op in enumerate(read.op) if op == ca.OP_CONST]
@@ -142,7 +147,7 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
     seats[constant_places] = np.arange(len(constant_places))
     for node, (argument, element) in read.place.items():
         seats[node] = len(constant_places) + starts[argument] + element
-    order, kinds, lengths, early_runs = _grouped(read, set(early))
+    order, kinds, lengths, early_runs = _grouped(read, early)
     base = len(constant_places) + int(starts[-1])
     seats[order] = base + np.arange(len(order))
     first, second = (seats[[read.arguments[node][k] for node in order]].astype(np.int32) for k in (0, -1))
