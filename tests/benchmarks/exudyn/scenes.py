@@ -148,7 +148,7 @@ def _pendulum() -> Scene:
         _grid((5e-3, 2.5e-3, 1.25e-3, 6.25e-4, 2.5e-4, 1.25e-4, 5e-5), (0.6, 0.9), modified=True),
         (partial(pendulum.build, elements=20), Setting(1e-5, 0.95, modified=True, quadrature=0)),
         Curve("20 volumes, stiffened", fine, (1e-8,), stiff, "rosenbrock"),
-        3.0,
+        5.0,
     )
 
 
@@ -176,7 +176,7 @@ def _slider_crank() -> Scene:
         _grid((4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4), (0.6, 0.8), modified=True),
         (partial(slider_crank.build, crank_elements=12, rod_elements=32), Setting(2e-5, modified=True, quadrature=0)),
         Curve("6 elements, 4 volumes of 4, stiffened", fine, (1e-6,), stiff, "rosenbrock"),
-        2.0,
+        5.0,
     )
 
 
