@@ -118,11 +118,16 @@ class Ahead:
 
     def _refused(self, at: Point, end: float, march: March) -> Found:
         """Where to go on from when the core gave up."""
-        self._march, before = None, self.integrator.way.method
+        integrator, before = self.integrator, self.integrator.way.method
+        self._march, careful = None, integrator.settings.careful
         refusal = march.refusal or Refusal(Kind.OTHER, at.time)
         found = self._otherwise(at, self.stride.grid(at.time, end), refusal)
+        if not integrator.loops or found.leg or found.due is not None:
+            return found
+        if integrator.way.method == before != careful:
+            integrator.take(replace(integrator.way, method=careful), refusal)
         # Near a flat position of a loop no method can begin: another one takes the whole segment.
-        return Found(march.withdrawn()) if self.integrator.loops and self.integrator.way.method != before else found
+        return Found(march.withdrawn()) if integrator.way.method != before else found
 
     def _crossing(self, at: Point, leg: Leg) -> Crossing | None:
         """The first event in a leg; its rows are kept up to where a condition has no value."""
