@@ -1,0 +1,6 @@
+"""Models for other tools: files of the Functional Mock-up Interface."""
+
+from acausal.export.archive import check_fmu, source_names, write_fmu
+from acausal.export.description import Description, Variable
+
+__all__ = ["Description", "Variable", "check_fmu", "source_names", "write_fmu"]
