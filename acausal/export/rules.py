@@ -107,9 +107,11 @@ def _of_structure(description: Description) -> Iterator[str]:
 
 def _of_aliases(first: Variable, others: tuple[Variable, ...]) -> Iterator[str]:
     for other in others:
-        given = other.causality in GIVEN or (first.causality in GIVEN and other.causality != "local")
+        taken = first.causality in GIVEN and other.causality != "local"
+        # Importers count aliases of time as further independent variables.
+        taken |= other.causality in GIVEN or first.causality == "independent"
         varies = (other.causality, first.variability) not in INITIAL
-        if given or varies or (first.variability == "constant") != (other.variability == "constant"):
+        if taken or varies or (first.variability == "constant") != (other.variability == "constant"):
             kinds = [f"`{v.name}` ({v.causality}, {v.variability})" for v in (first, other)]
             yield f"{' and '.join(kinds)} cannot be one value"
         elif other.start not in (None, first.start):

@@ -239,6 +239,7 @@ def added(variable):
         (altered("load.m", name="mass.m"), "two variables are named `mass.m`"),
         (altered("time", name="t", causality="local"), "exactly one variable has to be the independent one"),
         (altered("drive.f", causality="output"), r"`force` \(input, continuous\) and `drive.f` \(output"),
+        (altered("drive.f", reference=0), r"`time` \(independent, continuous\) and `drive.f` \(local"),
         (altered("drive.f", causality="input", initial=None, start=0.0), "cannot be one value"),
         (
             added(Variable("w", 14, "output", "discrete", None, "", None)),
