@@ -26,8 +26,8 @@ def source_names() -> tuple[str, ...]:
     return tuple(sorted(path.name for path in SOURCE.glob("*.c")))
 
 
-def check_fmu(path: str | Path, fmi_version: int, platforms: Sequence[str]) -> None:
-    """Check before any work is done whether a model can be exported like this.
+def check_fmu(path: str | Path, fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
+    """Check before any work is done whether a model can be exported like this; return the platform of each folder.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def check_fmu(path: str | Path, fmi_version: int, platforms: Sequence[str]) -> N
     check_writable(path)
     if not str(path).lower().endswith(".fmu"):
         raise ExportError(f"cannot write {shown_name(path)}: importers want a name that ends in .fmu; append it.")
-    chosen(fmi_version, platforms)
+    return chosen(fmi_version, platforms)
 
 
 def write_fmu(
@@ -63,8 +63,8 @@ def write_fmu(
     ExportError
         If it cannot be written, or FMI does not allow what the description says.
     """
-    check_fmu(path, fmi_version, platforms)
-    files = _contents(description, model, fmi_version, chosen(fmi_version, platforms))
+    libraries = check_fmu(path, fmi_version, platforms)
+    files = _contents(description, model, fmi_version, libraries)
     with whole(path, "wb") as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in sorted(files):
             entry = zipfile.ZipInfo(name, TIME)

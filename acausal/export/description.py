@@ -143,6 +143,8 @@ def by_reference(description: Description) -> dict[int, tuple[Variable, ...]]:
 
 
 def _leading(alike: list[Variable]) -> tuple[Variable, ...]:
+    if len(alike) == 1:
+        return (alike[0],)
     first = max(alike, key=lambda variable: (variable.causality in GIVEN, variable.start is not None))
     return (_merged(first, alike), *(variable for variable in alike if variable is not first))
 
