@@ -1,5 +1,5 @@
 /* Algebraic unknowns on their equations, at many places, by Newton's method. */
-#include "core.h"
+#include "settle.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -7,12 +7,6 @@
 #include <string.h>
 
 #define MOST 30 /* iterations: from far away they converge slowly at first */
-
-struct ac_settler {
-    ac_square of;
-    ac_lu *lu;
-    double *w, *entries, *step; /* w: all the memory */
-};
 
 ac_settler *ac_settler_make(const ac_square *square) {
     ac_settler *s = calloc(1, sizeof *s);
