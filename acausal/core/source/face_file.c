@@ -7,6 +7,7 @@
 #include <string.h>
 
 #if defined(_WIN32)
+#define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #define WINDOWS 1
 #else

@@ -91,7 +91,7 @@ int ac_face_reset(ac_face *f, const char *call) {
 static int can_step(const ac_face *f, const char *call, double from, double size) {
     const double now = ac_time(f->engine), to = from + size, slack = SLACK * size;
     if (!(size > 0) || !isfinite(to)) ac_face_refuse(f, call, "from %.17g by %.17g is no step", from, size);
-    else if (fabs(from - now) > slack) ac_face_refuse(f, call, "the step begins at %.17g, the last one ended at %.17g", from, now);
+    else if (fabs(from - now) > slack) ac_face_refuse(f, call, "the step begins at %.17g, the last ended at %.17g", from, now);
     else if (to > f->stop + slack) ac_face_refuse(f, call, "the step ends at %.17g, after the stop time %.17g", to, f->stop);
     else if (f->waits) ac_face_refuse(f, call, "the event at %.17g has to be handled first", now);
     else return 1;
