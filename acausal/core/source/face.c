@@ -46,7 +46,7 @@ static int load(ac_face *f, const char *call, const char *token, const char *pat
     }
     const char *own = ac_unit_token(f->unit);
     if (!token || strcmp(token, own) != 0) {
-        ac_face_refuse(f, call, "%s is of model %s, not of %s", path, own, token ? token : "one without a token");
+        ac_face_refuse(f, call, "%s is of model %s, not of %s", path, own, token ? token : "no name");
         return 0;
     }
     f->engine = ac_instance_make(f->unit);
@@ -58,7 +58,7 @@ static int load(ac_face *f, const char *call, const char *token, const char *pat
 ac_face *ac_face_load(ac_face *f, const char *call, const char *token, const char *resources, int is_uri) {
     char *path = resources ? ac_face_path(resources, is_uri) : NULL;
     const int loaded = path && load(f, call, token, path);
-    if (!path) ac_face_refuse(f, call, "%s names no folder of this machine", resources ? resources : "nothing");
+    if (!path) ac_face_refuse(f, call, "'%s' names no folder of this machine", resources ? resources : "");
     free(path);
     if (loaded) return f;
     ac_face_free(f);

@@ -1,10 +1,17 @@
 /* The course of a run: times, initialisation, events, steps, and the values in between. */
 #include "face.h"
 
+#include <float.h>
 #include <math.h>
 
-/* Of a step: importers count times in their own way, and are wrong by rounding; by more they mean something else. */
+/* Importers count times in their own way: that is rounding. What is more than this part of a step is another time. */
 #define SLACK 1e-3
+#define ROUNDING (4 * DBL_EPSILON)
+
+/* The answer where nothing is tried elsewhere: the standard knows nothing that is discarded there. */
+static int must(ac_face *f, const char *call, int32_t end) {
+    return ac_face_answer(f, call, end == AC_RETRY ? AC_REFUSED : end);
+}
 
 /* Note the times of a run; tolerance 0 and stop nan: not given. */
 int ac_face_times(ac_face *f, const char *call, double tolerance, double start, double stop) {
@@ -19,7 +26,7 @@ int ac_face_times(ac_face *f, const char *call, double tolerance, double start, 
 int ac_face_begin(ac_face *f, const char *call) {
     if (!ac_face_in(f, call, AC_NEW)) return fmi3Error;
     if (!f->stated) return ac_face_refuse(f, call, "the start time has to be stated before");
-    const int answer = ac_face_answer(f, call, ac_begin(f->engine, f->start, f->stop, f->tolerance, f->simulates));
+    const int answer = must(f, call, ac_begin(f->engine, f->start, f->stop, f->tolerance, f->simulates));
     if (answer == fmi3OK) f->mode = AC_STARTING;
     return answer;
 }
@@ -27,7 +34,7 @@ int ac_face_begin(ac_face *f, const char *call) {
 /* All that happens at this instant. */
 static int happen(ac_face *f, const char *call, ac_happened *found) {
     *found = (ac_happened){0};
-    const int answer = ac_face_answer(f, call, ac_event(f->engine, found));
+    const int answer = must(f, call, ac_event(f->engine, found));
     if (answer != fmi3OK) return answer;
     f->ends = found->ends != 0;
     ac_face_log(f, AC_LOG_EVENTS, "event at %.17g%s%s", ac_time(f->engine), found->states ? ", states changed" : "",
@@ -35,8 +42,9 @@ static int happen(ac_face *f, const char *call, ac_happened *found) {
     return fmi3OK;
 }
 
+/* Some importers go on from an event that ends the simulation: they are told again in the next step. */
 static int leave(ac_face *f, const char *call) {
-    const int answer = ac_face_answer(f, call, ac_leave_event(f->engine));
+    const int answer = must(f, call, f->ends ? AC_OK : ac_leave_event(f->engine));
     if (answer == fmi3OK) f->mode = f->simulates ? AC_STEPPING : AC_CONTINUOUS;
     return answer;
 }
@@ -45,7 +53,7 @@ static int leave(ac_face *f, const char *call) {
 int ac_face_begun(ac_face *f, const char *call) {
     ac_happened found;
     if (!ac_face_in(f, call, AC_STARTING)) return fmi3Error;
-    int answer = ac_face_answer(f, call, ac_begun(f->engine));
+    int answer = must(f, call, ac_begun(f->engine));
     if (answer != fmi3OK) return answer;
     f->mode = AC_EVENT;
     if (!f->simulates || f->events) return fmi3OK;
@@ -62,7 +70,7 @@ int ac_face_enter_event(ac_face *f, const char *call) {
     if (f->simulates && !f->events) return ac_face_refuse(f, call, "events of this instance are handled in its steps");
     /* A step that found an event may have left the engine there. */
     const int32_t end = ac_phase(f->engine) == AC_AT_EVENT ? AC_OK : ac_enter_event(f->engine);
-    const int answer = ac_face_answer(f, call, end);
+    const int answer = must(f, call, end);
     if (answer == fmi3OK) f->mode = AC_EVENT, f->waits = 0;
     return answer;
 }
@@ -82,14 +90,14 @@ int ac_face_terminate(ac_face *f, const char *call) {
 
 int ac_face_reset(ac_face *f, const char *call) {
     if (!ac_face_in(f, call, AC_ANY)) return fmi3Error;
-    const int answer = ac_face_answer(f, call, ac_reset(f->engine));
+    const int answer = must(f, call, ac_reset(f->engine));
     if (answer == fmi3OK) f->mode = AC_NEW, f->stated = f->ends = f->waits = 0;
     return answer;
 }
 
 /* Whether a step is one that the instance can take now. */
 static int can_step(const ac_face *f, const char *call, double from, double size) {
-    const double now = ac_time(f->engine), to = from + size, slack = SLACK * size;
+    const double now = ac_time(f->engine), to = from + size, slack = SLACK * size + ROUNDING * fabs(now);
     if (!(size > 0) || !isfinite(to)) ac_face_refuse(f, call, "from %.17g by %.17g is no step", from, size);
     else if (fabs(from - now) > slack) ac_face_refuse(f, call, "the step begins at %.17g, the last ended at %.17g", from, now);
     else if (to > f->stop + slack) ac_face_refuse(f, call, "the step ends at %.17g, after the stop time %.17g", to, f->stop);
@@ -103,7 +111,7 @@ int ac_face_step(ac_face *f, const char *call, double from, double size, ac_step
     const double to = from + size > f->stop ? f->stop : from + size;
     double reached = ac_time(f->engine);
     int32_t event = 0;
-    if (!f->ends) {
+    if (!f->ends && to > reached) {
         const int answer = ac_face_answer(f, call, ac_step(f->engine, to, f->early, &reached, &event));
         if (answer != fmi3OK) {
             *done = (ac_stepped){.reached = ac_time(f->engine)};

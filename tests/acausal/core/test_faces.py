@@ -121,7 +121,7 @@ def test_what_names_no_folder_is_told(toy, location):
     found = Toy2(toy, location, EXCHANGE)
     assert not found.handle
     assert found.log == [
-        (ERROR, "logStatusError", f"fmi2Instantiate: {location} names no folder of this machine".replace("%", "%%"))
+        (ERROR, "logStatusError", f"fmi2Instantiate: '{location}' names no folder of this machine".replace("%", "%%"))
     ]
 
 

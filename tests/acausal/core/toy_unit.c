@@ -1,5 +1,5 @@
 /* An engine to try the faces with: x' = u - rate x, in closed form; where x falls to a half it jumps to 1.
-   Files hold "toy" and a token. References: time, x, its rate, rate, u, trouble. Trouble 1: other states wanted; 2: lost;
+   Files hold "toy" and a token. References: time, x, its rate, rate, u, trouble, x - a half. Trouble 1: other states wanted; 2: lost;
    3: steps end at their middle for good; 4: events end the simulation. */
 #include "unit.h"
 
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define HALF 0.5
-enum { TIME, X, SLOPE, RATE, U, TROUBLE, REFERENCES };
+enum { TIME, X, SLOPE, RATE, U, TROUBLE, INDICATOR, REFERENCES };
 
 struct ac_unit {
     char token[64];
@@ -71,7 +71,7 @@ static double slope(const ac_instance *i) { return i->value[U] - i->value[RATE] 
 int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *value) {
     for (size_t k = 0; k < count; k++) {
         if (reference[k] >= REFERENCES) return end(i, AC_REFUSED, "there is no such variable");
-        value[k] = reference[k] == SLOPE ? slope(i) : i->value[reference[k]];
+        value[k] = reference[k] == SLOPE ? slope(i) : reference[k] == INDICATOR ? i->value[X] - HALF : i->value[reference[k]];
     }
     return AC_OK;
 }
