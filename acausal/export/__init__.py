@@ -2,5 +2,6 @@
 
 from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.description import Description, Variable
+from acausal.export.export_fmu import export_fmu
 
-__all__ = ["Description", "Variable", "check_fmu", "source_names", "write_fmu"]
+__all__ = ["Description", "Variable", "check_fmu", "export_fmu", "source_names", "write_fmu"]
