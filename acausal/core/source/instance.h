@@ -43,6 +43,7 @@ struct ac_unit {
     const int32_t *jump;                    /* (jumps, 2): whether it is a state, and its place among these or discrete ones */
     const int32_t *close_start, *close_row; /* sparsity of the Jacobian of the constraints, in columns */
     const int32_t *closure;                 /* (constraints) closure that a constraint belongs to, or -1 */
+    const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
     const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
@@ -111,5 +112,6 @@ void ac_renew_inputs(ac_instance *i);
 double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
+int ac_is_flat(ac_instance *i);
 
 #endif
