@@ -45,6 +45,21 @@ def compiled(folder: Path, compiler: list[str], *options: str) -> Path:
     return path
 
 
+def caller(folder: Path, compiler: list[str], *options: str) -> Path:
+    """Compile the driver that calls them in any order."""
+    path, flags = folder / "calls", [flag for flag in FLAGS if flag not in ("-shared", "-fvisibility=hidden")]
+    given = [
+        *compiler,
+        *flags,
+        "-Werror",
+        *options,
+        f"-I{CORE / 'source'}",
+        *map(str, [HERE / "face_calls.c", *SOURCES]),
+    ]
+    subprocess.run([*given, "-lm", "-o", str(path)], check=True, capture_output=True, text=True)
+    return path
+
+
 def resources(folder: Path, content: bytes = b"toy " + TOKEN) -> Path:
     """Write a model's file into a folder."""
     (folder / "model.bin").write_bytes(content)
