@@ -133,9 +133,11 @@ class Toy2(Toy):
         given = has_tolerance, c_double(tolerance or 0), c_double(start), has_stop, c_double(stop or 0)
         return self.call("SetupExperiment", *given)
 
+    def enter(self, **times: float) -> int:
+        return self.times(**times) or self.call("EnterInitializationMode")
+
     def start(self, **times: float) -> None:
-        assert self.times(**times) == OK
-        self.right("EnterInitializationMode")
+        assert self.enter(**times) == OK
         self.right("ExitInitializationMode")
 
     def step(self, start: float, size: float) -> int:
