@@ -96,6 +96,7 @@ def export_fmu(
         stop_time=span,
         tolerance=tolerance,
         step_size=span / POLICY.defaults.intervals,
+        completes=bool(compiled.constraints.size),
         sources=source_names(),
     )
     write_fmu(path, description, content.bytes(token), fmi_version, platforms)

@@ -93,8 +93,7 @@ static void between(ac_instance *i, const ac_point *a, const ac_point *b, double
     i->now.time = a->time + s * h;
 }
 
-/* Whether loops pass a flat position between two points, which lie one step apart. The least value, which falls linearly on the way
-   to 0, may be there where it is less at one of them than it changes in between: it is looked for by golden sections. */
+/* Whether loops pass a flat position between two points, which lie one step apart: the least value is looked for by golden sections. */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     const ac_unit *u = i->of;
     const int32_t nx = ac_states(i);
@@ -106,8 +105,11 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     const double first = sharpness(i);
     between(i, a, b, 1);
     const double last = sharpness(i);
-    least = fmin(first, last);
-    if (isfinite(least) && least <= fabs(first - last) + FLAT) {
+    between(i, a, b, 0.5);
+    const double middle = sharpness(i);
+    least = fmin(middle, fmin(first, last));
+    /* It falls and rises about linearly: what passes 0 shows in a difference of the ends, or in the middle. */
+    if (isfinite(least) && (least <= fabs(first - last) + FLAT || middle < fmin(first, last))) {
         for (int k = 0; k < 24 && least > FLAT; k++) {
             const double s = to - part * (to - from), t = from + part * (to - from);
             between(i, a, b, s);
@@ -122,4 +124,19 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     memcpy(i->x, kept, (size_t)nx * sizeof *kept);
     i->now.time = time;
     return least <= FLAT;
+}
+
+/* In Model Exchange: whether loops passed a flat position since the last point that was kept, which the present follows. */
+int32_t ac_completed(ac_instance *i) {
+    const size_t size = (size_t)ac_states(i) * sizeof(double);
+    if (!i->of->levels || !size) return AC_OK;
+    const int32_t failed = ac_know(i, AC_RATE);
+    if (failed) return failed;
+    const ac_point a = {i->now.from, i->before, i->after}, b = {i->now.time, i->dense, i->rate};
+    memcpy(i->dense, i->x, size); /* the search moves x */
+    if (i->now.curved && ac_flat(i, &a, &b)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+    memcpy(i->before, i->x, size);
+    memcpy(i->after, i->rate, size);
+    i->now.from = i->now.time, i->now.curved = 1;
+    return AC_OK;
 }

@@ -139,6 +139,11 @@ int32_t ac_get_states(ac_instance *i, double *x) {
     return AC_OK;
 }
 
+int32_t ac_completed(ac_instance *i) {
+    (void)i;
+    return AC_OK;
+}
+
 int32_t ac_get_rates(ac_instance *i, double *rate) {
     *rate = slope(i);
     return trouble(i);
