@@ -79,7 +79,7 @@ class Consistent:
         c, at = self.compiled, self.problem.point(rows, k)
         local = self.problem.local(at)
         own = c.nx + (np.arange(c.nz) if equations is None else equations)
-        sizes = terms(local.jacobian, at.y, c.nominal)[own]
+        sizes = terms(local, at.y, c.nominal)[own]
         return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
 
     def _sizes(self, rows: Rows, unknowns: np.ndarray, equations: np.ndarray) -> np.ndarray:
