@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.report import loops_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
@@ -199,13 +200,13 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled = integrator.compiled
-    report = compiled.report_at(done.begun.found(compiled))
+    found = done.begun.found(compiled)
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
     return Statistics(
-        equations_flat=report["equations_flat"],
-        equations_reduced=report["equations_reduced"],
+        equations_flat=compiled.reduced.flat.counts["equations_flat"],
+        equations_reduced=compiled.nx + compiled.nz,
         states=compiled.nx,
         algebraic=compiled.nz,
         compile_seconds=sum(compiled.seconds.values()) + trace.building,
@@ -229,8 +230,8 @@ def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
         break_times=plan.breaks,
         events=len(done.course.events),
         event_times=done.course.events,
-        loops=report["loops"],
-        independent_states=report["independent_states"],
+        loops=loops_at(compiled.reduced, found),
+        independent_states=list(found.independent),
     )
 
 
