@@ -81,7 +81,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
-    result = _result(done, plan, replace(_counted(done, plan, task), solve_seconds=seconds), task.energy)
+    result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)
     if met:
         raise SimulationError(met.text, result)
     if done.failure is not None:
@@ -197,7 +197,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     return found
 
 
-def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
+def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled = integrator.compiled
     found = done.begun.found(compiled)
@@ -210,6 +210,7 @@ def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
         states=compiled.nx,
         algebraic=compiled.nz,
         compile_seconds=sum(compiled.seconds.values()) + trace.building,
+        solve_seconds=seconds,
         integration_seconds=trace.seconds,
         steps=trace.steps,
         factorisations=trace.factorisations,

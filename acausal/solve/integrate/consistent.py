@@ -36,16 +36,31 @@ class _Needed:
         Places among all of the model.
     key : tuple of int
         The unknowns.
-    rows, columns, entries : arrays of int
-        Equation, counted from the first of the model, unknown, counted from the first of these, and place of each entry.
+    rows, entries : arrays of int
+        Equation, counted from the first of the model, and place of each entry, column by column.
+    first, columns : arrays of int
+        Where the entries of each unknown begin, and these unknowns, counted from the first: some have none.
     """
 
     unknowns: np.ndarray
     equations: np.ndarray
     key: tuple[int, ...]
     rows: np.ndarray
-    columns: np.ndarray
     entries: np.ndarray
+    first: np.ndarray
+    columns: np.ndarray
+
+    def changes(self, problem: Problem, rows: Rows, k: int) -> np.ndarray:
+        """Change of each unknown, in one of some rows, that changes an equation by as much as its terms; 0 if none does."""
+        x, z = rows.x[k], rows.z[k]
+        local = problem.compiled.at(x, z, problem.p, rows.times[k], rows.constants[k], 0.0)
+        terms = local.magnitudes(np.abs(np.concatenate([x, z])))[self.rows]
+        found = np.zeros(len(self.unknowns))
+        if self.entries.size:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                least = np.fmin.reduceat(terms / np.abs(local.entries[self.entries]), self.first)
+            found[self.columns] = np.where(np.isfinite(least), least, 0.0)
+        return found
 
 
 @once
@@ -59,8 +74,8 @@ def _needed(compiled: CompiledModel, wanted: frozenset[int] | None) -> _Needed:
 def _solved(compiled: CompiledModel, key: tuple[int, ...]) -> _Needed:
     unknowns, equations = compiled.dependence.needed(key)
     part = part_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)
-    row, column = part.places
-    return _Needed(unknowns, equations, key, part.rows[row], column, part.entries)
+    columns, first = np.unique(part.places[1], return_index=True)
+    return _Needed(unknowns, equations, key, part.rows[part.places[0]], part.entries, first, columns)
 
 
 class Consistent:
@@ -125,16 +140,9 @@ class Consistent:
         """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
         c, unknowns = self.compiled, needed.unknowns
         if needed not in self._natural or len(rows) > CONSISTENT.many:
-            size = np.zeros(c.nz)
-            for k in spread(len(rows), CONSISTENT.looks):
-                at = self.problem.point(rows, k)
-                local = self.problem.local(at)
-                terms = local.magnitudes(np.abs(at.y))[needed.rows]
-                here = np.full(len(unknowns), np.inf)
-                with np.errstate(divide="ignore", invalid="ignore"):
-                    np.fmin.at(here, needed.columns, terms / np.abs(local.entries[needed.entries]))
-                size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
-            self._natural[needed] = size
+            found = [needed.changes(self.problem, rows, k) for k in spread(len(rows), CONSISTENT.looks)]
+            self._natural[needed] = np.zeros(c.nz)
+            self._natural[needed][unknowns] = np.max(found, axis=0)
         size = np.maximum(self._natural[needed], np.max(np.abs(rows.z), axis=0))
         nominal = c.nominal[c.nx :]
         return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
