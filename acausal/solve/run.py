@@ -167,7 +167,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
             if isinstance(failure, Failure) and failure.kind is Kind.ERROR_TEST:
                 # Values that grow without end are known up to a time that is as uncertain as the tolerance says.
                 integrator.trace.cut(failure.time - task.tolerance * span)
-        fitting = smaller_sizes(problem, integrator.trace.rows(at).x, settings.nominal, task.tolerance, span)
+        fitting = smaller_sizes(problem, integrator.trace.states(at), settings.nominal, task.tolerance, span)
         if fitting is None:
             break
         settings, counts = replace(settings, nominal=fitting), integrator.trace

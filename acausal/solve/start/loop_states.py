@@ -75,7 +75,7 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     rates, coordinates = left.own.rows, left.own.columns
     stiffness = np.zeros(problem.nx)
     with suppress(RuntimeError):  # singular: nothing is stiff
-        slopes = left.diagonal(problem.local(at).jacobian.data)
+        slopes = left.diagonal(problem.local(at).entries)
         stiffness[coordinates] = stiffness[rates] = np.abs(slopes)
     return stiffness
 
