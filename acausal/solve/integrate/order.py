@@ -48,7 +48,8 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
 
     fast = _dominant(rate, nx)
     shift = ORDER.shift * float(np.max(np.abs(fast), initial=problem.feedback))
-    diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
+    ends = np.minimum(np.arange(nx + nz + 1), nx)
+    diagonal = scipy.sparse.csc_matrix((np.full(nx, shift), np.arange(nx), ends), shape=J.shape)
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
     def inverse(v: np.ndarray) -> np.ndarray:

@@ -47,9 +47,9 @@ class Trace:
         """Return all rows, the point of the start before them."""
         return Rows.joined([Rows.of(first), *(piece.rows for piece in self.pieces)])
 
-    def states(self, first: Point) -> np.ndarray:
-        """Return the states of all rows."""
-        return np.concatenate([first.x[None], *(piece.rows.x for piece in self.pieces)])
+    def states(self, first: Point) -> list[np.ndarray]:
+        """Return the states of all rows, piece by piece."""
+        return [first.x[None], *(piece.rows.x for piece in self.pieces)]
 
     @property
     def energy(self) -> np.ndarray:

@@ -87,7 +87,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         else:
             local = problem.local(at, 1.0)
             system = _system(problem, local, initial)
-            at = _direct_values(problem, system.direct, at, local)
+            at = _direct_values(problem, system.given, at, local)
         try:
             at = _solve(problem, system, at)
         except InitializationError:
@@ -159,18 +159,16 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     first = {state: row for row, state in reversed(_giving(compiled).items())}
     direct = {row: state for state, row in first.items()}
     if direct:
-        at = _direct_values(problem, tuple(direct.items()), at, problem.local(at, 1.0))
+        at = _direct_values(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
     if not compiled.constraints.size:
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
     return problem.completed(at), redundancy, direct
 
 
-def _direct_values(problem: Problem, direct: tuple[tuple[int, int], ...], at: Point, local: Local) -> Point:
-    """Give states the values that conditions state for them; `local` is the initial system at the point."""
-    if not direct:
-        return at
-    rows, states = np.array(direct).T + np.array([[problem.nx], [0]])
+def _direct_values(problem: Problem, direct: np.ndarray, at: Point, local: Local) -> Point:
+    """Give states the values that conditions state for them, see `InitialSystem.given`; `local` is the initial system there."""
+    rows, states = direct[0] + problem.nx, direct[1]
     x = at.x.copy()
     x[states] -= local.value[rows] / local.entries[_last_entries(problem.compiled)[rows]]
     return replace(at, x=x)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -52,6 +53,11 @@ class InitialSystem:
     known: np.ndarray
     direct: tuple[tuple[int, int], ...] = ()
     _blocks: list[Part] = field(default_factory=list, repr=False)
+
+    @cached_property
+    def given(self) -> np.ndarray:
+        """The rows of `direct`, and their states, shape (2, n)."""
+        return np.array(self.direct, dtype=int).reshape(-1, 2).T
 
     def block(self, J: scipy.sparse.csc_matrix, first: int) -> Part:
         """Its part of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
