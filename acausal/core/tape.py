@@ -167,24 +167,23 @@ def _merged(read: Instructions) -> Instructions:
     known: dict[Any, int] = {}
     found = Instructions([], [], {}, {}, [])
     for node, (op, arguments) in enumerate(zip(read.op, read.arguments, strict=True)):
-        own = [place[k] for k in arguments]
-        if own:
+        if arguments:
+            own = [place[k] for k in arguments]
             key = op, own[0], own[-1]
         elif node in read.place:
-            key = read.place[node]
+            own, key = (), read.place[node]
         else:  # zeros of both signs are equal
-            key = read.constant[node], copysign(1.0, read.constant[node]), op
-        here = known.setdefault(key, len(found.op))
-        place.append(here)
-        if here < len(found.op):
-            continue
-        if not own:
+            own, key = (), (op, copysign(1.0, read.constant[node]), read.constant[node])
+        here = known.get(key)
+        if here is None:
+            known[key] = here = len(found.op)
+            found.op.append(op)
+            found.arguments.append(own)
             if node in read.place:
                 found.place[here] = read.place[node]
-            else:
+            elif not own:
                 found.constant[here] = read.constant[node]
-        found.op.append(op)
-        found.arguments.append(own)
+        place.append(here)
     return replace(found, results=[[place[node] for node in nodes] for nodes in read.results])
 
 
