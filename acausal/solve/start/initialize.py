@@ -17,6 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.complete import closed_guess, ranked
+from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.opponents import opponents
@@ -87,7 +88,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         else:
             local = problem.local(at, 1.0)
             system = _system(problem, local, initial)
-            at = _direct_values(problem, system.given, at, local)
+            at = with_direct(problem, system.given, at, local)
         try:
             at = _solve(problem, system, at)
         except InitializationError:
@@ -159,28 +160,11 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     first = {state: row for row, state in reversed(_giving(compiled).items())}
     direct = {row: state for state, row in first.items()}
     if direct:
-        at = _direct_values(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
+        at = with_direct(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
     if not compiled.constraints.size:
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
     return problem.completed(at), redundancy, direct
-
-
-def _direct_values(problem: Problem, direct: np.ndarray, at: Point, local: Local) -> Point:
-    """Give states the values that conditions state for them, see `InitialSystem.given`; `local` is the initial system there."""
-    rows, states = direct[0] + problem.nx, direct[1]
-    x = at.x.copy()
-    x[states] -= local.value[rows] / local.entries[_last_entries(problem.compiled)[rows]]
-    return replace(at, x=x)
-
-
-@once
-def _last_entries(compiled: CompiledModel) -> np.ndarray:
-    """Place of the last entry of each row of the Jacobian; of the only one in the rows of conditions that give a state."""
-    J = compiled.pattern
-    last = np.full(J.shape[0], -1)
-    last[J.indices] = np.arange(J.nnz)
-    return last
 
 
 @once
