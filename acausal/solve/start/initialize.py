@@ -117,7 +117,7 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
         As of `initialize`; in equilibrium derivatives take part as conditions.
     """
     if not problem.compiled.constraints.size and initial != "steady":
-        return _system(problem, at, initial)
+        return _system(problem, problem.local(at, 1.0), initial)
     first = {state: row for row, state in reversed(_giving(problem.compiled).items())}
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial)
 
