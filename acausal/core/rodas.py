@@ -14,6 +14,7 @@ import numpy as np
 from acausal.core.curve import Curve
 from acausal.core.library import EquationsData, Progress, RequestData, loaded
 from acausal.core.tape import Tape, make_tape
+from acausal.instructions import READABLE
 from acausal.locks import apart
 from acausal.signals import Signals
 from acausal.symbols import dense
@@ -105,7 +106,7 @@ def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX)
 
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
-    return make_tape(ca.Function(name, list(arguments), [dense(column)]), early=(3, 4))
+    return make_tape(ca.Function(name, list(arguments), [dense(column)], READABLE), early=(3, 4))
 
 
 def _address(array: np.ndarray | None) -> int | None:
