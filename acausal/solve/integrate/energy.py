@@ -160,13 +160,13 @@ def _exchanged(solver: Consistent, rows: Rows) -> float:
 
 
 def _slopes(solver: Consistent, rows: Rows) -> np.ndarray:
-    """Slopes of the states at consistent rows: those of splines through them, or the rates where there are two alone.
+    """Slopes of the states at consistent rows: those of splines of order 5 through them, or the rates of a few rows.
 
     What is stiff makes more of an interpolant's errors in its rates: stiff dampers would waste what is not there.
     """
-    if len(rows) == 2:
+    if len(rows) < 6:
         return solver.rates(rows)
-    return scipy.interpolate.CubicSpline(rows.times, rows.x)(rows.times, 1)
+    return scipy.interpolate.make_interp_spline(rows.times, rows.x, 5)(rows.times, 1)
 
 
 def _inside(rows: Rows, slopes: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
