@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem, by_columns
 from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text, worst_lines
@@ -129,7 +129,33 @@ def _damped(
 def algebraic(problem: Problem, at: Point) -> Point:
     """Solve for the algebraic unknowns, with the states as they are."""
     system = InitialSystem(np.arange(problem.nz), np.empty(0, int), np.arange(problem.nx))
-    return newton(problem, system, at, 0.0)
+    try:
+        return newton(problem, system, at, 0.0)
+    except Lost:
+        found = _by_parts(problem, at)
+        if found is None:
+            raise
+        return found
+
+
+def _by_parts(problem: Problem, at: Point) -> Point | None:
+    """Solve for them part after part; None where that does not solve the equations.
+
+    At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
+    each of them alone. In one matrix that is d^4, which is less than rounding.
+    """
+    for step in problem.compiled.passes(tuple(range(problem.nz))):
+        for _ in range(1 if step.linear else NEWTON.iterations):
+            z, own = at.z.copy(), step.unknowns
+            z[own] = problem.each(step.function, Rows.of(at))[0]
+            change = np.abs(z - at.z)[own] / (problem.nominal[problem.nx + own] + np.abs(z[own]))
+            at = replace(at, z=z)
+            if not np.max(change) > NEWTON.converged:
+                break
+    J = problem.local(at).jacobian
+    own = slice(problem.nx, problem.nx + problem.nz)
+    solved = np.abs(problem.values(at)[own]) <= rounding(J, at.y, problem.nominal)[own]
+    return at if np.all(solved) else None
 
 
 def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
