@@ -9,7 +9,6 @@ from acausal.policy import POLICY
 from acausal.solve.looks import spread
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import levels_of
-from acausal.solve.start.rank import scaled
 
 
 def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
@@ -35,7 +34,17 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
         on = counts[part.rows]
         if not on.any():
             continue
-        least = np.linalg.svd(scaled(part.dense(held)[:, on]), compute_uv=False)[:, -1]
+        alike = _alike(part.dense(held)[:, on], c.kinds[part.rows[on]])
+        least = np.linalg.svd(alike, compute_uv=False)[:, -1]
         if np.any(np.minimum(least[1:], least[:-1]) <= np.abs(np.diff(least))):
             return True
     return False
+
+
+def _alike(rows: np.ndarray, kinds: np.ndarray) -> np.ndarray:
+    """Rows of many matrices over the greatest length of those of one kind: of one that vanishes, no direction would be left."""
+    size = np.linalg.norm(rows, axis=-1, keepdims=True)
+    for kind in np.unique(kinds):
+        same = kinds == kind
+        size[:, same] = np.max(size[:, same], axis=1, keepdims=True)
+    return rows / np.where(size > 0, size, 1.0)
