@@ -6,6 +6,7 @@ Only units of scale 1 are accepted: values are always given in SI, and an angle 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from math import pi, prod
@@ -148,10 +149,25 @@ def parse(text: str) -> Dimension:
     DeclarationError
         If the unit is unknown, not of scale 1, or ambiguous.
     """
+    dimension = DIMENSIONLESS
+    for symbol, power in factors(text):
+        dimension = dimension * _SYMBOLS[symbol] ** power
+    return dimension
+
+
+def factors(text: str) -> Iterator[tuple[str, Exponent]]:
+    """Return the symbols of a unit with their powers, negative below the slash: rad among them, which has no dimension.
+
+    Parameters
+    ----------
+    text : str
+        As `parse` takes it, which refuses the same.
+    """
     if text and text.isspace():
         raise DeclarationError('the unit is blank: write "1" for a pure number.')
     above, *below = _SLASH.split(text.replace("**", "^").strip())
-    dimension = _parse_product(above, text) if above else DIMENSIONLESS
+    if above:
+        yield from _factors_of_product(above, text)
     for divisor in map(str.strip, below):
         if divisor.startswith("(") and divisor.endswith(")"):
             divisor = divisor[1:-1]
@@ -159,14 +175,13 @@ def parse(text: str) -> Dimension:
             raise DeclarationError(
                 f'unit "{text}" is ambiguous after "/": write "/({divisor})" to divide by all of it.'
             )
-        dimension = dimension / _parse_product(divisor, text)
+        for symbol, power in _factors_of_product(divisor, text):
+            yield symbol, -power
     if below and not above:
         raise DeclarationError(f'unit "{text}" has nothing before "/": write "1{text.strip()}".')
-    return dimension
 
 
-def _parse_product(product: str, text: str) -> Dimension:
-    dimension = DIMENSIONLESS
+def _factors_of_product(product: str, text: str) -> Iterator[tuple[str, Exponent]]:
     for factor in _PRODUCT.split(product.strip()):
         if factor == "1":
             continue
@@ -176,9 +191,7 @@ def _parse_product(product: str, text: str) -> Dimension:
         symbol, integer, fraction = match.groups()
         if symbol not in _SYMBOLS:
             raise _unknown(symbol, text)
-        power = Fraction(fraction) if fraction else int(integer or 1)
-        dimension = dimension * _SYMBOLS[symbol] ** power
-    return dimension
+        yield symbol, Fraction(fraction) if fraction else int(integer or 1)
 
 
 def in_si(text: str) -> float | None:

@@ -1,6 +1,6 @@
 """The `acausal` command."""
 
-from acausal.cli import effects, study
+from acausal.cli import effects, export, study
 from acausal.cli.app import app, main
 
-__all__ = ["app", "effects", "main", "study"]
+__all__ = ["app", "effects", "export", "main", "study"]

@@ -30,8 +30,12 @@ class Guards:
 
     Attributes
     ----------
+    excess : casadi.SX
+        Excess of each guard, in x, z, parameters, time and constants.
     timed : list of int
         Guards that compare time and parameters and nothing else: their instants are found before.
+    bent : list of int
+        Those of them with a comparison that is not linear in time.
     watched : list of int
         All others.
     n_switches, n_discretes : int
@@ -44,9 +48,9 @@ class Guards:
         self._dependence = reduced.dependence
         self.n_switches, self.n_discretes = len(changing.switches), len(changing.discretes)
         self.arguments = [reduced.x, reduced.z, reduced.p, time.sx, reduced.constants]
-        self._excess = self._resolve([g.excess for g in self.guards])
+        self.excess = self._resolve([g.excess for g in self.guards])
         known = {s.element_hash() for s in scalars(ca.vertcat(*self.arguments))}
-        for guard, excess in zip(self.guards, scalars(self._excess), strict=True):
+        for guard, excess in zip(self.guards, scalars(self.excess), strict=True):
             if any(s.element_hash() not in known for s in ca.symvar(excess)):
                 raise DeclarationError(
                     f"{guard.origin}: the condition holds a derivative that no equation has. Declare a variable for "
@@ -54,12 +58,14 @@ class Guards:
                 )
         decided, bent, compared = by_clock(reduced, [g.condition for g in self.guards])
         self.timed, rows, row = list[int](), list[tuple[int, bool, Origin]](), 0
+        self.bent = list[int]()
         self._open = list[tuple[int, int, bool]]()  # comparisons of watched guards: row, guard, inclusive
         for k, guard in enumerate(self.guards):
             kinds = [part.kind == "<=" for part in guard.condition.comparisons]
             own = range(row, row := row + len(kinds))
             if all(decided[r] for r in own):
                 self.timed.append(k)
+                self.bent += [k] * any(bent[r] for r in own)
                 rows += [(r, inclusive, guard.origin) for r, inclusive in zip(own, kinds, strict=True)]
             else:
                 self._open += [(r, k, inclusive) for r, inclusive in zip(own, kinds, strict=True)]
@@ -99,7 +105,7 @@ class Guards:
         near, excess = ca.SX.sym("near"), self._all[self._decided]
         reach = ca.fabs(ca.jtimes(excess, time.sx, ca.SX(1))) * near
         parts = iter(scalars(ca.if_else(ca.fabs(excess) <= reach, 0, excess)))
-        known = [ca.logic_or(e <= 0, e > 0) for e in scalars(self._excess[self.timed])]
+        known = [ca.logic_or(e <= 0, e > 0) for e in scalars(self.excess[self.timed])]
         held = [
             ca.if_else(is_known, truth(self.guards[k].condition, parts), np.nan)
             for k, is_known in zip(self.timed, known, strict=True)
@@ -141,7 +147,7 @@ class Guards:
         return Call(ca.Function("start", self.arguments, [ca.densify(self._head())]))
 
     def _head(self) -> ca.SX:
-        excesses = scalars(self._excess)[: self.n_switches]
+        excesses = scalars(self.excess)[: self.n_switches]
         switches = [guard.condition.holds(e) for guard, e in zip(self.guards, excesses, strict=False)]
         discretes = [start for _, start in self.reduced.flat.discontinuities.discretes]
         return stacked([*switches, self._resolve(discretes)])
@@ -172,7 +178,7 @@ class Guards:
     @cached_property
     def scale(self) -> Call:
         """Function of x, z, parameters, time, constants and nominal changes: how much these change each watched excess."""
-        J = ca.jacobian(self._excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
+        J = ca.jacobian(self.excess[self.watched], ca.vertcat(self.reduced.x, self.reduced.z))
         nominal = ca.SX.sym("nominal", J.shape[1])
         return Call(ca.Function("scale", [*self.arguments, nominal], [ca.densify(ca.fabs(J) @ nominal)]))
 
@@ -182,7 +188,7 @@ class Guards:
 
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
-        r, excess = self.reduced, self._excess[self.watched]
+        r, excess = self.reduced, self.excess[self.watched]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
         unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))
         z, own = r.z[unknowns], r.running.alg[equations]
@@ -192,12 +198,12 @@ class Guards:
     @cached_property
     def needs(self) -> set[int]:
         """Algebraic unknowns that watched excesses and their rates need."""
-        return self._dependence.inside(ca.veccat(self._excess[self.watched], *self._motion))
+        return self._dependence.inside(ca.veccat(self.excess[self.watched], *self._motion))
 
     @cached_property
     def _rates(self) -> ca.Function:
         """Function of x, z, parameters, time and constants: watched excesses and their time derivatives."""
-        excess, (direct, by_z, inner, follows) = self._excess[self.watched], self._motion
+        excess, (direct, by_z, inner, follows) = self.excess[self.watched], self._motion
         if not by_z.shape[1]:
             return ca.Function("rates", self.arguments, [excess, direct])
         parts = ca.Function("parts", self.arguments, [excess, direct, by_z, inner, follows])

@@ -50,22 +50,26 @@ class StoredModel:
     @property
     def content(self) -> bytes:
         """The bytes of the file."""
+        return framed(VERSION, self.sections)
+
+    @property
+    def sections(self) -> dict[str, bytes]:
+        """Content of the sections by their tags."""
         e = self.equations
         given = (len(self.x), len(self.z), len(self.p), len(self.c), len(self.size), len(self.rate), len(self.names))
         if given != (e.nx, e.nz, e.np, e.nc, e.nx, e.nx, e.nx):
             raise ValueError("the start does not fit the equations")
-        sections = {
-            "numbers": _ints([e.nx, e.nz, e.np, e.nc]),
-            "values": _tape(e.values),
-            "slopes": _tape(e.slopes),
-            **({"powers": _tape(e.powers)} if e.powers else {}),
-            "pattern": _ints(e.start) + _ints(e.row) + _ints(e.diagonal),
-            "start": b"".join(map(_floats, ([self.time], self.x, self.z, self.p, self.c))),
-            "sizes": _floats(self.size),
-            "rates": _ints(self.rate),
+        return {
+            "numbers": ints([e.nx, e.nz, e.np, e.nc]),
+            "values": tape_bytes(e.values),
+            "slopes": tape_bytes(e.slopes),
+            **({"powers": tape_bytes(e.powers)} if e.powers else {}),
+            "pattern": ints(e.start) + ints(e.row) + ints(e.diagonal),
+            "start": b"".join(map(floats, ([self.time], self.x, self.z, self.p, self.c))),
+            "sizes": floats(self.size),
+            "rates": ints(self.rate),
             "names": b"".join(name.encode() + b"\0" for name in self.names),
         }
-        return framed(VERSION, sections)
 
 
 def framed(version: int, sections: dict[str, bytes]) -> bytes:
@@ -78,14 +82,17 @@ def framed(version: int, sections: dict[str, bytes]) -> bytes:
     return head + body + struct.pack("<II", zlib.crc32(head + body), 0)
 
 
-def _tape(tape: Tape) -> bytes:
+def tape_bytes(tape: Tape) -> bytes:
+    """Return a tape as a section holds it."""
     constants, *places = tape.arrays
-    return _ints(tape.counts) + _floats(constants) + b"".join(map(_ints, places))
+    return ints(tape.counts) + floats(constants) + b"".join(map(ints, places))
 
 
-def _ints(values: ArrayLike) -> bytes:
+def ints(values: ArrayLike) -> bytes:
+    """Return integers as a section holds them."""
     return np.asarray(values).astype(_INT).tobytes()
 
 
-def _floats(values: ArrayLike) -> bytes:
+def floats(values: ArrayLike) -> bytes:
+    """Return numbers as a section holds them."""
     return np.asarray(values).astype(_FLOAT).tobytes()

@@ -20,8 +20,9 @@ MAY = {
     "result": BASE | {"language", "flatten"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "core", "compiler", "result"},
     "simulation": BASE | {"language", "flatten", "compiler", "result", "solve"},
+    "export": BASE | {"language", "core", "compiler", "result", "solve"},
     "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
-    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study"},
+    "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study", "export"},
 }
 ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
 SOLVE = (

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from acausal.errors import DeclarationError
-from acausal.units import BASES, DIMENSIONLESS, Dimension, parse
+from acausal.units import BASES, DIMENSIONLESS, Dimension, factors, parse
 
 M, KG, S = parse("m"), parse("kg"), parse("s")
 JOULE = Dimension(2, 1, -2, 0, 0, 0, 0)
@@ -46,6 +46,20 @@ def test_dimensionless(text):
 )
 def test_derived_units(text, same):
     assert parse(text) is parse(same)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("", []),
+        ("1", []),
+        ("N.m/rad", [("N", 1), ("m", 1), ("rad", -1)]),
+        ("kg*m^2/(s**2.rad)", [("kg", 1), ("m", 2), ("s", -2), ("rad", -1)]),
+        ("m^(1/2)/s/s", [("m", Fraction(1, 2)), ("s", -1), ("s", -1)]),
+    ],
+)
+def test_factors(text, found):
+    assert list(factors(text)) == found
 
 
 def test_operators():

@@ -88,6 +88,23 @@ void ac_lu_solve(ac_lu *lu, double *b) {
     }
 }
 
+/* Solve A' x = b in place. */
+void ac_lu_solve_transposed(ac_lu *lu, double *b) {
+    double *y = lu->work;
+    for (int32_t k = 0; k < lu->n; k++) {
+        double x = b[lu->column_of[k]];
+        for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) x -= lu->u[e] * y[lu->u_row[e]];
+        y[k] = x / lu->diagonal[k];
+    }
+    for (int32_t k = lu->n - 1; k >= 0; k--) {
+        for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) y[k] -= lu->l[i] * y[lu->l_row[i]];
+    }
+    for (int32_t k = 0; k < lu->n; k++) {
+        b[lu->row_of[k]] = y[k] * lu->scale[lu->row_of[k]];
+        y[k] = 0;
+    }
+}
+
 /* How often pivots were chosen, factorisations, entries of both factors, and operations of one factorisation. */
 void ac_lu_counts(const ac_lu *lu, int64_t counts[4]) {
     counts[0] = lu->chosen, counts[1] = lu->factored;

@@ -15,6 +15,11 @@ struct ac_lu {
     int64_t chosen, factored, flops;
 };
 
+int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int32_t *column);
 int32_t ac_lu_choose(ac_lu *lu, const double *value);
+size_t ac_lu_order_size(const ac_lu *lu);
+void ac_lu_order(const ac_lu *lu, double *order);
+int ac_lu_reorder(ac_lu *lu, const double *order);
+void ac_lu_solve_transposed(ac_lu *lu, double *b);
 
 #endif

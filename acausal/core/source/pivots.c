@@ -233,24 +233,27 @@ static int keep(ac_lu *lu, const choice *c) {
     return 1;
 }
 
-/* Choose all pivots for a matrix; 0, 1 where it is singular, -1 where there is no memory. */
-int32_t ac_lu_choose(ac_lu *lu, const double *value) {
+/* Place of the entry of a row in a column, -1 where there is none that is not taken. */
+static int32_t entry(const choice *c, int32_t i, int32_t j) {
+    const lists *m = &c->columns;
+    for (int32_t k = m->place[j] + c->taken[j]; k < m->place[j] + m->used[j]; k++) {
+        if (m->index[k] == i) return k;
+    }
+    return -1;
+}
+
+/* Take all pivots: those that are given, rows and columns, else the cheapest; 0, 1 where there is none, -1 without memory. */
+int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int32_t *column) {
     const int32_t n = lu->n;
     choice c;
     int32_t failed = 0;
-    for (int32_t i = 0; i < n; i++) lu->scale[i] = 0;
-    for (int32_t k = 0; k < lu->start[n]; k++) lu->scale[lu->row[k]] = fmax(lu->scale[lu->row[k]], fabs(value[k]));
-    for (int32_t i = 0; i < n; i++) {
-        if (!(lu->scale[i] > 0 && isfinite(lu->scale[i]))) return 1;
-        lu->scale[i] = ldexp(1, -ilogb(lu->scale[i]));
-    }
     int32_t *step_of_column = malloc(((size_t)n + 1) * sizeof *step_of_column);
     if (!step_of_column) return -1;
     for (int32_t k = 0; k < n; k++) step_of_column[k] = -1;
     if (!begin(&c, lu, value)) failed = -1;
     for (int32_t k = 0; k < n && !failed; k++) {
-        int32_t j = -1;
-        const int32_t at = cheapest(&c, n, &j);
+        int32_t j = row ? column[k] : -1;
+        const int32_t at = row ? entry(&c, row[k], j) : cheapest(&c, n, &j);
         if (at < 0) {
             failed = 1;
             break;
@@ -265,4 +268,16 @@ int32_t ac_lu_choose(ac_lu *lu, const double *value) {
     drop(&c);
     free(step_of_column);
     return failed;
+}
+
+/* Choose all pivots for a matrix; 0, 1 where it is singular, -1 where there is no memory. */
+int32_t ac_lu_choose(ac_lu *lu, const double *value) {
+    const int32_t n = lu->n;
+    for (int32_t i = 0; i < n; i++) lu->scale[i] = 0;
+    for (int32_t k = 0; k < lu->start[n]; k++) lu->scale[lu->row[k]] = fmax(lu->scale[lu->row[k]], fabs(value[k]));
+    for (int32_t i = 0; i < n; i++) {
+        if (!(lu->scale[i] > 0 && isfinite(lu->scale[i]))) return 1;
+        lu->scale[i] = ldexp(1, -ilogb(lu->scale[i]));
+    }
+    return ac_lu_take(lu, value, NULL, NULL);
 }

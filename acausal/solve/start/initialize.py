@@ -102,6 +102,24 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     return Start(at, redundancy, independent(compiled, at.constants))
 
 
+def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
+    """Return the equations that determine a start, at the values that were found for it.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Consistent values at the start.
+    initial : str
+        As of `initialize`; in equilibrium derivatives take part as conditions.
+    """
+    if not problem.compiled.constraints.size and initial != "steady":
+        return _system(problem, at, initial)
+    first = {state: row for row, state in reversed(_giving(problem.compiled).items())}
+    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial)
+
+
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
     """Start values of all unknowns."""
     y = problem.compiled.start(problem.p, time)[0].copy()
@@ -110,20 +128,26 @@ def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
 
 def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, Point, Redundancy]:
     """Close the loops, and choose the initial system from there by ranks."""
-    compiled, nx, nz = problem.compiled, problem.nx, problem.nz
+    compiled = problem.compiled
     at, redundancy, direct = _closed(problem, at)
     try:
         at = algebraic(problem, at)
     except InitializationError:
         if not redundancy.singular:
             raise
-    others = [row for row in range(nz, nz + compiled.conditions.numel()) if row not in direct]
-    if initial == "steady":
-        others += range(-nx, 0)
-    system = ranked(problem, at, direct, others, initial == "fixed")
+    system = _by_ranks(problem, at, direct, initial)
     z = at.z.copy()
     z[compiled.constraints.multipliers] = 0.0
     return system, replace(at, z=z), redundancy
+
+
+def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str) -> InitialSystem:
+    """Choose the initial system by ranks at a point where the loops are closed."""
+    nx, nz = problem.nx, problem.nz
+    others = [row for row in range(nz, nz + problem.compiled.conditions.numel()) if row not in direct]
+    if initial == "steady":
+        others += range(-nx, 0)
+    return ranked(problem, at, direct, others, initial == "fixed")
 
 
 def _states_suffice(problem: Problem, system: InitialSystem) -> bool:

@@ -1,0 +1,220 @@
+/* Values of an instance, read and written by references, and its phases. */
+#include "instance.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Kinds of references, in their order. */
+enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
+enum { TOLERANCE, MOST };
+
+static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t count[] = {1, e->nx, e->nx, e->np, u->shown, u->watched, 2};
+    int64_t left = reference;
+    for (int32_t kind = 0; kind < NONE; kind++) {
+        *place = (int32_t)left;
+        if (left < count[kind]) return kind;
+        left -= count[kind];
+    }
+    return NONE;
+}
+
+int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *value) {
+    static const int32_t needs[] = {0, 0, AC_RATE, 0, AC_SHOW, AC_GUARD, 0};
+    for (size_t k = 0; k < count; k++) {
+        int32_t place, failed = 0;
+        const int32_t kind = kind_of(i, reference[k], &place);
+        if (kind == NONE) return ac_fail(i, AC_REFUSED, "there is no variable of this value reference.");
+        if (kind != GIVEN && kind != SETTING && i->now.phase == AC_INITIALISING) failed = ac_initial(i);
+        if (!failed && needs[kind]) failed = ac_know(i, needs[kind]);
+        if (failed) return failed;
+        const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards, NULL};
+        value[k] = kind != SETTING ? from[kind][place] : place == TOLERANCE ? i->now.tolerance : i->now.most;
+        if (kind == INDICATOR) value[k] += i->truth[place] ? -ac_width(i, place) : ac_width(i, place);
+    }
+    return AC_OK;
+}
+
+static int32_t set_setting(ac_instance *i, int32_t place, double value) {
+    const int good = place == TOLERANCE ? value > 0 && value < 1 : value >= 1 && isfinite(value);
+    if (!good) return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
+    *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value;
+    return AC_OK;
+}
+
+int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
+    const ac_unit *u = i->of;
+    const int starting = i->now.phase <= AC_INITIALISING;
+    for (size_t k = 0; k < count; k++) {
+        int32_t place;
+        const int32_t kind = kind_of(i, reference[k], &place);
+        if (!isfinite(value[k])) return ac_fail(i, AC_REFUSED, "a value is no finite number.");
+        if (kind == SETTING && starting) {
+            if (set_setting(i, place, value[k])) return AC_REFUSED;
+            continue;
+        }
+        const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
+        const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
+        const int open = role == AC_INPUT || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting)
+            || (role == AC_TUNABLE && (i->now.phase != AC_RUNNING || i->now.simulates));
+        if (!open) {
+            return ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
+                : role == AC_TUNABLE ? "a tunable parameter is set at events." : "this variable cannot be set, or not now.");
+        }
+        if (i->p[entry] == value[k]) continue;
+        i->p[entry] = value[k];
+        ac_changed(i);
+    }
+    return AC_OK;
+}
+
+/* Slopes of inputs by time, from the present on; a value that is set later is that of its time. */
+int32_t ac_set_slopes(ac_instance *i, const uint32_t *reference, size_t count, const double *slope) {
+    const ac_unit *u = i->of;
+    for (size_t k = 0; k < count; k++) {
+        int32_t place, input = 0;
+        const int32_t kind = kind_of(i, reference[k], &place);
+        while (kind == GIVEN && input < u->inputs && u->input[2 * input] != place) input++;
+        if (kind != GIVEN || input == u->inputs) return ac_fail(i, AC_REFUSED, "only inputs have slopes.");
+        if (!isfinite(slope[k])) return ac_fail(i, AC_REFUSED, "a slope is no finite number.");
+        i->p[u->input[2 * input + 1]] = slope[k];
+        i->p[u->input[2 * u->inputs]] = i->now.time;
+        ac_changed(i);
+    }
+    return AC_OK;
+}
+
+/* At a new time inputs are what they have become by their slopes, which end. */
+void ac_renew_inputs(ac_instance *i) {
+    const ac_unit *u = i->of;
+    int moved = 0;
+    for (int32_t k = 0; k < u->inputs; k++) {
+        double *value = i->p + u->input[2 * k], *slope = i->p + u->input[2 * k + 1];
+        if (*slope == 0) continue;
+        *value += *slope * (i->now.time - i->p[u->input[2 * u->inputs]]);
+        *slope = 0;
+        moved = 1;
+    }
+    if (moved) ac_changed(i);
+}
+
+int32_t ac_begin(ac_instance *i, double time, double stop, double tolerance, int32_t simulates) {
+    if (!isfinite(time) || (tolerance != 0 && !(tolerance > 0 && tolerance < 1)) || stop <= time) {
+        return ac_fail(i, AC_REFUSED, "times are finite, a stop time lies behind the start, a tolerance between 0 and 1.");
+    }
+    if (i->now.phase != AC_SET_UP) return ac_fail(i, AC_REFUSED, "it has been initialised.");
+    i->now.time = time, i->now.stop = stop, i->now.simulates = simulates;
+    if (tolerance > 0) i->now.tolerance = tolerance;
+    i->now.phase = AC_INITIALISING;
+    ac_changed(i);
+    return AC_OK;
+}
+
+int32_t ac_begun(ac_instance *i) {
+    if (i->now.phase != AC_INITIALISING) return ac_fail(i, AC_REFUSED, "it is not being initialised.");
+    const int32_t failed = ac_initial(i);
+    if (failed) return failed;
+    i->now.phase = AC_AT_EVENT, i->now.first = 1;
+    return AC_OK;
+}
+
+int32_t ac_event(ac_instance *i, ac_happened *found) {
+    if (i->now.phase != AC_AT_EVENT) return ac_fail(i, AC_REFUSED, "it is not at an event.");
+    return ac_happen(i, found);
+}
+
+int32_t ac_enter_event(ac_instance *i) {
+    if (i->now.phase != AC_RUNNING && i->now.phase != AC_AT_EVENT) return ac_fail(i, AC_REFUSED, "it is not running.");
+    i->now.phase = AC_AT_EVENT;
+    return AC_OK;
+}
+
+int32_t ac_leave_event(ac_instance *i) {
+    if (i->now.phase != AC_AT_EVENT) return ac_fail(i, AC_REFUSED, "it is not at an event.");
+    if (i->now.first) {
+        ac_happened found;
+        const int32_t failed = ac_happen(i, &found);
+        if (failed) return failed;
+    }
+    i->now.phase = AC_RUNNING;
+    return AC_OK;
+}
+
+int32_t ac_set_time(ac_instance *i, double time) {
+    if (!isfinite(time)) return ac_fail(i, AC_REFUSED, "the time is no finite number.");
+    if (i->now.time != time) ac_moved(i);
+    i->now.time = time;
+    return AC_OK;
+}
+
+int32_t ac_set_states(ac_instance *i, const double *x) {
+    const int32_t nx = ac_states(i);
+    if (!ac_all_finite(x, nx)) return ac_fail(i, AC_RETRY, "a state is no finite number.");
+    if (nx && memcmp(i->x, x, (size_t)nx * sizeof *x)) {
+        memcpy(i->x, x, (size_t)nx * sizeof *x);
+        ac_moved(i);
+    }
+    return AC_OK;
+}
+
+/* What many callers read at once. */
+static int32_t read_all(ac_instance *i, uint32_t first, int32_t count, double *value) {
+    int32_t failed = 0;
+    for (int32_t k = 0; k < count && !failed; k++) {
+        const uint32_t reference = first + (uint32_t)k;
+        failed = ac_get(i, &reference, 1, value + k);
+    }
+    return failed;
+}
+
+int32_t ac_get_states(ac_instance *i, double *x) { return read_all(i, 1, ac_states(i), x); }
+
+int32_t ac_get_rates(ac_instance *i, double *rate) { return read_all(i, 1 + (uint32_t)ac_states(i), ac_states(i), rate); }
+
+int32_t ac_get_nominals(ac_instance *i, double *nominal) {
+    for (int32_t k = 0; k < ac_states(i); k++) nominal[k] = i->of->nominal[k];
+    return AC_OK;
+}
+
+int32_t ac_get_indicators(ac_instance *i, double *value) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    const int64_t first = 1 + 2 * (int64_t)e->nx + e->np + u->shown;
+    return read_all(i, (uint32_t)first, u->watched, value);
+}
+
+/* Columns of the derivatives: the states, or entries of p that a caller may change. */
+static double *known_of(ac_instance *i, uint32_t reference, double *dx, double *dp) {
+    int32_t place;
+    const int32_t kind = kind_of(i, reference, &place);
+    return kind == STATE ? dx + place : kind == GIVEN ? dp + place : NULL;
+}
+
+/* Rows: where the derivative of an unknown stands. */
+static double *unknown_of(ac_instance *i, uint32_t reference, double *of[3]) {
+    int32_t place;
+    const int32_t kind = kind_of(i, reference, &place);
+    return kind == RATE ? of[0] + place : kind == VARIABLE ? of[1] + place : kind == INDICATOR ? of[2] + place : NULL;
+}
+
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dx, double *dp, const double *seed, double *found) {
+    for (size_t k = 0; k < count; k++) {
+        double *at = known_of(i, known[k], dx, dp);
+        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are by states, inputs and parameters.");
+        if (seed) *at += seed[k];
+        if (found) found[k] = *at;
+    }
+    return AC_OK;
+}
+
+int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found) {
+    for (size_t k = 0; k < count; k++) {
+        double *at = unknown_of(i, unknown[k], of);
+        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are those of rates, variables and event indicators.");
+        if (seed) *at += seed[k];
+        if (found) found[k] = *at;
+    }
+    return AC_OK;
+}

@@ -1,0 +1,151 @@
+/* What happens at one instant: switches flip and variables jump until nothing changes. As `Instants` of Python does it. */
+#include "instance.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROUNDS 20      /* until switches fit each other */
+#define SOON 1e-8      /* of the run: what changes sign within that time does so now */
+#define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
+#define NEAR 1e-12     /* of the time: instants that near are one */
+
+/* The next instant that is known, and a time between the present and that. */
+double ac_next_instant(ac_instance *i, double *between) {
+    const ac_unit *u = i->of;
+    const double now = i->now.time, near = NEAR * fmax(fabs(now), u->span);
+    double next = INFINITY;
+    if (u->instants) {
+        const double *w = ac_run(i, AC_INSTANTS);
+        for (int32_t k = 0; k < u->instants; k++) {
+            const double at = w[u->tape[AC_INSTANTS].output[k]];
+            if (at > now + near && at < next) next = at;
+        }
+    }
+    *between = isfinite(next) ? now + (next - now) / 2 : now + u->span;
+    return next;
+}
+
+double ac_width(const ac_instance *i, int32_t guard) {
+    const double scale = i->guards[i->of->watched + guard];
+    return i->now.tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
+}
+
+/* Whether a watched condition holds from now on; what passes 0 just now counts as passed. */
+static int holds(const ac_instance *i, int32_t k, double rate) {
+    const double value = i->guards[k], width = ac_width(i, k), span = i->of->span;
+    const int moving = fabs(rate) * span > MOVES * width;
+    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(rate) * SOON * span;
+    if (moving && soon && fabs(value) <= width) return rate < 0;
+    return value == 0 ? i->truth[k] > 0 : value < 0;
+}
+
+/* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all). */
+typedef struct {
+    double *on, *fires;
+    int32_t changes;
+} round_of;
+
+static void note(const ac_unit *u, round_of *r, int32_t guard, int now, int before) {
+    const ac_guard *g = &u->guard[guard];
+    if (g->on >= 0) {
+        if (now == before) return;
+        r->on[g->on] = now;
+        r->changes = 1;
+    } else if (now && !before) {
+        r->fires[guard] = 1;
+        r->changes = 1;
+    }
+}
+
+/* What the clock changes. */
+static void look_at_clock(ac_instance *i, round_of *r) {
+    const ac_unit *u = i->of;
+    const double time = i->now.time;
+    double between;
+    i->now.next = ac_next_instant(i, &between);
+    if (!u->timed) return;
+    double at_start[2] = {time, between};
+    for (int k = i->now.first ? 0 : 1; k < 2; k++) {
+        i->now.time = at_start[k];
+        const double *w = ac_run(i, AC_TIMED);
+        for (int32_t j = 0; j < u->timed; j++) {
+            const ac_guard *g = &u->guard[u->watched + j];
+            const int now = w[u->tape[AC_TIMED].output[j]] > 0.5;
+            /* At the start what holds at that very instant held before, unless it acts there. */
+            if (k == 0) i->held[j] = g->on >= 0 ? i->held[j] : now && !g->at_start;
+            else note(u, r, u->watched + j, now, i->held[j] > 0), i->held[j] = now;
+        }
+    }
+    i->now.time = time;
+}
+
+static int32_t look_at_conditions(ac_instance *i, round_of *r) {
+    const ac_unit *u = i->of;
+    double *rate = i->guards + 2 * u->watched;
+    const int32_t failed = ac_indicator_rates(i, rate);
+    if (failed) return failed;
+    for (int32_t k = 0; k < u->watched; k++) {
+        const int now = holds(i, k, rate[k]);
+        note(u, r, k, now, i->truth[k] > 0);
+        i->other[k] = now;
+    }
+    for (int32_t k = 0; k < u->watched; k++) i->truth[k] = i->other[k];
+    return AC_OK;
+}
+
+/* Let variables jump to what follows from the values before. */
+static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    const ac_tape *t = &u->tape[AC_JUMPS], *own = &u->tape[AC_COORDINATES];
+    double *held = i->other;
+    int32_t jumped = 0;
+    for (int32_t k = 0; k < u->watched + u->timed; k++) jumped |= r->fires[k] > 0 && u->guard[k].jumps;
+    if (!jumped) return AC_OK;
+    jumped = 0;
+    const double *w = ac_run(i, AC_JUMPS), *projected = ac_run(i, AC_COORDINATES);
+    memset(held, 0, (size_t)e->nx * sizeof *held);
+    for (int32_t k = 0; k < own->outputs; k++) i->x[u->coordinate[k]] = projected[own->output[k]];
+    for (int32_t k = 0; k < u->watched + u->timed; k++) {
+        for (int32_t j = u->guard[k].jump; r->fires[k] > 0 && j < u->guard[k].jump + u->guard[k].jumps; j++) {
+            const double value = w[t->output[j]];
+            const int32_t *to = u->jump + 2 * j;
+            if (!isfinite(value)) return ac_fail(i, AC_FAILED, "reinit() gives no finite number.");
+            if (to[0]) i->x[to[1]] = value, held[to[1]] = 1, jumped = 1;
+            else i->c[u->switches + to[1]] = value;
+        }
+    }
+    *states |= jumped;
+    ac_changed(i);
+    return jumped && u->constraints ? ac_close(i, held) : AC_OK;
+}
+
+/* Everything that happens now. */
+int32_t ac_happen(ac_instance *i, ac_happened *found) {
+    const ac_unit *u = i->of;
+    memset(found, 0, sizeof *found);
+    int32_t failed = ac_know(i, AC_RATE), round = 0;
+    for (; round < ROUNDS && !failed; round++) {
+        /* As long as all constants and conditions, behind what the values of conditions and their rates need. */
+        round_of r = {.on = i->flips, .fires = i->flips + u->switches};
+        for (int32_t k = 0; k < u->switches; k++) r.on[k] = i->c[k];
+        memset(r.fires, 0, ((size_t)u->watched + (size_t)u->timed) * sizeof *r.fires);
+        if (!round) look_at_clock(i, &r);
+        failed = look_at_conditions(i, &r);
+        if (failed || !r.changes) break;
+        failed = jump(i, &r, &found->states);
+        if (failed) break;
+        for (int32_t k = 0; k < u->switches; k++) i->c[k] = r.on[k];
+        ac_changed(i);
+        failed = ac_know(i, AC_RATE);
+    }
+    if (round == ROUNDS) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
+    if (failed) return AC_FAILED;
+    double between;
+    for (int32_t k = 0; k < u->watched; k++) i->crossed[k] = 0;
+    i->now.first = 0;
+    i->now.next = ac_next_instant(i, &between);
+    found->planned = isfinite(i->now.next);
+    found->next = i->now.next;
+    return AC_OK;
+}

@@ -1,0 +1,129 @@
+/* Values at the start: one square system, followed along the parameters from the solution that the file has. */
+#include "instance.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FIRST 0.0625    /* of the way: the first step */
+#define SHORTEST 1e-4   /* of the way: two solutions meet, or there is none beyond */
+#define FAR 0.1         /* change of a state over its size in a step: more may lead to another solution */
+#define ROUNDS 20       /* until switches fit the values, as in Python */
+
+/* Parameters, and the time, on the way from those of the file to those that are wanted. */
+static void stand(ac_instance *i, const double *p, double time, double s) {
+    const ac_model *m = &i->of->parts.model;
+    for (int32_t k = 0; k < m->equations.np; k++) i->p[k] = s < 1 ? m->p[k] + s * (p[k] - m->p[k]) : p[k];
+    i->now.time = s < 1 ? m->time + s * (time - m->time) : time;
+    i->prepared = 0;
+}
+
+static int differs(const ac_instance *i) {
+    const ac_model *m = &i->of->parts.model;
+    for (int32_t k = 0; k < m->equations.np; k++) {
+        if (i->p[k] != m->p[k] && i->of->role[k] != AC_INNER) return 1;
+    }
+    return i->now.time != m->time;
+}
+
+/* Largest change of a state over its size. */
+static double change(const ac_instance *i, const double *x) {
+    double most = 0;
+    for (int32_t k = 0; k < ac_states(i); k++) {
+        most = fmax(most, fabs(i->x[k] - x[k]) / fmax(i->of->nominal[k], fabs(x[k])));
+    }
+    return most;
+}
+
+/* Follow the solution to the parameters p; steps are shortened where states change much. */
+static int32_t follow(ac_instance *i, const double *p, double time) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const size_t n = (size_t)e->nx + (size_t)e->nz;
+    double *kept = i->before; /* the interpolant is not there yet */
+    for (double s = 0, step = FIRST; s < 1;) {
+        memcpy(kept, i->x, (size_t)e->nx * sizeof *kept);
+        memcpy(kept + e->nx, i->z, (size_t)e->nz * sizeof *kept);
+        const double to = s + step < 1 ? s + step : 1;
+        stand(i, p, time, to);
+        const int32_t failed = ac_solve(i, AC_INITIAL);
+        const double moved = failed ? INFINITY : change(i, kept);
+        if (moved <= FAR) {
+            s = to;
+            if (moved < 0.25 * FAR) step *= 2;
+            continue;
+        }
+        memcpy(i->x, kept, (size_t)e->nx * sizeof *kept);
+        memcpy(i->z, kept + e->nx, (n - (size_t)e->nx) * sizeof *kept);
+        step /= 2;
+        if (step < SHORTEST) return ac_fail(i, AC_FAILED, "no start values were found for these parameters.");
+    }
+    return AC_OK;
+}
+
+/* Switches that the clock decides, from the start on. */
+static void clock(ac_instance *i) {
+    const ac_unit *u = i->of;
+    double between;
+    const double time = i->now.time;
+    i->now.next = ac_next_instant(i, &between);
+    i->now.time = between;
+    const double *w = ac_run(i, AC_TIMED);
+    i->now.time = time;
+    for (int32_t k = 0; k < u->timed; k++) {
+        i->held[k] = w[u->tape[AC_TIMED].output[k]] > 0.5;
+        const int32_t on = u->guard[u->watched + k].on;
+        if (on >= 0) i->c[on] = i->held[k];
+    }
+    i->prepared = 0;
+}
+
+static int is_timed(const ac_unit *u, int32_t on) {
+    for (int32_t k = u->watched; k < u->watched + u->timed; k++) {
+        if (u->guard[k].on == on) return 1;
+    }
+    return 0;
+}
+
+/* Take the switches and discrete variables that fit the values; whether they did already. */
+static int fitting(ac_instance *i) {
+    const ac_unit *u = i->of;
+    const double *w = ac_run(i, AC_HEAD);
+    int same = 1;
+    for (int32_t k = 0; k < u->switches + u->discretes; k++) {
+        const double found = w[u->tape[AC_HEAD].output[k]];
+        if ((k < u->switches && is_timed(u, k)) || fabs(i->c[k] - found) <= 1e-9 * fabs(found)) continue;
+        i->c[k] = found;
+        same = 0;
+    }
+    if (!same) i->prepared = 0;
+    return same;
+}
+
+int32_t ac_initial(ac_instance *i) {
+    if (i->now.known & AC_FIRST) return AC_OK;
+    const ac_unit *u = i->of;
+    double *p = i->dw; /* the wanted ones, while i->p is on the way */
+    const double time = i->now.time;
+    int32_t failed = AC_OK, fits = 0;
+    memcpy(p, i->p, (size_t)u->parts.model.equations.np * sizeof *p);
+    ac_restart(i);
+    i->prepared = 0;
+    if (differs(i)) failed = follow(i, p, time);
+    stand(i, p, time, 1);
+    clock(i);
+    for (int32_t round = 0; round < ROUNDS && !failed && !fits; round++) {
+        failed = ac_solve(i, AC_INITIAL);
+        if (failed) ac_fail(i, failed, "the equations at the start have no solution.");
+        else fits = fitting(i);
+    }
+    if (!failed && !fits) failed = ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
+    if (failed) return AC_FAILED;
+    i->now.known = AC_FIRST;
+    failed = ac_know(i, AC_RATE | AC_GUARD);
+    if (failed) return AC_FAILED;
+    for (int32_t k = 0; k < u->watched; k++) {
+        const ac_guard *g = &u->guard[k];
+        const double value = i->guards[k];
+        i->truth[k] = g->on >= 0 ? i->c[g->on] : !g->at_start && (value < 0 || (value == 0 && g->inclusive));
+    }
+    return AC_OK;
+}

@@ -1,0 +1,193 @@
+/* An instance of a unit: its memory, and what is known at its present point. */
+#include "instance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_STEPS 1e6 /* of one call, unless the setting says otherwise */
+
+static size_t length(const ac_tape *t) { return (size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1; }
+
+int32_t ac_fail(ac_instance *i, int32_t status, const char *text) {
+    snprintf(i->message, sizeof i->message, "t = %.9g s: %s", i->now.time, text);
+    return status;
+}
+
+static size_t most_of(size_t a, size_t b) { return a > b ? a : b; }
+
+/* Lay out the memory; with NULL only measure it. */
+static size_t lay_out(ac_instance *i, double *at) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, np = (size_t)e->np, nc = (size_t)e->nc;
+    const size_t watched = (size_t)u->watched, all = n + np + nc + (size_t)u->jumps + 3 * watched + 2;
+    size_t longest = length(e->values), used = 0;
+    for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, length(&u->tape[k]));
+    for (int k = 0; k < AC_SQUARES; k++) longest = most_of(longest, length(&u->squared[k]));
+    struct {
+        double **to;
+        size_t size;
+    } part[] = {
+        {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
+        {&i->crossed, watched}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, length(e->values)},
+        {&i->step_y, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->order, 3 * n + 1},
+    };
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
+        if (at) *part[k].to = at + used;
+        used += part[k].size;
+        if (part[k].to == &i->dense) i->kept = used;
+    }
+    for (int k = 0; k < AC_TAPES; k++) {
+        if (at) i->w[k] = at + used;
+        used += length(&u->tape[k]);
+    }
+    return used;
+}
+
+/* An instance of a unit, which has to stay; NULL without memory. */
+ac_instance *ac_instance_make(const ac_unit *unit) {
+    ac_instance *i = calloc(1, sizeof *i);
+    if (!i) return NULL;
+    i->of = unit;
+    i->block = calloc(lay_out(i, NULL) + 1, sizeof *i->block);
+    i->rodas = ac_rodas_make(&unit->parts.model.equations);
+    int good = i->block && i->rodas;
+    for (int k = 0; k < AC_SQUARES; k++) {
+        i->settler[k] = ac_settler_make(&unit->square[k]);
+        good = good && i->settler[k];
+    }
+    if (!good) {
+        ac_instance_free(i);
+        return NULL;
+    }
+    lay_out(i, i->block);
+    const ac_tape *values = unit->parts.model.equations.values;
+    memcpy(i->values, values->constant, (size_t)values->constants * sizeof(double));
+    for (int k = 0; k < AC_TAPES; k++) {
+        memcpy(i->w[k], unit->tape[k].constant, (size_t)unit->tape[k].constants * sizeof(double));
+    }
+    ac_reset(i);
+    return i;
+}
+
+void ac_instance_free(ac_instance *i) {
+    if (!i) return;
+    for (int k = 0; k < AC_SQUARES; k++) ac_settler_free(i->settler[k]);
+    ac_rodas_free(i->rodas);
+    free(i->block);
+    free(i);
+}
+
+static void put(double *to, const double *from, int32_t count) {
+    if (count) memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+/* As the file has it. */
+void ac_restart(ac_instance *i) {
+    const ac_model *m = &i->of->parts.model;
+    put(i->x, m->x, m->equations.nx);
+    put(i->z, m->z, m->equations.nz);
+    put(i->c, m->c, m->equations.nc);
+}
+
+/* As it was made. */
+int32_t ac_reset(ac_instance *i) {
+    const ac_unit *u = i->of;
+    const ac_model *m = &u->parts.model;
+    memset(i->x, 0, i->kept * sizeof *i->x);
+    memset(&i->now, 0, sizeof i->now);
+    ac_restart(i);
+    put(i->p, m->p, m->equations.np);
+    i->now.time = m->time, i->now.stop = NAN, i->now.next = i->now.event = i->now.end = INFINITY;
+    i->now.tolerance = u->tolerance, i->now.most = MOST_STEPS;
+    i->now.phase = AC_SET_UP;
+    for (int k = 0; k < AC_SQUARES; k++) i->settler[k]->lu->ready = 0;
+    i->rodas->lu->ready = 0;
+    i->prepared = 0, i->going = 0;
+    i->message[0] = 0;
+    return AC_OK;
+}
+
+const char *ac_message(const ac_instance *i) { return i->message; }
+int32_t ac_phase(const ac_instance *i) { return i->now.phase; }
+double ac_time(const ac_instance *i) { return i->now.time; }
+int32_t ac_states(const ac_instance *i) { return i->of->parts.model.equations.nx; }
+int32_t ac_indicators(const ac_instance *i) { return i->of->watched; }
+
+/* Values changed: what followed from them is not known any more. */
+void ac_moved(ac_instance *i) { i->now.known = 0; }
+
+/* Parameters or constants changed. */
+void ac_changed(ac_instance *i) {
+    i->now.known = 0, i->now.integrates = 0, i->now.curved = 0;
+    i->prepared = 0;
+}
+
+/* Evaluate a tape at the present. */
+static void evaluate(ac_instance *i, const ac_tape *t, double *w, int32_t bit) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    double *input = w + t->constants;
+    put(input, i->x, e->nx);
+    put(input + e->nx, i->z, e->nz);
+    input += e->nx + e->nz;
+    *input++ = i->now.time;
+    if (!(i->prepared & bit)) {
+        put(input, i->p, e->np);
+        put(input + e->np, i->c, e->nc);
+        ac_tape_run(t, w, 0, t->early);
+        i->prepared |= bit;
+    }
+    ac_tape_run(t, w, t->early, t->runs);
+}
+
+const double *ac_run(ac_instance *i, int32_t tape) {
+    evaluate(i, &i->of->tape[tape], i->w[tape], 1 << tape);
+    return i->w[tape];
+}
+
+/* Solve a square system from the present values on. */
+int32_t ac_solve(ac_instance *i, int32_t square) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t lengths[] = {e->np, e->nc, e->nx, e->nz, 1}, stride[] = {0, 0, 0, 0, 0};
+    const double *const part[] = {i->p, i->c, i->x, i->z, &i->now.time};
+    const int32_t n = u->square[square].n, nx = square == AC_INITIAL ? e->nx : 0;
+    double *size = i->other;
+    int32_t settled = 1;
+    if (!n) return AC_OK;
+    for (int32_t k = 0; k < nx; k++) size[k] = fmax(fabs(i->x[k]), u->nominal[k]);
+    for (int32_t k = 0; k < e->nz; k++) size[nx + k] = fmax(fabs(i->z[k]), u->size[k]);
+    ac_settle_rows(i->settler[square], 1, 5, 2, lengths, stride, part, size, SETTLED, i->work, &settled);
+    if (!settled) return AC_RETRY;
+    put(i->x, i->work, nx);
+    put(i->z, i->work + nx, e->nz);
+    return AC_OK;
+}
+
+/* Find what is asked for. */
+int32_t ac_know(ac_instance *i, int32_t what) {
+    const ac_unit *u = i->of;
+    const ac_equations *e = &u->parts.model.equations;
+    if (!(i->now.known & AC_Z)) {
+        if (ac_solve(i, AC_ALGEBRAIC)) return ac_fail(i, AC_RETRY, "the equations have no solution here.");
+        i->now.known |= AC_Z;
+    }
+    if (what & ~i->now.known & AC_RATE) {
+        evaluate(i, e->values, i->values, 1 << AC_TAPES);
+        for (int32_t k = 0; k < e->nx; k++) i->rate[k] = i->values[e->values->output[k]];
+        if (!ac_all_finite(i->rate, e->nx)) return ac_fail(i, AC_RETRY, "a derivative has no finite value.");
+    }
+    if (what & ~i->now.known & AC_SHOW) {
+        const double *w = ac_run(i, AC_SHOWN);
+        for (int32_t k = 0; k < u->shown; k++) i->shown[k] = w[u->tape[AC_SHOWN].output[k]];
+    }
+    if (what & ~i->now.known & AC_GUARD) {
+        const double *w = ac_run(i, AC_GUARDS);
+        for (int32_t k = 0; k < 2 * u->watched; k++) i->guards[k] = w[u->tape[AC_GUARDS].output[k]];
+    }
+    i->now.known |= what;
+    return AC_OK;
+}

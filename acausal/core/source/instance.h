@@ -1,0 +1,117 @@
+/* What the parts of a unit and of its instances share. */
+#ifndef ACAUSAL_INSTANCE_H
+#define ACAUSAL_INSTANCE_H
+
+#include "file.h"
+#include "lu.h"
+#include "rodas.h"
+#include "settle.h"
+#include "unit.h"
+
+/* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
+enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_TAPES };
+/* Square systems; their inputs are p, c, x, z, t. */
+enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
+/* What an entry of p is. */
+enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTING, AC_INNER };
+
+/* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on. */
+typedef struct {
+    int32_t on, inclusive, at_start, jump, jumps;
+} ac_guard;
+
+/* Constraints that are closed together, and the states that may change for that. */
+typedef struct {
+    int32_t rows, columns;
+    const int32_t *row, *column;
+} ac_level;
+
+#define AC_LEVELS 8 /* derivatives of a constraint that hold besides it are fewer */
+#define AC_NUMBERED 11
+
+struct ac_unit {
+    ac_model_parts parts; /* first */
+    /* Numbers of switches, discrete variables, closures, variables, watched conditions, those of time alone, instants, jumps,
+       constraints, inputs, levels. */
+    int32_t switches, discretes, closures, shown, watched, timed, instants, jumps, constraints, inputs, levels;
+    ac_tape tape[AC_TAPES], squared[AC_SQUARES];
+    ac_square square[AC_SQUARES];
+    int32_t *places;                        /* of the unknowns of both, one after the other */
+    const int32_t *role, *start_of;         /* (np) what each entry is; (nx) its entry of p that is its start, or -1 */
+    const int32_t *input;                   /* (inputs, 2) entry of p and of its slope; then the entry of the time of both */
+    const ac_guard *guard;                  /* (watched + timed) */
+    const int32_t *jump;                    /* (jumps, 2): whether it is a state, and its place among these or discrete ones */
+    const int32_t *close_start, *close_row; /* sparsity of the Jacobian of the constraints, in columns */
+    const int32_t *closure;                 /* (constraints) closure that a constraint belongs to, or -1 */
+    const int32_t *kind;                    /* (constraints) those of one equation have one number */
+    const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
+    ac_level level[AC_LEVELS];
+    const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
+    double span, tolerance;
+    const char *token;
+    double file[];
+};
+
+/* What an instance goes on from, beside its arrays. */
+typedef struct {
+    double time, stop, tolerance, most;    /* stop: nan where none is known; most: steps of one call */
+    double from, to, first_step, end;      /* the last step of the integration, the next one to try, where it ends */
+    double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
+    double crowd;                          /* since when events follow one another closely */
+    int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
+    int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
+    int32_t refused, unsolved, crowded;    /* as in the integrator; events of the crowd */
+} ac_now;
+
+/* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start. */
+enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16 };
+#define SETTLED 1e-7 /* change over the size after which the next one would be rounding, as in `Consistent` */
+
+struct ac_instance {
+    const ac_unit *of;
+    ac_now now;
+    size_t kept;                            /* numbers from x on that belong to the state */
+    double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
+    double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
+    double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
+    double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
+    ac_settler *settler[AC_SQUARES];
+    ac_rodas *rodas;
+    double *step_y, step_time, *looks;      /* a step as the integrator writes it; conditions and rates while events are looked for */
+    double ends[2];                         /* of the integration */
+    int32_t going;                          /* whether the integrator is where the last step ended */
+    double *order;                          /* of pivots, while they are copied */
+    int32_t prepared;                       /* tapes whose early runs are done */
+    double *block;
+    char message[256];
+};
+
+/* States and their rates at a time. */
+typedef struct {
+    double time;
+    const double *x, *rate;
+} ac_point;
+
+#define AC_FLAT_TEXT "closed loops pass a flat position: two ways lead on from there, and rounding would choose one."
+
+int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
+void ac_restart(ac_instance *i);
+void ac_moved(ac_instance *i);
+void ac_changed(ac_instance *i);
+const double *ac_run(ac_instance *i, int32_t tape);             /* evaluate at the present; its array */
+int32_t ac_solve(ac_instance *i, int32_t square);               /* from the present values on */
+int32_t ac_know(ac_instance *i, int32_t what);
+int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp, double *dz);
+void ac_along(ac_instance *i, const ac_tape *tape, const double *w, const double *dx, const double *dz, double dt,
+              const double *dp, double *found);
+int32_t ac_indicator_rates(ac_instance *i, double *rate);       /* conditions have to be known */
+int32_t ac_close(ac_instance *i, const double *held);
+int32_t ac_initial(ac_instance *i);
+int32_t ac_happen(ac_instance *i, ac_happened *found);
+void ac_renew_inputs(ac_instance *i);
+double ac_next_instant(ac_instance *i, double *between);
+double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
+int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
+int ac_is_flat(ac_instance *i);
+
+#endif

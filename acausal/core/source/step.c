@@ -1,0 +1,249 @@
+/* Co-Simulation: steps of the core's method, across communication points where there are no inputs; events within them. */
+#include "instance.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LOOKS 4         /* parts of a step at whose ends conditions are looked at */
+#define LEVEL 0.01      /* of the width: a condition has changed where it is beyond 0 by that */
+#define HALVINGS 60     /* of the part in which an event lies: then its time is known to rounding */
+#define AHEAD 100       /* spans of a run: where no stop time is known */
+#define CROWDED 1e-9    /* of a run: within that time ... */
+#define MOST_CROWDED 100 /* ... so many events are chattering */
+#define NEAR 1e-12      /* of the time: no room for an integration */
+
+static double near(const ac_instance *i) { return NEAR * fmax(fabs(i->now.time), i->of->span); }
+
+/* States and guesses of algebraic unknowns at a time within the last step; see `outputs.c`. */
+static void stand(ac_instance *i, double time) {
+    const int32_t nx = ac_states(i), n = nx + i->of->parts.model.equations.nz;
+    const double h = i->now.to - i->now.from, s = h > 0 ? (time - i->now.from) / h : 1, *d = i->dense;
+    for (int32_t k = 0; k < n; k++) {
+        const double curve = d[k] + s * (d[n + k] + s * d[2 * n + k]);
+        const double y = s >= 1 ? i->after[k] : (1 - s) * i->before[k] + s * (i->after[k] + (1 - s) * curve);
+        *(k < nx ? i->x + k : i->z + (k - nx)) = y;
+    }
+    i->now.time = time;
+    ac_moved(i);
+}
+
+/* Begin to integrate from the present, or go on after a step that was kept. */
+static int32_t begin(ac_instance *i, double to) {
+    const ac_unit *u = i->of;
+    const ac_model *m = &u->parts.model;
+    const double ahead = isfinite(i->now.stop) && i->now.stop > i->now.time ? i->now.stop : i->now.time + AHEAD * u->span;
+    const double horizon = u->inputs ? to : fmax(to, ahead), kept = i->now.first_step;
+    const int32_t goes_on = i->now.integrates;
+    i->ends[0] = goes_on ? i->now.to : i->now.time;
+    if (!goes_on) i->now.end = fmin(horizon, i->now.next);
+    i->ends[1] = i->now.end;
+    const ac_request request = {
+        .tolerance = i->now.tolerance, .first_step = kept, .size = m->size, .rate = m->rate, .smooth = 1,
+        .most = INT64_MAX / 4, .outputs = 1, .time = i->ends, .room = 1,
+        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
+    };
+    const double *y = i->after;
+    if (!goes_on) {
+        const int32_t failed = ac_know(i, AC_Z);
+        if (failed) return failed;
+        memcpy(i->after, i->x, (size_t)ac_states(i) * sizeof *i->x);
+        memcpy(i->after + ac_states(i), i->z, (size_t)m->equations.nz * sizeof *i->z);
+    }
+    ac_rodas_begin(i->rodas, &request, y, y + ac_states(i), i->p, i->c);
+    if (goes_on) {
+        i->rodas->h = kept;
+        i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
+    }
+    i->now.integrates = 1, i->going = 1;
+    i->now.to = i->ends[0];
+    return AC_OK;
+}
+
+/* One step that is accepted. */
+static int32_t advance(ac_instance *i, double *left) {
+    static const char *const why[] = {
+        "", "", "", "no step is short enough for the tolerance.", "the equations have no solution beyond.",
+        "there is not enough memory.",
+    };
+    const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
+    ac_progress done = {0};
+    int32_t end = AC_MORE;
+    while (end == AC_MORE && !done.kept) {
+        if ((*left)-- <= 0) return ac_fail(i, AC_RETRY, "more steps are needed than the setting allows.");
+        end = ac_rodas_go(i->rodas, 1, &done);
+    }
+    if (!done.kept) return ac_fail(i, AC_FAILED, why[end]);
+    memcpy(i->before, i->after, n * sizeof *i->before);
+    memcpy(i->after, i->step_y, n * sizeof *i->after);
+    i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h;
+    i->now.refused = i->rodas->refused, i->now.unsolved = i->rodas->unsolved;
+    i->now.curved = 1, i->now.event = INFINITY;
+    return AC_OK;
+}
+
+/* Values of the conditions, and their rates, at a time within the step. */
+static int32_t look(ac_instance *i, double time, double *value, double *rate) {
+    const int32_t n = i->of->watched;
+    stand(i, time);
+    const int32_t failed = ac_indicator_rates(i, i->guards + 2 * n);
+    if (failed) return failed;
+    memcpy(value, i->guards, (size_t)n * sizeof *value);
+    memcpy(rate, i->guards + 2 * n, (size_t)n * sizeof *rate);
+    return AC_OK;
+}
+
+/* How far a condition is beyond where it changes: positive where it has changed. */
+static double beyond(const ac_instance *i, int32_t k, double value) { return i->truth[k] > 0 ? value : -value; }
+
+/* First time in a part of the step at which a condition has changed, given that it has at its end. */
+static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double level) {
+    for (int tries = 0; tries < HALVINGS && *to - from > near(i) / 4; tries++) {
+        const double middle = from + (*to - from) / 2;
+        stand(i, middle);
+        const int32_t failed = ac_know(i, AC_GUARD);
+        if (failed) return failed;
+        *(beyond(i, k, i->guards[k]) > level ? to : &from) = middle;
+    }
+    return AC_OK;
+}
+
+/* A time at which a condition that comes nearer and goes away again is nearest; the end of the part where it stays away. */
+static int32_t dip(ac_instance *i, int32_t k, double from, double to, double *at) {
+    for (int tries = 0; tries < HALVINGS / 3; tries++) {
+        *at = from + (to - from) / 2;
+        stand(i, *at);
+        const int32_t failed = ac_indicator_rates(i, i->guards + 2 * i->of->watched);
+        if (failed) return failed;
+        if (beyond(i, k, i->guards[k]) > LEVEL * ac_width(i, k)) return AC_OK;
+        *(beyond(i, k, i->guards[2 * i->of->watched + k]) > 0 ? &from : &to) = *at;
+    }
+    *at = INFINITY;
+    return AC_OK;
+}
+
+/* The first event in a part of the step, infinite for none; values and rates at both ends. */
+static int32_t search(ac_instance *i, double from, double to, const double *before, const double *after, double *event) {
+    const int32_t n = i->of->watched;
+    int32_t failed = AC_OK;
+    *event = INFINITY;
+    for (int32_t k = 0; k < n && !failed; k++) {
+        const double level = LEVEL * ac_width(i, k), v0 = beyond(i, k, before[k]), v1 = beyond(i, k, after[k]);
+        const double r0 = beyond(i, k, before[n + k]), r1 = beyond(i, k, after[n + k]), h = to - from;
+        double end = v1 > level ? to : INFINITY;
+        /* Near and nearing at the first end, leaving at the second: a parabola may be beyond in between. */
+        if (!isfinite(end) && r0 > 0 && r1 < 0 && fmax(v0 + 0.5 * h * r0, v1 - 0.5 * h * r1) > 0) failed = dip(i, k, from, to, &end);
+        if (failed || !isfinite(end)) continue;
+        failed = bisect(i, k, from, &end, v0 > 0 ? level : 0);
+        if (!failed && end < *event) *event = end;
+    }
+    return failed;
+}
+
+/* Look for events in the last step. */
+static int32_t locate(ac_instance *i) {
+    const int32_t n = i->of->watched;
+    double *before = i->looks, *after = i->looks + 2 * n, from = i->now.from;
+    if (!n) return AC_OK;
+    int32_t failed = look(i, from, before, before + n);
+    for (int k = 1; k <= LOOKS && !failed && !isfinite(i->now.event); k++) {
+        const double to = k < LOOKS ? i->now.from + k * (i->now.to - i->now.from) / LOOKS : i->now.to;
+        failed = look(i, to, after, after + n);
+        if (!failed) failed = search(i, from, to, before, after, &i->now.event);
+        memcpy(before, after, 2 * (size_t)n * sizeof *before);
+        from = to;
+    }
+    return failed;
+}
+
+/* Let an event happen at the present. */
+static int32_t act(ac_instance *i) {
+    ac_happened found;
+    if (i->now.time - i->now.crowd > CROWDED * i->of->span) i->now.crowd = i->now.time, i->now.crowded = 0;
+    if (++i->now.crowded > MOST_CROWDED) return ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.");
+    return ac_happen(i, &found);
+}
+
+static int32_t at_event(ac_instance *i) {
+    const int32_t n = i->of->watched;
+    stand(i, i->now.event);
+    i->now.event = INFINITY;
+    const int32_t failed = ac_know(i, AC_GUARD);
+    for (int32_t k = 0; k < n; k++) i->crossed[k] = beyond(i, k, i->guards[k]) > 0;
+    i->now.integrates = i->now.curved = 0;
+    return failed;
+}
+
+/* Whether loops passed a flat position in the last step. */
+static int32_t refuse_flat(ac_instance *i) {
+    if (!i->of->levels) return AC_OK;
+    const int32_t nx = ac_states(i);
+    double *rates = i->looks + 4 * i->of->watched;
+    int32_t failed = AC_OK;
+    for (int end = 0; end < 2 && !failed; end++) {
+        stand(i, end ? i->now.to : i->now.from);
+        failed = ac_know(i, AC_RATE);
+        if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+        memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
+    }
+    const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
+    if (failed || !ac_flat(i, &a, &b)) return failed;
+    return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+}
+
+static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
+    double left = i->now.most;
+    int32_t failed = AC_OK;
+    while (!failed && !*event && i->now.time < to - near(i)) {
+        const double ahead = i->now.curved ? fmin(i->now.to, i->now.event) : i->now.time;
+        if (i->now.time < ahead) {
+            if (i->now.event <= to && i->now.event <= i->now.to) {
+                failed = at_event(i);
+                if (!failed && early) *event = 1;
+                else if (!failed) failed = act(i);
+            } else {
+                stand(i, fmin(to, ahead));
+            }
+        } else if (i->now.next <= i->now.time + near(i)) {
+            i->now.time = i->now.next;
+            ac_moved(i);
+            i->now.integrates = i->now.curved = 0;
+            if (early) *event = 1;
+            else failed = act(i);
+        } else {
+            if (!i->now.integrates || !i->going || i->now.to >= i->now.end) {
+                if (i->now.to >= i->now.end) i->now.integrates = 0;
+                failed = begin(i, to);
+            }
+            const double time = i->now.time;
+            if (!failed) failed = advance(i, &left);
+            if (!failed) failed = refuse_flat(i);
+            if (!failed) failed = locate(i);
+            if (!failed) stand(i, time);
+        }
+    }
+    if (!failed && !*event) {
+        i->now.time = to;
+        if (i->now.next <= to + near(i)) {
+            if (early) *event = 1;
+            else failed = act(i);
+        }
+    }
+    return failed;
+}
+
+/* From the present time to another; with `early`, back at the first event, which is left to the caller. */
+int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event) {
+    *event = 0, *reached = i->now.time;
+    if (i->now.phase == AC_AT_EVENT) {
+        const int32_t failed = ac_leave_event(i);
+        if (failed) return failed;
+    }
+    if (i->now.phase != AC_RUNNING || i->now.failed) return ac_fail(i, AC_REFUSED, "it is not running.");
+    if (!(to >= i->now.time) || !isfinite(to)) return ac_fail(i, AC_REFUSED, "a step leads to a later time.");
+    int32_t failed = go(i, to, early, event);
+    if (!failed) failed = ac_know(i, AC_Z);
+    *reached = i->now.time;
+    i->now.failed = failed == AC_FAILED;
+    if (!failed) ac_renew_inputs(i);
+    return failed;
+}

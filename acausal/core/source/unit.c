@@ -1,0 +1,170 @@
+/* Read a unit from its file. As with models nothing in it is believed. */
+#include "instance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define VERSION 2
+
+enum {
+    LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
+    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, NOMINAL, NATURAL, TOKEN, SECTIONS
+};
+static const char TAG[SECTIONS][8] = {
+    "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
+    "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords",
+    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "nominal", "natural", "token",
+};
+
+const char *ac_unit_why(int32_t why) {
+    static const char *const text[] = {
+        "it is read", "it is no model of acausal", "it is of another version of acausal", "it is cut off", "it is damaged",
+        "its content contradicts itself", "there is not enough memory",
+    };
+    return why >= 0 && why <= AC_NO_MEMORY ? text[why] : "it cannot be read";
+}
+
+const char *ac_unit_token(const ac_unit *unit) { return unit->token; }
+
+/* Integers that fill a section. */
+static const int32_t *integers(ac_section s, int64_t count) {
+    const int32_t *found = ac_take(&s, count, sizeof *found);
+    return s.left ? NULL : found;
+}
+
+static int positive(const double *number, int32_t count) {
+    for (int32_t k = 0; k < count; k++) {
+        if (!(number[k] > 0)) return 0;
+    }
+    return ac_all_finite(number, count);
+}
+
+static int read_layout(const ac_section *found, ac_unit *u) {
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t *n = integers(found[LAYOUT], AC_NUMBERED);
+    if (!n || !ac_within(n, AC_NUMBERED, INT32_MAX / 8) || n[10] > AC_LEVELS) return 0;
+    u->switches = n[0], u->discretes = n[1], u->closures = n[2], u->shown = n[3], u->watched = n[4], u->timed = n[5];
+    u->instants = n[6], u->jumps = n[7], u->constraints = n[8], u->inputs = n[9], u->levels = n[10];
+    if ((int64_t)u->switches + u->discretes + u->closures > e->nc) return 0;
+    u->role = integers(found[ROLES], e->np);
+    u->start_of = integers(found[STARTS], e->nx);
+    u->input = integers(found[INPUTS], u->inputs ? 2 * (int64_t)u->inputs + 1 : 0);
+    if (!u->role || !u->start_of || !u->input || !ac_within(u->role, e->np, AC_INNER + 1)) return 0;
+    for (int32_t k = 0; k < e->nx; k++) {
+        if (u->start_of[k] < -1 || u->start_of[k] >= e->np) return 0;
+    }
+    return ac_within(u->input, u->inputs ? 2 * u->inputs + 1 : 0, e->np);
+}
+
+static int read_tapes(const ac_section *found, ac_unit *u) {
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
+    const int32_t outputs[AC_TAPES] = {
+        u->switches + u->discretes, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1,
+    };
+    for (int k = 0; k < AC_TAPES; k++) {
+        if (!ac_read_tape(found[TAPES + k], inputs, 0, varying, &u->tape[k])) return 0;
+        if (outputs[k] >= 0 && u->tape[k].outputs != outputs[k]) return 0;
+    }
+    return 1;
+}
+
+static int read_squares(const ac_section *found, ac_unit *u) {
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t rare = e->np + e->nc, inputs = rare + e->nx + e->nz + 1;
+    u->places = malloc(((size_t)e->nx + 2 * (size_t)e->nz + 1) * sizeof *u->places);
+    if (!u->places) return 0;
+    int32_t *place = u->places;
+    for (int k = 0; k < AC_SQUARES; k++) {
+        ac_square *q = &u->square[k];
+        ac_section at = found[SQUARE_PATTERN + 2 * k];
+        q->n = k == AC_INITIAL ? e->nx + e->nz : e->nz;
+        q->tape = &u->squared[k];
+        if (!ac_read_tape(found[SQUARE + 2 * k], inputs, rare, inputs, &u->squared[k])) return 0;
+        if (!ac_read_columns(&at, q->n, q->n, &q->start, &q->row) || at.left) return 0;
+        if (u->squared[k].outputs != q->n + q->start[q->n]) return 0;
+        q->unknown = place;
+        for (int32_t j = 0; j < q->n; j++) *place++ = rare + (k == AC_INITIAL ? j : e->nx + j);
+    }
+    return 1;
+}
+
+static int read_rules(const ac_section *found, ac_unit *u) {
+    const int32_t guards = u->watched + u->timed, *n = integers(found[RULES], 5 * (int64_t)guards);
+    u->guard = (const ac_guard *)n;
+    u->jump = integers(found[JUMPS_TO], 2 * (int64_t)u->jumps);
+    if (!n || !u->jump) return 0;
+    for (int32_t k = 0; k < guards; k++) {
+        const ac_guard *g = &u->guard[k];
+        if (g->on < -1 || g->on >= u->switches || g->jump < 0 || g->jumps < 0 || g->jump > u->jumps - g->jumps) return 0;
+    }
+    for (int32_t k = 0; k < u->jumps; k++) {
+        const int32_t *to = u->jump + 2 * k;
+        if (!ac_within(to, 1, 2) || !ac_within(to + 1, 1, to[0] ? u->parts.model.equations.nx : u->discretes)) return 0;
+    }
+    return 1;
+}
+
+static int read_closing(const ac_section *found, ac_unit *u) {
+    const int32_t nx = u->parts.model.equations.nx;
+    ac_section at = found[CLOSE_PATTERN], level = found[LEVELS];
+    if (!ac_read_columns(&at, u->constraints, nx, &u->close_start, &u->close_row) || at.left) return 0;
+    u->closure = integers(found[CLOSURES], u->constraints);
+    u->coordinate = integers(found[COORDINATES_TO], u->tape[AC_COORDINATES].outputs);
+    u->kind = integers(found[KINDS], u->constraints);
+    if (!u->closure || !u->kind || !u->coordinate || u->tape[AC_CLOSING].outputs != u->constraints + u->close_start[nx]) return 0;
+    for (int32_t k = 0; k < u->constraints; k++) {
+        if (u->closure[k] < -1 || u->closure[k] >= u->closures) return 0;
+    }
+    for (int32_t k = 0; k < u->levels; k++) {
+        ac_level *l = &u->level[k];
+        const int32_t *n = ac_take(&level, 2, sizeof *n);
+        if (!n) return 0;
+        l->rows = n[0], l->columns = n[1];
+        l->row = ac_take(&level, l->rows, sizeof *l->row);
+        l->column = ac_take(&level, l->columns, sizeof *l->column);
+        if (!l->row || !l->column || !ac_within(l->row, l->rows, u->constraints) || !ac_within(l->column, l->columns, nx)) return 0;
+    }
+    return !level.left && ac_within(u->coordinate, u->tape[AC_COORDINATES].outputs, nx);
+}
+
+static int read_numbers(const ac_section *found, ac_unit *u) {
+    const ac_equations *e = &u->parts.model.equations;
+    ac_section nominal = found[NOMINAL], natural = found[NATURAL], token = found[TOKEN];
+    const double *span = ac_take(&nominal, 2, sizeof *span);
+    u->nominal = ac_take(&nominal, (int64_t)e->nx + e->nz, sizeof *u->nominal);
+    u->size = ac_take(&natural, e->nz, sizeof *u->size);
+    if (!span || !u->nominal || !u->size || nominal.left || natural.left) return 0;
+    u->span = span[0], u->tolerance = span[1], u->token = (const char *)token.at;
+    return positive(span, 2) && positive(u->nominal, e->nx + e->nz) && positive(u->size, e->nz)
+        && token.at && token.left && !token.at[token.left - 1];
+}
+
+static int read_all(const ac_section *found, ac_unit *u) {
+    return ac_read_parts(found, &u->parts) && !u->parts.model.equations.powers && read_layout(found, u) && read_tapes(found, u)
+        && read_squares(found, u) && read_rules(found, u) && read_closing(found, u) && read_numbers(found, u);
+}
+
+/* Read a unit; NULL where the bytes are none, and why. */
+ac_unit *ac_unit_read(const void *bytes, size_t length, int32_t *why) {
+    ac_section found[SECTIONS];
+    if ((*why = ac_file_outside(bytes, length, VERSION)) != AC_READ) return NULL;
+    ac_unit *u = malloc(sizeof *u + length);
+    if (!u) {
+        *why = AC_NO_MEMORY;
+        return NULL;
+    }
+    memset(u, 0, sizeof *u);
+    memcpy(u->file, bytes, length);
+    if (ac_file_split((const unsigned char *)u->file, length, TAG, SECTIONS, found) && read_all(found, u)) return u;
+    *why = AC_CONTENT;
+    ac_unit_free(u);
+    return NULL;
+}
+
+void ac_unit_free(ac_unit *unit) {
+    if (!unit) return;
+    free(unit->places);
+    free(unit);
+}

@@ -1,0 +1,90 @@
+"""The file of an exported model."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from acausal.core.build.compiling import SOURCE, file_of
+from acausal.errors import ExportError
+from acausal.export import fmi2, fmi3
+from acausal.export.description import Description
+from acausal.export.page import page
+from acausal.export.platforms import chosen
+from acausal.result import check_writable, shown_name
+from acausal.result.files import whole
+
+# The same model gives the same file; an archive knows no earlier time.
+TIME = (1980, 1, 1, 0, 0, 0)
+READABLE = 0o644 << 16
+UNIX = 3
+
+
+def source_names() -> tuple[str, ...]:
+    """Return the names of the C files that make the library."""
+    return tuple(sorted(path.name for path in SOURCE.glob("*.c")))
+
+
+def check_fmu(path: str | Path, fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
+    """Check before any work is done whether a model can be exported like this; return the platform of each folder.
+
+    Raises
+    ------
+    ExportError
+        With the reason why not.
+    """
+    check_writable(path)
+    if not str(path).lower().endswith(".fmu"):
+        raise ExportError(f"cannot write {shown_name(path)}: importers want a name that ends in .fmu; append it.")
+    return chosen(fmi_version, platforms)
+
+
+def write_fmu(
+    path: str | Path, description: Description, model: bytes, fmi_version: int = 3, platforms: Sequence[str] = ("own",)
+) -> None:
+    """Write an exported model, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or Path
+        Name of the file, which ends in .fmu.
+    description : Description
+        What importers see of the model.
+    model : bytes
+        What the library reads of it.
+    fmi_version : int
+        2 or 3.
+    platforms : sequence of str
+        For which the library is enclosed: names of platforms, "own" or "all".
+
+    Raises
+    ------
+    ExportError
+        If it cannot be written, or FMI does not allow what the description says.
+    """
+    libraries = check_fmu(path, fmi_version, platforms)
+    files = _contents(description, model, fmi_version, libraries)
+    with whole(path, "wb") as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(files):
+            entry = zipfile.ZipInfo(name, TIME)
+            entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, READABLE, UNIX
+            archive.writestr(entry, files[name])
+
+
+def _contents(description: Description, model: bytes, fmi_version: int, libraries: dict[str, str]) -> dict[str, bytes]:
+    """Return the files of the archive by name."""
+    files = {
+        "modelDescription.xml": (fmi2 if fmi_version == 2 else fmi3).describe(description),
+        "resources/model.bin": model,
+        "documentation/index.html": page(description, fmi_version, list(libraries)),
+    }
+    for folder, name in libraries.items():
+        library = file_of(name)
+        files[f"binaries/{folder}/{description.identifier}{library.suffix}"] = library.read_bytes()
+    if description.sources:
+        names = (*description.sources, *(path.name for path in SOURCE.glob("*.h")))
+        files |= {f"sources/{name}": (SOURCE / name).read_bytes() for name in names}
+        if fmi_version == 3:
+            files["sources/buildDescription.xml"] = fmi3.describe_sources(description)
+    return files

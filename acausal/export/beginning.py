@@ -1,0 +1,114 @@
+"""The start of an exported model: one square system for all its unknowns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.errors import ExportError
+from acausal.language.functions import initial as initial_flag
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.start.initialize import initial_system
+from acausal.solve.start.loop_states import choose_projection
+from acausal.solve.start.newton import algebraic
+from acausal.solve.start.start import go_on, start
+from acausal.symbols import scalars, stacked
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """Where an exported model starts, and the equations of that.
+
+    Attributes
+    ----------
+    at : Point
+        Consistent values; the projection of closed loops moves.
+    residuals : casadi.SX
+        As many as states and algebraic unknowns, in these, parameters, starts, time and constants.
+    starts : dict of int to casadi.SX
+        States that start at a number that can be changed, and its symbol.
+    """
+
+    at: Point
+    residuals: ca.SX
+    starts: dict[int, ca.SX]
+
+
+def begin(problem: Problem, time: float, later: float, initial: str) -> Beginning:
+    """Start a model, and say by which equations.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    time, later : float
+        Start time, and one before the first break.
+    initial : str
+        As in `simulate`.
+
+    Raises
+    ------
+    ExportError
+        If it starts in a singular position: equations do not tell how it goes on.
+    """
+    begun = start(problem, time, later, initial)
+    at = begun.point
+    if go_on(problem, begun) is not at:
+        raise ExportError(
+            f"the model starts in a singular position, t = {time:g} s, from where equations alone lead no further. Let it "
+            "start beside that."
+        )
+    system = initial_system(problem, at, initial)
+    residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
+    return Beginning(_moving(problem, at), residuals, starts)
+
+
+def _moving(problem: Problem, at: Point) -> Point:
+    """Return the point with the projection that moves."""
+    c = problem.compiled.constraints
+    if not c.size:
+        return at
+    z = at.z.copy()
+    z[c.multipliers] = 0.0
+    held = replace(problem.projected(at), z=z)
+    return algebraic(problem, replace(held, constants=choose_projection(problem, held, moves=True)))
+
+
+def _square(
+    compiled: CompiledModel, rows: np.ndarray, known: np.ndarray, direct: dict[int, int]
+) -> tuple[ca.SX, dict[int, ca.SX]]:
+    """Return the equations of an initial system, and the starts in them."""
+    r, nx = compiled.reduced, compiled.nx
+    equations = ca.substitute(ca.vertcat(r.ode, r.alg, compiled.conditions), initial_flag.sx, 1)
+    if r.projections.choice.numel():
+        equations = ca.substitute(equations, r.projections.moves, 1)
+    entries = scalars(equations)
+    unknowns = scalars(ca.vertcat(r.x, r.z))
+    found = [entries[nx + row] for row in rows.tolist()]
+    starts: dict[int, ca.SX] = {}
+    given = {state: entries[nx + row] for row, state in direct.items()}
+    for place in known.tolist():
+        own = unknowns[place]
+        if place >= nx:
+            found.append(own)  # a multiplier, which is 0
+        elif place in given and not _is_number(given[place], own):
+            found.append(given[place])
+        else:
+            starts[place] = ca.SX.sym(f"start{place}")
+            found.append(own - starts[place])
+    if len(found) != len(unknowns):
+        raise ExportError(
+            f"the start has {len(found)} equations for {len(unknowns)} unknowns, which cannot be exported; fix as many "
+            "start values as there are freedoms."
+        )
+    return stacked(found), starts
+
+
+def _is_number(condition: ca.SX, state: ca.SX) -> bool:
+    """Whether a condition says that a state is a number."""
+    return [s.element_hash() for s in ca.symvar(condition)] == [state.element_hash()]
+

@@ -1,0 +1,233 @@
+"""The model as a file that the library of an FMU reads, see docs/model-file.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.core import StoredModel, make_equations, make_square, make_tape
+from acausal.core.model_file import floats, framed, ints, tape_bytes
+from acausal.export.beginning import Beginning
+from acausal.export.given import Given
+from acausal.language.functions import time
+from acausal.solve.integrate.one_step import are_rates
+from acausal.solve.problem import Problem
+from acausal.solve.start.loops import levels
+from acausal.symbols import dense, picked, scalars, stacked
+
+VERSION = 2
+
+
+@dataclass(frozen=True)
+class Content:
+    """What the file holds.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    beginning : Beginning
+        Where it starts.
+    given : Given
+        What it is given.
+    shown : casadi.SX
+        Variables that importers read, in x, z, parameters, time and constants.
+    span, tolerance : float
+        Usual length of a run in s, and its tolerance.
+    """
+
+    problem: Problem
+    beginning: Beginning
+    given: Given
+    shown: ca.SX
+    span: float
+    tolerance: float
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """The model."""
+        return self.problem.compiled
+
+    def bytes(self, token: str) -> bytes:
+        """Return the file, with what tells the model from others."""
+        constants = self.beginning.at.constants
+        shape = [len(constants.switches), len(constants.discretes), len(constants.closures), self.shown.numel()]
+        c, jumps = self.compiled.constraints, self._jumps
+        shape += [len(self.watched), len(self._timed), self._instants.numel(), jumps[0].numel(), c.size]
+        shape += [len(self.given.inputs), len(self._levels)]
+        places = [k for pair in self.given.inputs for k in pair]
+        sections = {
+            **self._model.sections,
+            "layout": ints(shape),
+            "roles": ints(self.given.roles),
+            "starts": ints([self.given.starts.get(k, -1) for k in range(self.compiled.nx)]),
+            "inputs": ints([*places, len(self.given.roles) - 1] if places else []),
+            **self._square("settle", self.running[1], 3, self.compiled.nz),
+            **self._square("begin", self.beginning.residuals, None, self.compiled.nx + self.compiled.nz),
+            **{name: self._tape(column) for name, column in self._columns.items()},
+            "rules": ints([k for rule in self._rules for k in rule]),
+            "jumpsto": ints([k for place in jumps[1] for k in place]),
+            "closeat": ints(self._closing.sparsity().colind()) + ints(self._closing.sparsity().row()),
+            "closures": ints(self._closures),
+            "kinds": ints(c.kinds),
+            "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
+            "coordsto": ints(self._coordinates[1]),
+            "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
+            "natural": floats(self.compiled.nominal[self.compiled.nx :]),
+            "token": token.encode() + b"\0",
+        }
+        return framed(VERSION, sections)
+
+    @cached_property
+    def watched(self) -> list[int]:
+        """Guards that are watched: all but those whose instants functions of parameters and constants tell."""
+        guards = self.compiled.guards
+        inputs = {scalars(self.given.symbols)[k].element_hash() for k, _ in self.given.inputs}
+        bent = set(guards.bent)
+        return [
+            k
+            for k in range(len(guards.guards))
+            if k in set(guards.watched)
+            or k in bent
+            or any(s.element_hash() in inputs for s in ca.symvar(guards.excess[k]))
+        ]
+
+    @property
+    def _timed(self) -> list[int]:
+        return [k for k in self.compiled.guards.timed if k not in set(self.watched)]
+
+    @property
+    def _symbols(self) -> list[ca.SX]:
+        r = self.compiled.reduced
+        return [r.x, r.z, time.sx, self.given.symbols, r.constants]
+
+    def moving(self, expression: ca.SX) -> ca.SX:
+        """Return an expression where the projection moves and inputs vary."""
+        projections = self.compiled.reduced.projections
+        if projections.choice.numel():
+            expression = ca.substitute(expression, projections.moves, 1)
+        return self.given.sloped(expression)
+
+    @cached_property
+    def running(self) -> tuple[ca.SX, ca.SX]:
+        """Derivatives of the states, and residuals."""
+        running = self.compiled.reduced.running
+        return self.moving(running.ode), self.moving(running.alg)
+
+    @cached_property
+    def _model(self) -> StoredModel:
+        at, nx = self.beginning.at, self.compiled.nx
+        return StoredModel(
+            make_equations(*self._symbols, *self.running),
+            at.time,
+            *(at.x, at.z, self.given.values, at.constants.vector),
+            size=self.compiled.nominal[:nx],
+            rate=are_rates(self.problem),
+            names=self.compiled.states,
+        )
+
+    def _square(self, name: str, residuals: ca.SX, argument: int | None, n: int) -> dict[str, bytes]:
+        """Equations for the algebraic unknowns, or where no argument is given for these and the states."""
+        x, z, t, p, c = self._symbols
+        residuals = self.moving(residuals)
+        if argument is None:
+            square = make_square([p, c, ca.vertcat(x, z), t], 2, residuals, 2, np.arange(n))
+        else:
+            square = make_square([p, c, x, z, t], 2, residuals, argument, np.arange(n))
+        return {name: tape_bytes(square.tape), f"{name}at": ints(square.start) + ints(square.row)}
+
+    def _tape(self, column: ca.SX) -> bytes:
+        function = ca.Function("tape", self._symbols, [dense(self.moving(column))])
+        return tape_bytes(make_tape(function, early=(3, 4)))
+
+    @property
+    def _columns(self) -> dict[str, ca.SX]:
+        guards, (J, residuals) = self.compiled.guards, (self._closing, self._constraints)
+        return {
+            "head": guards.start.function(*guards.arguments),
+            "shown": self.shown,
+            "guards": ca.vertcat(picked(guards.excess, self.watched), self._scale),
+            "timed": self._truths,
+            "instants": self._instants,
+            "jumps": self._jumps[0],
+            "closing": ca.vertcat(residuals, stacked(J.nz[:].elements()) if J.nnz() else ca.SX(0, 1)),
+            "coords": self._coordinates[0],
+        }
+
+    @property
+    def _scale(self) -> ca.SX:
+        """Change of each watched excess by nominal changes of the unknowns."""
+        r = self.compiled.reduced
+        J = ca.jacobian(picked(self.compiled.guards.excess, self.watched), ca.vertcat(r.x, r.z))
+        return ca.fabs(J) @ ca.DM(self.compiled.nominal) if self.watched else ca.SX(0, 1)
+
+    @property
+    def _truths(self) -> ca.SX:
+        guards = self.compiled.guards
+        if not self._timed:
+            return ca.SX(0, 1)
+        held = guards.holds_at.function(self.compiled.reduced.p, time.sx, 0)
+        return held[[guards.timed.index(k) for k in self._timed]]
+
+    @cached_property
+    def _instants(self) -> ca.SX:
+        guards, r = self.compiled.guards, self.compiled.reduced
+        found = ca.vertcat(guards.breaks.function(r.p), guards.planned.function(r.p, r.constants))
+        return found if found.numel() else ca.SX(0, 1)
+
+    @cached_property
+    def _jumps(self) -> tuple[ca.SX, list[tuple[int, int]]]:
+        guards = self.compiled.guards
+        values, places = list[ca.SX](), list[tuple[int, int]]()
+        for k in (*self.watched, *self._timed):
+            if guards.guards[k].jumps:
+                call, to = guards.jump(k)
+                values.append(call.function(*guards.arguments))
+                places += [(int(is_state), place) for is_state, place in to]
+        return stacked(values), places
+
+    @property
+    def _rules(self) -> list[tuple[int, int, int, int, int]]:
+        """For each guard the switch that it sets, whether it holds at 0 and acts at the start, its first jump and how many."""
+        guards, first, found = self.compiled.guards, 0, []
+        for k in (*self.watched, *self._timed):
+            guard = guards.guards[k]
+            switch = k if k < guards.n_switches else -1
+            found.append((switch, int(guard.inclusive), int(guard.at_start), first, len(guard.jumps)))
+            first += len(guard.jumps)
+        return found
+
+    @property
+    def _constraints(self) -> ca.SX:
+        running = self.compiled.reduced.running
+        return dense(running.constraints) if self.compiled.constraints.size else ca.SX(0, 1)
+
+    @cached_property
+    def _closing(self) -> ca.SX:
+        return ca.jacobian(self._constraints, self.compiled.reduced.x)
+
+    @cached_property
+    def _levels(self) -> list[tuple[list[int], np.ndarray]]:
+        return levels(self.compiled)
+
+    @property
+    def _closures(self) -> list[int]:
+        """Closure of each residual of the constraints, -1 for none."""
+        c = self.compiled.constraints
+        found = [-1] * c.size
+        for closure, constraint in enumerate(c.closures):
+            for row in c.rows[constraint]:
+                found[row] = closure
+        return found
+
+    @cached_property
+    def _coordinates(self) -> tuple[ca.SX, list[int]]:
+        """Projected coordinates, and the states that stand for them."""
+        r = self.compiled.reduced
+        place = {v: k for k, v in enumerate(r.plan.states)}
+        to = [place[p.state] for p in r.plan.constrained.projections]
+        return (dense(r.running.resolve(r.projections.coordinates)) if to else ca.SX(0, 1)), to

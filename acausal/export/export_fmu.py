@@ -1,0 +1,146 @@
+"""Export a model as a Functional Mock-up Unit."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import uuid
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel, ready
+from acausal.export.archive import check_fmu, source_names, write_fmu
+from acausal.export.beginning import Beginning, begin
+from acausal.export.content import Content
+from acausal.export.description import Description, is_solved
+from acausal.export.given import Given, Role, given
+from acausal.export.reach import Reach
+from acausal.export.table import Table
+from acausal.language.component import Component
+from acausal.locks import alone
+from acausal.policy import POLICY
+from acausal.simulation.settings import settled
+from acausal.solve.problem import Problem
+from acausal.symbols import picked, scalars, stacked
+
+
+@alone
+def export_fmu(
+    model: Component | CompiledModel,
+    path: str | Path,
+    *,
+    fmi_version: int = 3,
+    parameters: Mapping[str, Any] | None = None,
+    platforms: Sequence[str] = ("own",),
+    free: Sequence[str] = (),
+) -> None:
+    """Write a model as a Functional Mock-up Unit, for Model Exchange and Co-Simulation.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    path : str or Path
+        File that is written, whole or not at all; its name ends in .fmu.
+    fmi_version : 2 or 3
+        Version of the Functional Mock-up Interface.
+    parameters : mapping of str to value, optional
+        Values by path, as of `simulate`.
+    platforms : sequence of str
+        Names of platforms for which libraries are enclosed, "own" or "all".
+    free : sequence of str
+        Parameters that stay in the equations although they are 0.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be written, or the model cannot be exported.
+    """
+    check_fmu(path, fmi_version, platforms)
+    compiled, p = ready(model, parameters)
+    settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
+    span = float(settings["stop_time"] or 1.0)
+    tolerance = float(settings["tolerance"] or POLICY.defaults.tolerance)
+    problem = Problem(compiled, p, POLICY.loops.feedback / span)
+    breaks = [b for b in compiled.guards.breaks(p)[0].tolist() if 0 < b < span]
+    beginning = begin(problem, 0.0, min(breaks, default=span) / 2, settings["initial"])
+    known = given(compiled, p, beginning)
+    content = Content(problem, beginning, known, ca.SX(0, 1), span, tolerance)
+    table = Table(compiled, known, beginning, tolerance, content.watched)
+    variables = table.variables()
+    content = Content(problem, beginning, known, stacked(table.shown), span, tolerance)
+    token = _token(content.bytes(""))
+    name = type(compiled.tree).__name__
+    outputs = tuple(v.reference for v in variables if v.causality == "output")
+    first = table.first_shown + len(table.shown)
+    indicators = tuple(range(first, first + len(content.watched)))
+    description = Description(
+        name=name,
+        identifier=re.sub(r"\W", "_", name, flags=re.ASCII),
+        token=token,
+        description=(type(compiled.tree).__doc__ or "").strip().partition("\n")[0],
+        version=version("acausal"),
+        variables=variables,
+        states=table.states,
+        rates=table.rates,
+        outputs=outputs,
+        indicators=indicators,
+        dependencies=_dependencies(content, table, outputs, indicators),
+        initial_unknowns=_initial(content, table, [v.reference for v in variables if is_solved(v)], set(outputs)),
+        start_time=0.0,
+        stop_time=span,
+        tolerance=tolerance,
+        step_size=span / POLICY.defaults.intervals,
+        completes=bool(compiled.constraints.size),
+        sources=source_names(),
+    )
+    write_fmu(path, description, content.bytes(token), fmi_version, platforms)
+
+
+def _token(content: bytes) -> str:
+    """What tells a model from others, made from its content."""
+    return f"{{{uuid.UUID(bytes=hashlib.sha256(content).digest()[:16])}}}"
+
+
+def _expressions(content: Content, table: Table, references: Sequence[int]) -> dict[int, ca.SX]:
+    """What rates, variables and indicators are."""
+    rates = dict(zip(table.rates, scalars(content.running[0]), strict=True))
+    shown = {table.first_shown + k: e for k, e in enumerate(scalars(content.moving(stacked(table.shown))))}
+    first = table.first_shown + len(table.shown)
+    excess = scalars(content.moving(picked(content.problem.compiled.guards.excess, content.watched)))
+    watched = {first + k: e for k, e in enumerate(excess)}
+    return {k: e for k, e in (rates | shown | watched).items() if k in set(references)}
+
+
+def _dependencies(
+    content: Content, table: Table, outputs: Sequence[int], indicators: Sequence[int]
+) -> dict[int, tuple[int, ...]]:
+    """On which states and inputs rates, outputs and indicators depend."""
+    r = content.problem.compiled.reduced
+    inputs = [k for k, _ in content.given.inputs]
+    knowns = ca.vertcat(r.x, picked(content.given.symbols, inputs))
+    references = [*table.states, *(table.parameters + k for k in inputs)]
+    reach = Reach(content.running[1], r.z, knowns)
+    found = _expressions(content, table, [*outputs, *table.rates, *indicators])
+    return {k: tuple(references[j] for j in reach(e)) for k, e in found.items()}
+
+
+def _initial(
+    content: Content, table: Table, solved: Sequence[int], outputs: set[int]
+) -> dict[int, tuple[int, ...]]:
+    """On what those depend that are solved for at the start."""
+    r, own = content.problem.compiled.reduced, content.given
+    settable = [k for k, role in enumerate(own.roles) if role is not Role.INNER]
+    state_of = {place: state for state, place in own.starts.items()}
+    references = [table.states[state_of[k]] if k in state_of else table.parameters + k for k in settable]
+    y = ca.vertcat(r.x, r.z)
+    reach = Reach(content.moving(content.beginning.residuals), y, picked(own.symbols, settable))
+    wanted = [k for k in solved if k in outputs or k in set(table.rates) or k in set(table.states)]
+    expressions = _expressions(content, table, wanted)
+    states = dict(zip(table.states, scalars(r.x), strict=True))
+    return {k: tuple(sorted(references[j] for j in reach(expressions.get(k, states.get(k))))) for k in wanted}

@@ -1,0 +1,109 @@
+"""What an exported model is given: parameters, start values, inputs and their slopes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.export.beginning import Beginning
+from acausal.flatten.inputs import inputs_of
+from acausal.language.functions import time
+from acausal.symbols import scalars, stacked
+
+
+class Role(IntEnum):
+    """What an entry is, and so when it can be set; the numbers are part of the file."""
+
+    TUNABLE = 0
+    FIXED = 1
+    INPUT = 2
+    START = 3
+    INNER = 4
+
+
+@dataclass(frozen=True)
+class Given:
+    """Entries of the vector of parameters of an exported model.
+
+    Attributes
+    ----------
+    symbols : casadi.SX
+        Parameters and inputs of the model, starts of states, slopes of inputs, and the time from which these count.
+    values : array
+        What they are.
+    roles : tuple of Role
+        What each is.
+    starts : dict of int to int
+        State -> its start.
+    inputs : tuple of (int, int)
+        Each input and its slope.
+    """
+
+    symbols: ca.SX
+    values: np.ndarray
+    roles: tuple[Role, ...]
+    starts: dict[int, int]
+    inputs: tuple[tuple[int, int], ...]
+
+    def sloped(self, expression: ca.SX) -> ca.SX:
+        """Return an expression in which inputs vary with time by their slopes."""
+        if not self.inputs:
+            return expression
+        entries = scalars(self.symbols)
+        inputs = [entries[k] for k, _ in self.inputs]
+        varied = [entries[k] + entries[slope] * (time.sx - entries[-1]) for k, slope in self.inputs]
+        return ca.substitute([expression], [stacked(inputs)], [stacked(varied)])[0]
+
+
+def given(compiled: CompiledModel, p: np.ndarray, beginning: Beginning) -> Given:
+    """Return what an exported model is given.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    p : array
+        Its parameters.
+    beginning : Beginning
+        Where it starts.
+    """
+    r, flat = compiled.reduced, compiled.reduced.flat
+    own, known = scalars(r.p), inputs_of(compiled.tree)
+    inputs = [k for k, s in enumerate(own) if s.element_hash() in known]
+    fixed = _fixed(compiled)
+    weighing = set(flat.parameters.weighing)
+    roles = [
+        Role.INPUT
+        if k in set(inputs)
+        else Role.INNER
+        if flat.parameters.names[k] in weighing
+        else Role.FIXED
+        if s.element_hash() in fixed
+        else Role.TUNABLE
+        for k, s in enumerate(own)
+    ]
+    starts = {state: len(own) + k for k, state in enumerate(beginning.starts)}
+    first = len(own) + len(starts)
+    slopes = [ca.SX.sym(f"slope{k}") for k in inputs]
+    since = [ca.SX.sym("since")] if inputs else []
+    x = beginning.at.x
+    values = [*p.tolist(), *(float(x[state]) for state in starts), *(0.0 for _ in [*slopes, *since])]
+    return Given(
+        stacked([r.p, *beginning.starts.values(), *slopes, *since]),
+        np.array(values),
+        (*roles, *(Role.START for _ in starts), *(Role.INNER for _ in [*slopes, *since])),
+        starts,
+        tuple((k, first + j) for j, k in enumerate(inputs)),
+    )
+
+
+def _fixed(compiled: CompiledModel) -> set[int]:
+    """Parameters on which the start hangs beside the equations, or the lengths of closed loops."""
+    r = compiled.reduced
+    discretes = [start for _, start in r.flat.discontinuities.discretes]
+    needed = [compiled.conditions, r.running.constraints, r.resolve(stacked(discretes))]
+    return {s.element_hash() for s in ca.symvar(ca.veccat(*needed))}

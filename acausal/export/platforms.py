@@ -1,0 +1,83 @@
+"""For which platforms an exported model holds the library, and where the standard wants it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from acausal.core.build.compiling import file_of, own_platform, version
+from acausal.core.library import MEND
+from acausal.errors import ExportError
+from acausal.nearest import likeliest
+from acausal.result import shown_name
+
+# FMI 2 knows one folder for both processors of macOS: where both are wanted, x86-64 has it.
+FOLDERS = {
+    2: {
+        "linux-x86_64": "linux64",
+        "linux-aarch64": "aarch64-linux",
+        "windows-x86_64": "win64",
+        "macos-x86_64": "darwin64",
+        "macos-arm64": "darwin64",
+    },
+    3: {
+        "linux-x86_64": "x86_64-linux",
+        "linux-aarch64": "aarch64-linux",
+        "windows-x86_64": "x86_64-windows",
+        "macos-x86_64": "x86_64-darwin",
+        "macos-arm64": "aarch64-darwin",
+    },
+}
+BUILD_ALL = "`python -m pip install ziglang`, then `python -m acausal.core.build` compiles it for all platforms"
+
+
+def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
+    """Return the platform whose library goes into each folder.
+
+    Parameters
+    ----------
+    fmi_version : int
+        2 or 3.
+    platforms : sequence of str
+        Names of platforms, "own" or "all".
+
+    Raises
+    ------
+    ExportError
+        If there is no such version or platform, or a library that is not installed or is of other sources.
+    """
+    if fmi_version not in FOLDERS:
+        raise ExportError(f"there is no version {fmi_version!r} of FMI to export to: give 2 or 3.")
+    folders = FOLDERS[fmi_version]
+    asked = [platforms] if isinstance(platforms, str) else platforms
+    wanted = {name for given in asked for name in _meant(given, list(folders))}
+    if not wanted:
+        raise ExportError(f"no platform is given: name own, all, or some of {', '.join(folders)}.")
+    found: dict[str, str] = {}
+    for name, folder in folders.items():
+        if name in wanted:
+            found.setdefault(folder, name)
+    if missing := [name for name in found.values() if not _is_installed(name)]:
+        mend = MEND if missing == [own_platform()] else BUILD_ALL
+        raise ExportError(f"the core is not installed for {', '.join(missing)}: {mend}.")
+    return found
+
+
+def _meant(given: str, known: list[str]) -> list[str]:
+    if given == "all":
+        return known
+    name = own_platform() if given == "own" else given
+    if name in known:
+        return [name]
+    choice = f"Platforms: own, all, {', '.join(known)}."
+    if given == "own":
+        raise ExportError(f"FMI has no folder for {name}, this platform; name others. {choice}")
+    near = likeliest(given, [*known, "own", "all"], 0.5)
+    raise ExportError(
+        f"there is no platform `{shown_name(given)}`{f'; did you mean `{near}`?' if near else '.'} {choice}"
+    )
+
+
+def _is_installed(name: str) -> bool:
+    path = file_of(name)
+    # What cannot be loaded here is asked for its sources by reading.
+    return path.is_file() and version().encode() in path.read_bytes()

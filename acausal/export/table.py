@@ -1,0 +1,200 @@
+"""The variables of an exported model by value references."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import casadi as ca
+
+from acausal.compiler import CompiledModel
+from acausal.export.beginning import Beginning
+from acausal.export.description import Causality, Variable, Variability
+from acausal.export.given import Given, Role
+from acausal.flatten.tree import walk
+from acausal.language import fields as f
+from acausal.language.functions import time
+from acausal.result.lookup import find, names
+from acausal.symbols import dense, scalars, stacked
+
+SETTINGS = (
+    ("solver.tolerance", "relative tolerance of the method inside, in Co-Simulation"),
+    ("solver.most_steps", "most steps of the method inside between two communication points"),
+)
+# Of `solver.most_steps`, as in the library.
+MOST_STEPS = 1e6
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A scalar that importers see: its name, unit and description, its expression, and whether it is an output."""
+
+    name: str
+    unit: str
+    description: str
+    expression: ca.SX
+    output: bool
+
+
+@dataclass
+class Table:
+    """Variables, and where their values stand.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    given : Given
+        What it is given.
+    beginning : Beginning
+        Where it starts.
+    tolerance : float
+        Of the method inside.
+    watched : list of int
+        Guards that are event indicators.
+
+    Attributes
+    ----------
+    shown : list of casadi.SX
+        What the library evaluates for importers.
+    """
+
+    compiled: CompiledModel
+    given: Given
+    beginning: Beginning
+    tolerance: float
+    watched: list[int]
+    shown: list[ca.SX] = field(default_factory=list)
+
+    @property
+    def states(self) -> tuple[int, ...]:
+        """References of the states."""
+        return tuple(range(1, 1 + self.compiled.nx))
+
+    @property
+    def rates(self) -> tuple[int, ...]:
+        """References of their derivatives."""
+        return tuple(k + self.compiled.nx for k in self.states)
+
+    @property
+    def parameters(self) -> int:
+        """First reference of what is given."""
+        return 1 + 2 * self.compiled.nx
+
+    @property
+    def first_shown(self) -> int:
+        """First reference of what is shown."""
+        return self.parameters + len(self.given.roles)
+
+    def variables(self) -> tuple[Variable, ...]:
+        """Return all variables; fills `shown`."""
+        seen = list(_seen(self.compiled))
+        found = [*self._of_clock(), *self._of_given(seen), *self._of_states(seen), *self._of_seen(seen)]
+        first = self.first_shown + len(self.shown)
+        found += [
+            Variable(f"event_indicators[{k}]", first + k, "local", "continuous", "calculated", "", None)
+            for k in range(len(self.watched))
+        ]
+        first += len(self.watched)
+        values = (self.tolerance, MOST_STEPS)
+        for k, ((name, text), value) in enumerate(zip(SETTINGS, values, strict=True)):
+            found.append(Variable(name, first + k, "parameter", "fixed", "exact", "", value, text))
+        return tuple(found)
+
+    def _of_clock(self) -> Iterator[Variable]:
+        yield Variable("time", 0, "independent", "continuous", None, "s", None, "time")
+
+    def _of_given(self, seen: list[Seen]) -> Iterator[Variable]:
+        own = self.compiled.reduced.flat.parameters
+        texts = {s.expression.element_hash(): s for s in seen if s.expression.is_symbolic()}
+        kinds: dict[Role, tuple[Causality, Variability]] = {
+            Role.TUNABLE: ("parameter", "tunable"),
+            Role.FIXED: ("parameter", "fixed"),
+            Role.INPUT: ("input", "continuous"),
+        }
+        symbols = scalars(self.compiled.reduced.p)
+        for k, (name, symbol) in enumerate(zip(own.names, symbols, strict=True)):
+            if self.given.roles[k] not in kinds:
+                continue
+            told = texts.get(symbol.element_hash())
+            unit, text = (told.unit, told.description) if told else ("", "")
+            causality, variability = kinds[self.given.roles[k]]
+            yield Variable(
+                name, self.parameters + k, causality, variability, "exact", unit, float(self.given.values[k]), text
+            )
+
+    def _of_states(self, seen: list[Seen]) -> Iterator[Variable]:
+        r, x = self.compiled.reduced, self.beginning.at.x
+        known = {s.name: s for s in seen}
+        free = {s.expression.element_hash(): s.name for s in seen if s.expression.is_symbolic() and not s.output}
+        jumping = self._jumping()
+        for k, (symbol, name) in enumerate(zip(scalars(r.x), r.states, strict=True)):
+            # In closed loops what is integrated is projected: the coordinate itself is shown under its own name.
+            own = free.get(symbol.element_hash(), name if name not in known else f"integrated.{name}")
+            about = known.get(own) or known.get(name)
+            unit, text = (about.unit, about.description) if about else ("", "")
+            starts = k in self.beginning.starts
+            yield Variable(
+                *(own, self.states[k], "local", "continuous", "exact" if starts else "calculated", unit),
+                *(float(x[k]) if starts else None, text, float(self.compiled.nominal[k])),
+                reinit=k in jumping,
+            )
+            rate = f"{unit}/s" if unit else ""
+            yield Variable(
+                *(f"der({own})", self.rates[k], "local", "continuous", "calculated", rate, None),
+                derivative_of=self.states[k],
+            )
+
+    def _jumping(self) -> set[int]:
+        """States that an event may change; in closed loops all of these follow."""
+        guards = self.compiled.guards
+        places = [to for k, g in enumerate(guards.guards) if g.jumps for to in guards.jump(k)[1]]
+        direct = {place for is_state, place in places if is_state}
+        return direct | set(self.compiled.constraints.states.tolist() if direct else [])
+
+    def _of_seen(self, seen: list[Seen]) -> Iterator[Variable]:
+        r, places = self.compiled.reduced, dict[int, int]()
+        state = {s.element_hash() for s in scalars(r.x)}
+        parameter = {s.element_hash() for s in scalars(r.p)}
+        moving = {s.element_hash() for s in [*scalars(ca.vertcat(r.x, r.z)), time.sx]}
+        for one in seen:
+            key = one.expression.element_hash()
+            if one.expression.is_constant() and not one.output:
+                continue
+            if not one.output and key in state | parameter | {time.sx.element_hash()}:
+                continue  # it has a reference already
+            if one.output or key not in places:
+                self.shown.append(one.expression)
+                place = self.first_shown + len(self.shown) - 1
+                if not one.output:
+                    places[key] = place
+            else:
+                place = places[key]
+            moves = any(s.element_hash() in moving for s in ca.symvar(one.expression))
+            yield Variable(
+                *(one.name, place, "output" if one.output else "local", "continuous" if moves else "discrete"),
+                *("calculated", one.unit, None, one.description),
+            )
+
+
+def _seen(compiled: CompiledModel) -> Iterator[Seen]:
+    """All scalars of a model by name, expressed in states, algebraic unknowns, parameters, time and constants."""
+    tree, found = compiled.tree, list[Seen]()
+    owners = {component._path: component for component in walk(tree)}
+    for path in names(tree):
+        quantity = find(tree, path)
+        owner, _, name = path.rpartition(".")
+        text = getattr(type(owners[owner]).fields[name], "description", "")
+        column = scalars(dense(quantity.column))
+        index = {name: k for k, name in enumerate(_names_in_columns(quantity.entries, quantity.shape))}
+        for _, entry, unit in quantity.entries:
+            output = not owner and isinstance(type(tree).fields[name], f.Variable) and name in compiled.outputs
+            found.append(Seen(entry, unit, text, column[index[entry]], output))
+    resolved = scalars(dense(compiled.reduced.running.resolve(stacked([s.expression for s in found]))))
+    for one, expression in zip(found, resolved, strict=True):
+        yield replace(one, expression=expression)
+
+
+def _names_in_columns(entries: list[tuple[tuple[int, ...], str, str]], shape: tuple[int, ...]) -> list[str]:
+    """Names of the entries in the order of a column, the first index running fastest."""
+    return [name for _, name, _ in sorted(entries, key=lambda entry: entry[0][::-1])] if shape else [entries[0][1]]
