@@ -251,6 +251,16 @@ class Rodas:
             Signals.raise_lost()
 
     @property
+    def last(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """Time, states and algebraic unknowns after the last step, which was kept."""
+        times, y = self.steps
+        return float(times[-1]), y[-1, : self.equations.nx], y[-1, self.equations.nx :]
+
+    def move(self, x: np.ndarray, z: np.ndarray) -> None:
+        """Go on from other states and algebraic unknowns, near those after the last step."""
+        self._library.ac_rodas_move(self._memory, *map(_address, (x, z)))
+
+    @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Times and values, of which the states come first, before and after each step since it was last told to go on.
 

@@ -104,8 +104,9 @@ def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     if not rows.size:
         return selection
     (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
-    # A weight of 0 would count as none.
-    weight = scipy.sparse.csr_matrix((1 - np.log(sizes), (row, column)))
+    # A weight of 0 would count as none; on a grid their sums are exact: the search may turn for ever where they round.
+    weights = np.ceil((1 - np.log(sizes)) / LOOPS.grid) * LOOPS.grid
+    weight = scipy.sparse.csr_matrix((weights, (row, column)))
     pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
     follows[row_of[pairs[0]]] = column_of[pairs[1]]
     for part in levels:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +14,7 @@ from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part, part_of
 from acausal.solve.start.rank import factored
@@ -144,7 +144,32 @@ def _damped(
 
 def algebraic(problem: Problem, at: Point) -> Point:
     """Solve for the algebraic unknowns, with the states as they are."""
-    return newton(problem, _algebraic(problem.compiled), at, 0.0)
+    try:
+        return newton(problem, _algebraic(problem.compiled), at, 0.0)
+    except Lost:
+        found = _by_parts(problem, at)
+        if found is None:
+            raise
+        return found
+
+
+def _by_parts(problem: Problem, at: Point) -> Point | None:
+    """Solve for them part after part; None where that does not solve the equations.
+
+    At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
+    each of them alone. In one matrix that is d^4, which is less than rounding.
+    """
+    for step in problem.compiled.passes(tuple(range(problem.nz))):
+        for _ in range(1 if step.linear else NEWTON.iterations):
+            z, own = at.z.copy(), step.unknowns
+            z[own] = problem.each(step.function, Rows.of(at))[0]
+            change = np.abs(z - at.z)[own] / (problem.nominal[problem.nx + own] + np.abs(z[own]))
+            at = replace(at, z=z)
+            if not np.max(change) > NEWTON.converged:
+                break
+    own = slice(problem.nx, problem.nx + problem.nz)
+    solved = np.abs(problem.values(at)[own]) <= rounding(problem.local(at), at.y, problem.nominal)[own]
+    return at if np.all(solved) else None
 
 
 @once
