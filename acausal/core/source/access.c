@@ -8,6 +8,8 @@
 enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
 enum { TOLERANCE, MOST };
 
+#define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
+
 static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
@@ -32,7 +34,7 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
         if (failed) return failed;
         const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards, NULL};
         value[k] = kind != SETTING ? from[kind][place] : place == TOLERANCE ? i->now.tolerance : i->now.most;
-        if (kind == INDICATOR) value[k] += i->truth[place] ? -ac_width(i, place) : ac_width(i, place);
+        if (kind == INDICATOR) value[k] += (i->truth[place] > 0 ? -HYSTERESIS : HYSTERESIS) * ac_width(i, place);
     }
     return AC_OK;
 }
