@@ -1,0 +1,3 @@
+"""The reduced DAE in Base Modelica."""
+def base_modelica(compiled, p):
+    return ""

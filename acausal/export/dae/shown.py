@@ -1,0 +1,125 @@
+"""What an open DAE says of a model to whoever reads it: variables, parameters, equations, and where their values stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.whole import origin_of
+from acausal.export.dae.plain import without_folder
+from acausal.flatten.tree import join, walk
+from acausal.language import fields as f
+from acausal.result import names
+from acausal.result.lookup import READABLE, find
+from acausal.symbols import scalars
+
+Add = Callable[[ca.SX], int]
+
+
+def shown(compiled: CompiledModel, p: np.ndarray, add: Add) -> dict[str, Any]:
+    """Return what dae.json says of a model.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    p : array
+        Values of its free parameters.
+    add : callable
+        From an expression to its number.
+    """
+    r, flat = compiled.reduced, compiled.reduced.flat
+    units = dict(zip(flat.unknowns.names, flat.unknowns.units, strict=True))
+    parameters = zip(flat.parameters.names, p.tolist(), strict=True)
+    return {
+        "outputs": list(compiled.outputs),
+        "system": {
+            "states": add(r.x),
+            "algebraic": add(r.z),
+            "parameters": add(r.p),
+            "constants": add(r.constants),
+            "derivatives": add(r.running.ode),
+            "residuals": add(r.running.alg),
+            "start": add(_start(compiled)),
+            "conditions": add(compiled.conditions),
+        },
+        "parameters": [{"name": name, "value": value} for name, value in parameters],
+        "unknowns": list(_unknowns(compiled, units)),
+        "equations": [_equation(compiled, k) for k in range(len(r.residuals))],
+        "variables": list(_variables(compiled, add)),
+        "loops": [{"closed_by": [c.a, c.b], "kind": c.kind, "parts": list(c.parts)} for c in flat.loops.cuts],
+    }
+
+
+def _start(compiled: CompiledModel) -> ca.SX:
+    """Start values of states and algebraic unknowns, in parameters and time."""
+    from acausal.language.functions import time
+
+    return compiled.start.function(compiled.reduced.p, time.sx)
+
+
+def _unknowns(compiled: CompiledModel, units: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the scalar unknowns of all equations, and how each is found."""
+    r = compiled.reduced
+    plan, own = r.plan, r.flat.unknowns
+    kinds = dict.fromkeys(plan.states, "state") | dict.fromkeys(plan.algebraic, "algebraic")
+    kinds |= {k: "assigned" for k, _ in plan.assigned} | {k: "observed" for k, _ in plan.observed}
+    derivative_of = {d: k for k, d in enumerate(plan.system.derivative) if d >= 0}
+    for k, name in enumerate(r.names):
+        unit = units.get(name)
+        yield {
+            "name": name,
+            "unit": None if unit is None else str(unit),
+            "nominal": float(own.nominal[k]) if k < len(own.names) else 1.0,
+            "kind": kinds.get(k, "derivative"),
+            "derivative_of": derivative_of.get(k),
+        }
+
+
+def _equation(compiled: CompiledModel, row: int) -> dict[str, Any]:
+    r = compiled.reduced
+    origin, written = origin_of(r, row), len(r.flat.equations.origins)
+    file, _, line = without_folder(origin.where).rpartition(":")
+    return {
+        "part": origin.path,
+        "class": origin.kind,
+        "file": file,
+        "line": int(line) if line.isdigit() else None,
+        "text": origin.text,
+        "derivative_of": r.plan.differentiated[row - written]
+        if written <= row < written + len(r.plan.differentiated)
+        else None,
+        "unknowns": [int(k) for k in r.plan.system.rows[row]],
+    }
+
+
+def _variables(compiled: CompiledModel, add: Add) -> Iterator[dict[str, Any]]:
+    """Yield what can be read by name, as expressions of states, algebraic unknowns, parameters and time."""
+    tree, r = compiled.tree, compiled.reduced
+    declared = {
+        join(c._path, name): field for c in walk(tree) for name, field in c.fields.items() if isinstance(field, READABLE)
+    }
+    found = []
+    for name in names(tree):
+        try:
+            found.append(find(tree, name))
+        except Exception:  # an observed quantity without a value: load_dae tells why
+            continue
+    columns = ca.vertcat(ca.SX(0, 1), *[ca.densify(q.column) for q in found])
+    resolved = scalars(r.running.resolve(columns)) if columns.numel() else []
+    first = 0
+    for q in found:
+        field, entries = declared[q.name], resolved[first : first + q.size]
+        first += q.size
+        yield {
+            "name": q.name,
+            "shape": list(q.shape),
+            "units": list(dict.fromkeys(q.units)) if len(set(q.units)) == 1 else list(q.units),
+            "description": field.description,
+            "kind": field.causality or "variable" if isinstance(field, f.Variable) else type(field).__name__.lower(),
+            "expression": add(ca.vertcat(ca.SX(0, 1), *entries)),
+        }
