@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -16,9 +17,8 @@ from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
 from acausal.export.dae.shown import shown
 from acausal.language.component import Component
-from acausal.language.expression import Expr
 from acausal.language.functions import feedback, initial, time
-from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.language.validity import Expectation, Separation
 from acausal.locks import alone
 from acausal.result import check_writable
 from acausal.simulation.settings import declared_settings
@@ -54,13 +54,14 @@ def export_dae(
     compiled, p = ready(model, parameters)
     writer = Writer()
     kept, unchecked = _stated(compiled)
+    values = tree.evaluated(compiled.tree)
     inside = {
         "model": encoded(compiled.reduced, writer.add),
         "values": encoded(p, writer.add),
-        "tree": tree.written(compiled.tree, kept, writer.add),
+        "tree": tree.written(compiled.tree, values, kept, writer.add),
         "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
     }
-    described = shown(compiled, p, writer.add)
+    described = shown(compiled, p, values, writer.add)
     operations, symbols = writer.operations()
     hashes = [s.element_hash() for s in symbols]
     places = {name: expr.sx.element_hash() for name, expr in SHARED.items()}
@@ -86,16 +87,14 @@ def export_dae(
 
 
 def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
-    """Return what components state that can be kept, and which requirements are functions, which cannot."""
+    """Return what components state, and of which requirements only the subject is kept: functions need the classes."""
     kept: list[Stated] = []
     unchecked: list[str] = []
     for statement, origin in compiled.requirements.stated:
-        if isinstance(statement, Requirement) and not isinstance(statement.problem, str):
-            subject = statement.subject
-            unchecked.append(subject.name if isinstance(subject, Expr) and subject.name else str(origin.path))
+        if callable(statement.problem):
+            unchecked.append(getattr(statement.subject, "name", "") or origin.path)
+            kept.append((replace(statement, problem=""), origin))
         else:
             kept.append((statement, origin))
     kept += statements(compiled.tree, "validity", (Expectation, Separation))
     return kept, unchecked
-
-

@@ -23,7 +23,23 @@ _UNARY = (
 )
 UNARY = frozenset(KIND[op] for op in _UNARY)
 NAMES = (
-    *("add", "sub", "mul", "div", "neg", "square", "twice", "inverse", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan"),
+    *(
+        "add",
+        "sub",
+        "mul",
+        "div",
+        "neg",
+        "square",
+        "twice",
+        "inverse",
+        "sqrt",
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+    ),
     *("atan2", "exp", "log", "pow", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "abs", "sign", "floor", "ceil"),
     *("fmod", "remainder", "copysign", "fmin", "fmax", "hypot", "log1p", "expm1", "erf", "lt", "le", "eq", "ne", "not"),
     *("and", "or", "if_else_zero", "assign"),

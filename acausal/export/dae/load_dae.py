@@ -43,10 +43,13 @@ def load_dae(path: str | Path) -> CompiledModel:
     first, members = archive.read(path)
     try:
         reduced, settings = _read(first, members)
+        compiled = CompiledModel(reduced, {}, None, declared=settings)
+        compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
         # The checksums fit: what is wrong was written so.
         archive.refuse(path, "its content contradicts itself; it was not written by export_dae")
-    return CompiledModel(reduced, {"load": clock.perf_counter() - begun}, None, declared=settings)
+    compiled.seconds["load"] = clock.perf_counter() - begun
+    return compiled
 
 
 def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedModel, dict[str, Any]]:

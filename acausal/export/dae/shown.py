@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import casadi as ca
@@ -13,14 +13,15 @@ from acausal.compiler.whole import origin_of
 from acausal.export.dae.plain import without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
-from acausal.result import names
-from acausal.result.lookup import READABLE, find
-from acausal.symbols import scalars
+from acausal.language.expression import Expr
+from acausal.language.functions import time
+from acausal.result.lookup import quantity_of
+from acausal.symbols import stacked
 
 Add = Callable[[ca.SX], int]
 
 
-def shown(compiled: CompiledModel, p: np.ndarray, add: Add) -> dict[str, Any]:
+def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | str], add: Add) -> dict[str, Any]:
     """Return what dae.json says of a model.
 
     Parameters
@@ -29,6 +30,8 @@ def shown(compiled: CompiledModel, p: np.ndarray, add: Add) -> dict[str, Any]:
         The model.
     p : array
         Values of its free parameters.
+    values : mapping of str to Expr or str
+        What can be read by name.
     add : callable
         From an expression to its number.
     """
@@ -50,15 +53,13 @@ def shown(compiled: CompiledModel, p: np.ndarray, add: Add) -> dict[str, Any]:
         "parameters": [{"name": name, "value": value} for name, value in parameters],
         "unknowns": list(_unknowns(compiled, units)),
         "equations": [_equation(compiled, k) for k in range(len(r.residuals))],
-        "variables": list(_variables(compiled, add)),
+        "variables": list(_variables(compiled, values, add)),
         "loops": [{"closed_by": [c.a, c.b], "kind": c.kind, "parts": list(c.parts)} for c in flat.loops.cuts],
     }
 
 
 def _start(compiled: CompiledModel) -> ca.SX:
     """Start values of states and algebraic unknowns, in parameters and time."""
-    from acausal.language.functions import time
-
     return compiled.start.function(compiled.reduced.p, time.sx)
 
 
@@ -97,29 +98,26 @@ def _equation(compiled: CompiledModel, row: int) -> dict[str, Any]:
     }
 
 
-def _variables(compiled: CompiledModel, add: Add) -> Iterator[dict[str, Any]]:
+def _variables(compiled: CompiledModel, values: Mapping[str, Expr | str], add: Add) -> Iterator[dict[str, Any]]:
     """Yield what can be read by name, as expressions of states, algebraic unknowns, parameters and time."""
-    tree, r = compiled.tree, compiled.reduced
-    declared = {
-        join(c._path, name): field for c in walk(tree) for name, field in c.fields.items() if isinstance(field, READABLE)
-    }
-    found = []
-    for name in names(tree):
-        try:
-            found.append(find(tree, name))
-        except Exception:  # an observed quantity without a value: load_dae tells why
-            continue
-    columns = ca.vertcat(ca.SX(0, 1), *[ca.densify(q.column) for q in found])
-    resolved = scalars(r.running.resolve(columns)) if columns.numel() else []
+    r = compiled.reduced
+    found = [
+        (field, quantity_of(c, name, field, value))
+        for c in walk(compiled.tree)
+        for name, field in c.fields.items()
+        if isinstance(value := values.get(join(c._path, name)), Expr)
+    ]
+    column = stacked([q.column for _, q in found])
+    resolved = r.running.resolve(column) if column.numel() else column
     first = 0
-    for q in found:
-        field, entries = declared[q.name], resolved[first : first + q.size]
-        first += q.size
+    for field, q in found:
+        kind = (field.causality or "variable") if isinstance(field, f.Variable) else type(field).__name__.lower()
         yield {
             "name": q.name,
             "shape": list(q.shape),
-            "units": list(dict.fromkeys(q.units)) if len(set(q.units)) == 1 else list(q.units),
+            "units": list(q.units),
             "description": field.description,
-            "kind": field.causality or "variable" if isinstance(field, f.Variable) else type(field).__name__.lower(),
-            "expression": add(ca.vertcat(ca.SX(0, 1), *entries)),
+            "kind": kind,
+            "expression": add(resolved[first : first + q.size] if q.size else ca.SX(0, 1)),
         }
+        first += q.size

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import keyword
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from math import isfinite
 from typing import Any, ClassVar
 
 import casadi as ca
+import numpy as np
 
 from acausal.compiler.requirements import Stated
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, caution
 from acausal.export.dae.plain import encoded, without_folder
-from acausal.flatten.tree import walk
+from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Model, Record
 from acausal.language.expression import Expr
 from acausal.language.validity import Requirement
-from acausal.result.lookup import READABLE, find
+from acausal.result.lookup import READABLE
 
 Add = Callable[[ca.SX], int]
 Decode = Callable[[Any], Any]
@@ -36,13 +38,29 @@ MORE: dict[type, tuple[str, ...]] = {
 KINDS = {kind.__name__.lower(): kind for kind in MORE}
 
 
-def written(tree: Component, stated: list[Stated], add: Add) -> dict[str, Any]:
+def evaluated(tree: Component) -> dict[str, Expr | str]:
+    """Return the value of every variable, parameter and observed quantity by its path, or why it has none."""
+    found: dict[str, Expr | str] = {}
+    for component in walk(tree):
+        for name, declared in component.fields.items():
+            observed = isinstance(declared, f.Observed)
+            if observed or (isinstance(declared, READABLE) and vars(component).get(name) is not None):
+                try:
+                    found[join(component._path, name)] = getattr(component, name)
+                except DeclarationError as error:
+                    found[join(component._path, name)] = str(error)
+    return found
+
+
+def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stated], add: Add) -> dict[str, Any]:
     """Return classes and components of a bound model, what contains others before these.
 
     Parameters
     ----------
     tree : Component
         The model.
+    values : mapping of str to Expr or str
+        From `evaluated`.
     stated : list of (statement, Origin)
         Requirements, expectations and separations that are kept.
     add : callable
@@ -64,7 +82,7 @@ def written(tree: Component, stated: list[Stated], add: Add) -> dict[str, Any]:
                 "started": [name for name, value in c._values.items() if _is_start(value)],
                 "ports": [numbers[id(p)] for p in c._ports if id(p) in numbers],
                 "owner": numbers.get(id(c._owner)) if isinstance(c, Connector) else None,
-                "members": {name: value for name, value in _members(c, numbers, add)},
+                "members": {name: value for name, value in _members(c, values, numbers, add)},
                 "states": own.get(c._path, []),
             }
             for c in components
@@ -95,23 +113,24 @@ def _is_start(value: Any) -> bool:
     return value is True or (isinstance(value, f.InitialValue) and value.fixed)
 
 
-def _members(component: Component, numbers: Mapping[int, int], add: Add) -> Iterator[tuple[str, Any]]:
+def _members(
+    component: Component, values: Mapping[str, Expr | str], numbers: Mapping[int, int], add: Add
+) -> Iterator[tuple[str, Any]]:
     """Yield what a component has in place of each of its fields."""
     for name, declared in component.fields.items():
-        value = vars(component).get(name)
-        if isinstance(declared, f.Observed):
-            yield name, _observed(component, name, declared, add)
-        elif isinstance(declared, READABLE) and value is not None:
-            yield name, {"value": encoded(value, add), **_seen(component, declared)}
+        own, path = vars(component).get(name), join(component._path, name)
+        if isinstance(values.get(path), str):
+            yield name, {"refused": values[path]}
+        elif path in values:
+            yield name, {"value": encoded(values[path], add), **_seen(component, declared)}
         elif isinstance(declared, f.Structural):
-            plain = type(value) in PLAIN and not (isinstance(value, float) and not isfinite(value))
-            said = value if plain else {"shown": repr(value)}
+            plain = type(own) in PLAIN and not (isinstance(own, float) and not isfinite(own))
             refined = declared.refine is not None and bool(declared.refine(component))
-            yield name, {"value": said, "refined": refined}
-        elif isinstance(value, list):
-            yield name, [numbers[id(part)] for part in value]
-        elif id(value) in numbers or (value is None and name in vars(component)):
-            yield name, numbers.get(id(value))
+            yield name, {"value": own if plain else {"shown": repr(own)}, "refined": refined}
+        elif isinstance(own, list):
+            yield name, [numbers[id(part)] for part in own]
+        elif id(own) in numbers or (own is None and name in vars(component)):
+            yield name, numbers.get(id(own))
 
 
 def _seen(component: Component, declared: f.Field) -> dict[str, Any]:
@@ -122,14 +141,6 @@ def _seen(component: Component, declared: f.Field) -> dict[str, Any]:
         "shape": None if shape is None else [int(n) for n in shape],
         "unit": unit if unit is None or isinstance(unit, str) else list(unit),
     }
-
-
-def _observed(component: Component, name: str, declared: f.Field, add: Add) -> dict[str, Any]:
-    try:
-        find(component, name)
-        return {"value": encoded(getattr(component, name), add), **_seen(component, declared)}
-    except DeclarationError as error:
-        return {"refused": str(error)}
 
 
 class StandIn:
@@ -154,6 +165,30 @@ class Shown:
 
     def __repr__(self) -> str:
         return self.text
+
+
+class Unchecked:
+    """A requirement whose check was a function: what it was asked first is right, of others a warning tells.
+
+    Parameters
+    ----------
+    name : str
+        What is required.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.first: np.ndarray | None = None
+
+    def __call__(self, value: np.ndarray) -> str:
+        if self.first is None:
+            self.first = value.copy()
+        if not np.array_equal(value, self.first):
+            caution(
+                f"`{self.name}` was changed in a model that was loaded without its classes, which know what values it may "
+                "have: this one was not checked."
+            )
+        return ""
 
 
 def read(said: Mapping[str, Any], decode: Decode) -> Component:
@@ -219,7 +254,7 @@ def _fill(component: Any, entry: Mapping[str, Any], components: list[Any], decod
     own |= {"_path": entry["path"], "_origin": entry["where"], "_is_bound": True, "_said": said}
     own["_values"] = {name: f.InitialValue(None, True) for name in entry["started"]}
     own["_ports"] = tuple(components[k] for k in entry["ports"])
-    own["_states"] = tuple(decode(statement) for statement in entry["states"])
+    own["_states"] = tuple(_statement(decode(statement)) for statement in entry["states"])
     if isinstance(component, Connector):
         own["_owner"] = None if entry["owner"] is None else components[entry["owner"]]
     for name, member in entry["members"].items():
@@ -234,6 +269,11 @@ def _fill(component: Any, entry: Mapping[str, Any], components: list[Any], decod
         else:
             parts = [components[k] for k in (member if isinstance(member, list) else [member]) if k is not None]
             own[name] = parts if isinstance(member, list) else next(iter(parts), None)
+
+
+def _statement(said: Any) -> Any:
+    checks = not isinstance(said, Requirement) or said.problem
+    return said if checks else replace(said, problem=Unchecked(str(said.subject)))
 
 
 def _known(what: str, said: Any, decode: Decode) -> Any:
