@@ -22,6 +22,7 @@ from acausal.errors import (
     UnbalancedModelError,
     UnitsError,
 )
+from acausal.export import export_dae, export_fmu, load_dae
 from acausal.language import (
     ALWAYS,
     AVOID,
@@ -143,6 +144,8 @@ __all__ = [
     "effects",
     "exp",
     "expect",
+    "export_dae",
+    "export_fmu",
     "feedback",
     "fixed",
     "flow",
@@ -152,6 +155,7 @@ __all__ = [
     "input",
     "is_root",
     "linearize",
+    "load_dae",
     "log",
     "observed",
     "outer",

@@ -8,7 +8,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.requirements import Stated, statements
 from acausal.export.dae import archive, tree

@@ -13,7 +13,6 @@ from acausal.core.tape import KIND, KINDS
 from acausal.errors import ExportError
 from acausal.garbage import uncollected
 from acausal.instructions import CONSTANT, read_instructions
-from acausal.symbols import scalars
 
 INT, FLOAT = np.dtype("<i4"), np.dtype("<f8")
 _UNARY = (

@@ -11,11 +11,12 @@ import numpy as np
 from acausal.core.tape import KIND
 from acausal.errors import ExportError
 from acausal.export.dae.expressions import NAMES
-from acausal.instructions import CONSTANT, read_instructions
+from acausal.instructions import read_instructions
 from acausal.symbols import scalars, stacked
 
 # Nested deeper, or longer, an expression is given a name: parsers descend a level of calls for each bracket.
 DEEP, LONG = 12, 400
+SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sinh", "cosh", "tanh")
 FORMS = {
     **{
         "add": "({} + {})",
@@ -26,7 +27,7 @@ FORMS = {
         "square": "({} ^ 2)",
     },
     **{"twice": "(2.0 * {})", "inverse": "(1.0 / {})", "pow": "({} ^ {})", "atan2": "atan2({}, {})"},
-    **{name: name + "({})" for name in "sin cos tan asin acos atan exp log sinh cosh tanh".split()},
+    **{name: name + "({})" for name in SAME},
     **{"sqrt": "sqrt({})", "abs": "noEvent(abs({}))", "sign": "noEvent(sign({}))", "assign": "{}"},
     **{"floor": "noEvent(floor({}))", "ceil": "noEvent(ceil({}))"},
     **{"fmin": "noEvent(min({}, {}))", "fmax": "noEvent(max({}, {}))", "hypot": "sqrt({} ^ 2 + {} ^ 2)"},

@@ -82,7 +82,7 @@ def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stat
                 "started": [name for name, value in c._values.items() if _is_start(value)],
                 "ports": [numbers[id(p)] for p in c._ports if id(p) in numbers],
                 "owner": numbers.get(id(c._owner)) if isinstance(c, Connector) else None,
-                "members": {name: value for name, value in _members(c, values, numbers, add)},
+                "members": dict(_members(c, values, numbers, add)),
                 "states": own.get(c._path, []),
             }
             for c in components
@@ -181,6 +181,7 @@ class Unchecked:
         self.first: np.ndarray | None = None
 
     def __call__(self, value: np.ndarray) -> str:
+        """Find nothing wrong, and warn of a value that is not the first one."""
         if self.first is None:
             self.first = value.copy()
         if not np.array_equal(value, self.first):
