@@ -17,7 +17,7 @@ from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
-from acausal.symbols import dense, scalars, stacked
+from acausal.symbols import dense, picked, scalars, stacked
 
 VERSION = 2
 
@@ -73,6 +73,7 @@ class Content:
             "jumpsto": ints([k for place in jumps[1] for k in place]),
             "closeat": ints(self._closing.sparsity().colind()) + ints(self._closing.sparsity().row()),
             "closures": ints(self._closures),
+            "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
             "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
@@ -149,7 +150,7 @@ class Content:
         return {
             "head": guards.start.function(*guards.arguments),
             "shown": self.shown,
-            "guards": ca.vertcat(guards.excess[self.watched], self._scale),
+            "guards": ca.vertcat(picked(guards.excess, self.watched), self._scale),
             "timed": self._truths,
             "instants": self._instants,
             "jumps": self._jumps[0],
@@ -161,7 +162,7 @@ class Content:
     def _scale(self) -> ca.SX:
         """Change of each watched excess by nominal changes of the unknowns."""
         r = self.compiled.reduced
-        J = ca.jacobian(self.compiled.guards.excess[self.watched], ca.vertcat(r.x, r.z))
+        J = ca.jacobian(picked(self.compiled.guards.excess, self.watched), ca.vertcat(r.x, r.z))
         return ca.fabs(J) @ ca.DM(self.compiled.nominal) if self.watched else ca.SX(0, 1)
 
     @property

@@ -81,6 +81,8 @@ class Description:
         Of what is solved for at the start: on which inputs, parameters and exact starts it depends, in ascending order.
     start_time, stop_time, tolerance, step_size : float or None
         What the model proposes for a run.
+    completes : bool
+        Whether importers tell the end of each step that they keep: closed loops may pass a flat position.
     sources : tuple of str
         C files that have to be compiled for other platforms; none if no sources are enclosed.
     """
@@ -101,6 +103,7 @@ class Description:
     stop_time: float | None = None
     tolerance: float | None = None
     step_size: float | None = None
+    completes: bool = False
     sources: tuple[str, ...] = ()
 
 

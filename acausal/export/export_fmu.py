@@ -96,6 +96,7 @@ def export_fmu(
         stop_time=span,
         tolerance=tolerance,
         step_size=span / POLICY.defaults.intervals,
+        completes=bool(compiled.constraints.size),
         sources=source_names(),
     )
     write_fmu(path, description, content.bytes(token), fmi_version, platforms)
@@ -111,7 +112,7 @@ def _expressions(content: Content, table: Table, references: Sequence[int]) -> d
     rates = dict(zip(table.rates, scalars(content.running[0]), strict=True))
     shown = {table.first_shown + k: e for k, e in enumerate(scalars(content.moving(stacked(table.shown))))}
     first = table.first_shown + len(table.shown)
-    excess = scalars(content.moving(content.problem.compiled.guards.excess[content.watched])) if content.watched else []
+    excess = scalars(content.moving(picked(content.problem.compiled.guards.excess, content.watched)))
     watched = {first + k: e for k, e in enumerate(excess)}
     return {k: e for k, e in (rates | shown | watched).items() if k in set(references)}
 

@@ -49,7 +49,7 @@ def _add_interfaces(root: Element, description: Description) -> None:
         providesDirectionalDerivatives=True,
         providesAdjointDerivatives=True,
     )
-    SubElement(root, "ModelExchange", common)
+    SubElement(root, "ModelExchange", common | attributes(needsCompletedIntegratorStep=description.completes))
     SubElement(
         root,
         "CoSimulation",

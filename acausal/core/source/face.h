@@ -61,6 +61,7 @@ int ac_face_begun(ac_face *f, const char *call);
 int ac_face_update(ac_face *f, const char *call, ac_happened *found);
 int ac_face_enter_event(ac_face *f, const char *call);
 int ac_face_leave_event(ac_face *f, const char *call, int simulates);
+int ac_face_completed(ac_face *f, const char *call);
 int ac_face_terminate(ac_face *f, const char *call);
 int ac_face_reset(ac_face *f, const char *call);
 

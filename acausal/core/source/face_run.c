@@ -82,6 +82,12 @@ int ac_face_leave_event(ac_face *f, const char *call, int simulates) {
     return ac_face_refuse(f, call, "this must not be called in %s", f->simulates ? "Co-Simulation" : "Model Exchange");
 }
 
+/* What happens at the end of a step is an event that an indicator or the time tells. */
+int ac_face_completed(ac_face *f, const char *call) {
+    if (!ac_face_in(f, call, AC_CONTINUOUS)) return fmi3Error;
+    return must(f, call, ac_completed(f->engine));
+}
+
 int ac_face_terminate(ac_face *f, const char *call) {
     if (!ac_face_in(f, call, AC_STARTED)) return fmi3Error;
     f->mode = AC_TERMINATED;

@@ -7,7 +7,8 @@
 
 #define SWEEPS 30      /* of Jacobi's method; a few are enough */
 #define ROUNDING 1e-15
-#define FLAT 1e-3      /* smallest singular value of the constraints, their rows of length 1: nearer, errors choose the way */
+#define FLAT 1e-3      /* smallest singular value of the constraints over their sizes: nearer, errors choose the way */
+#define WORN 0.03      /* the same where the equations cannot be solved any more */
 #define LARGEST 64     /* constraints of which a decomposition costs less than a step */
 
 /* Smallest eigenvalue of a symmetric matrix, by Jacobi's method. */
@@ -46,13 +47,13 @@ static double sharpness(ac_instance *i) {
     const double *on = i->c + u->switches + u->discretes;
     if (!u->levels || l->rows > LARGEST) return INFINITY;
     const double *w = ac_run(i, AC_CLOSING);
-    double *A = calloc((size_t)l->rows * ((size_t)l->columns + (size_t)l->rows) + 1, sizeof *A);
-    double *G = A + (size_t)l->rows * (size_t)l->columns;
+    double *A = calloc((size_t)l->rows * ((size_t)l->columns + (size_t)l->rows + 2) + 1, sizeof *A);
+    double *G = A + (size_t)l->rows * (size_t)l->columns, *length = G + (size_t)l->rows * (size_t)l->rows, *kind = length + l->rows;
     int32_t m = 0;
     if (!A) return INFINITY;
     for (int32_t a = 0; a < l->rows; a++) {
         if (u->closure[l->row[a]] >= 0 && !(on[u->closure[l->row[a]]] > 0)) continue;
-        double *row = A + m++ * l->columns, size = 0;
+        double *row = A + m * l->columns, size = 0;
         for (int32_t b = 0; b < l->columns; b++) {
             const int32_t j = l->column[b];
             for (int32_t k = u->close_start[j]; k < u->close_start[j + 1]; k++) {
@@ -60,7 +61,14 @@ static double sharpness(ac_instance *i) {
             }
             size += row[b] * row[b];
         }
-        for (int32_t b = 0; b < l->columns && size > 0; b++) row[b] /= sqrt(size);
+        length[m] = sqrt(size);
+        kind[m++] = u->kind[l->row[a]];
+    }
+    /* Rows of one equation have one size: in a flat position one of them may vanish by itself. */
+    for (int32_t a = 0; a < m; a++) {
+        double most = 0;
+        for (int32_t b = 0; b < m; b++) most = kind[a] == kind[b] ? fmax(most, length[b]) : most;
+        for (int32_t k = 0; k < l->columns && most > 0; k++) A[a * l->columns + k] /= most;
     }
     for (int32_t a = 0; a < m; a++) {
         for (int32_t b = 0; b < m; b++) {
@@ -72,6 +80,9 @@ static double sharpness(ac_instance *i) {
     return found;
 }
 
+/* Whether the present position is flat, as far as can be told where the equations have no solution. */
+int ac_is_flat(ac_instance *i) { return sharpness(i) <= WORN; }
+
 /* States between two points, as a cubic through their values and rates. */
 static void between(ac_instance *i, const ac_point *a, const ac_point *b, double s) {
     const double h = b->time - a->time, r = 1 - s;
@@ -82,8 +93,7 @@ static void between(ac_instance *i, const ac_point *a, const ac_point *b, double
     i->now.time = a->time + s * h;
 }
 
-/* Whether loops pass a flat position between two points, which lie one step apart. The least value, which falls linearly on the way
-   to 0, may be there where it is less at one of them than it changes in between: it is looked for by golden sections. */
+/* Whether loops pass a flat position between two points, which lie one step apart: the least value is looked for by golden sections. */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     const ac_unit *u = i->of;
     const int32_t nx = ac_states(i);
@@ -95,8 +105,11 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     const double first = sharpness(i);
     between(i, a, b, 1);
     const double last = sharpness(i);
-    least = fmin(first, last);
-    if (isfinite(least) && least <= fabs(first - last) + FLAT) {
+    between(i, a, b, 0.5);
+    const double middle = sharpness(i);
+    least = fmin(middle, fmin(first, last));
+    /* It falls and rises about linearly: what passes 0 shows in a difference of the ends, or in the middle. */
+    if (isfinite(least) && (least <= fabs(first - last) + FLAT || middle < fmin(first, last))) {
         for (int k = 0; k < 24 && least > FLAT; k++) {
             const double s = to - part * (to - from), t = from + part * (to - from);
             between(i, a, b, s);
@@ -111,4 +124,19 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     memcpy(i->x, kept, (size_t)nx * sizeof *kept);
     i->now.time = time;
     return least <= FLAT;
+}
+
+/* In Model Exchange: whether loops passed a flat position since the last point that was kept, which the present follows. */
+int32_t ac_completed(ac_instance *i) {
+    const size_t size = (size_t)ac_states(i) * sizeof(double);
+    if (!i->of->levels || !size) return AC_OK;
+    const int32_t failed = ac_know(i, AC_RATE);
+    if (failed) return failed;
+    const ac_point a = {i->now.from, i->before, i->after}, b = {i->now.time, i->dense, i->rate};
+    memcpy(i->dense, i->x, size); /* the search moves x */
+    if (i->now.curved && ac_flat(i, &a, &b)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+    memcpy(i->before, i->x, size);
+    memcpy(i->after, i->rate, size);
+    i->now.from = i->now.time, i->now.curved = 1;
+    return AC_OK;
 }

@@ -97,12 +97,10 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean *again, fmi3Bool
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance i) { return ac_face_leave_event(i, __func__, 0); }
 
-/* What happens at the end of a step is an event that an indicator or the time tells. */
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance i, fmi3Boolean final, fmi3Boolean *event, fmi3Boolean *ends) {
     (void)final;
-    if (!ac_face_in(i, __func__, AC_CONTINUOUS)) return fmi3Error;
     *event = *ends = false;
-    return fmi3OK;
+    return ac_face_completed(i, __func__);
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance i) { return ac_face_leave_event(i, __func__, 1); }

@@ -99,7 +99,7 @@ static int fitting(ac_instance *i) {
 }
 
 int32_t ac_initial(ac_instance *i) {
-    if (i->now.known & AC_STARTED) return AC_OK;
+    if (i->now.known & AC_FIRST) return AC_OK;
     const ac_unit *u = i->of;
     double *p = i->dw; /* the wanted ones, while i->p is on the way */
     const double time = i->now.time;
@@ -117,7 +117,7 @@ int32_t ac_initial(ac_instance *i) {
     }
     if (!failed && !fits) failed = ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
     if (failed) return AC_FAILED;
-    i->now.known = AC_STARTED;
+    i->now.known = AC_FIRST;
     failed = ac_know(i, AC_RATE | AC_GUARD);
     if (failed) return AC_FAILED;
     for (int32_t k = 0; k < u->watched; k++) {

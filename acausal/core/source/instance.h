@@ -43,6 +43,7 @@ struct ac_unit {
     const int32_t *jump;                    /* (jumps, 2): whether it is a state, and its place among these or discrete ones */
     const int32_t *close_start, *close_row; /* sparsity of the Jacobian of the constraints, in columns */
     const int32_t *closure;                 /* (constraints) closure that a constraint belongs to, or -1 */
+    const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
     const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
@@ -58,12 +59,12 @@ typedef struct {
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
     double crowd;                          /* since when events follow one another closely */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
-    int32_t curved, integrates, first, failed; /* an interpolant is there; the integration goes on; the first event is to come */
+    int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     int32_t refused, unsolved, crowded;    /* as in the integrator; events of the crowd */
 } ac_now;
 
 /* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start. */
-enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_STARTED = 16 };
+enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16 };
 #define SETTLED 1e-7 /* change over the size after which the next one would be rounding, as in `Consistent` */
 
 struct ac_instance {
@@ -71,7 +72,7 @@ struct ac_instance {
     ac_now now;
     size_t kept;                            /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
-    double *before, *after, *dense;         /* interpolant: (n), (n), (3, n) */
+    double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
@@ -111,5 +112,6 @@ void ac_renew_inputs(ac_instance *i);
 double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
+int ac_is_flat(ac_instance *i);
 
 #endif

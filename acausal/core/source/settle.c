@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST 30 /* iterations: from far away they converge slowly at first */
+#define MOST 30      /* iterations: from far away they converge slowly at first */
+#define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
 
 ac_settler *ac_settler_make(const ac_square *square) {
     ac_settler *s = calloc(1, sizeof *s);
@@ -36,7 +37,7 @@ void ac_settler_free(ac_settler *s) {
 static int32_t settle(ac_settler *s, const double *size, double enough, int64_t *evaluations) {
     const ac_square *q = &s->of;
     const ac_tape *tape = q->tape;
-    double *input = s->w + tape->constants, before = INFINITY;
+    double *input = s->w + tape->constants, before = INFINITY, last = INFINITY;
     for (int tries = 0; tries < MOST; tries++) {
         ac_tape_run(tape, s->w, tape->early, tape->runs);
         ++*evaluations;
@@ -49,10 +50,11 @@ static int32_t settle(ac_settler *s, const double *size, double enough, int64_t 
             const double part = fabs(s->step[k]) / size[k];
             if (!(part <= change)) change = part; /* nan as well */
         }
-        if (!(change < before)) return 0;
+        /* What follows through products moves in the second step first. */
+        if (!(change < before)) return change <= ROUNDED; /* nan is not */
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
         if (change <= enough) return 1;
-        before = change;
+        before = last, last = change;
     }
     return 0;
 }

@@ -57,7 +57,7 @@ int32_t ac_state_read(ac_instance *i, const void *bytes, size_t length) {
     from += sizeof own;
     memcpy(&i->now, from, sizeof i->now), from += sizeof i->now;
     memcpy(i->x, from, i->kept * sizeof(double)), from += i->kept * sizeof(double);
-    i->now.known &= AC_Z | AC_STARTED;
+    i->now.known &= AC_Z | AC_FIRST;
     i->prepared = 0, i->going = 0;
     for (int k = 0; k < FACTORS; k++) {
         const size_t size = ac_lu_order_size(factors(i, k)) * sizeof(double);

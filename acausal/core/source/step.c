@@ -182,6 +182,7 @@ static int32_t refuse_flat(ac_instance *i) {
     for (int end = 0; end < 2 && !failed; end++) {
         stand(i, end ? i->now.to : i->now.from);
         failed = ac_know(i, AC_RATE);
+        if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
         memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
     }
     const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};

@@ -9,12 +9,12 @@
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
-    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, LEVELS, COORDINATES_TO, NOMINAL, NATURAL, TOKEN, SECTIONS
+    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][8] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords",
-    "rules", "jumpsto", "closeat", "closures", "levels", "coordsto", "nominal", "natural", "token",
+    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "nominal", "natural", "token",
 };
 
 const char *ac_unit_why(int32_t why) {
@@ -112,7 +112,8 @@ static int read_closing(const ac_section *found, ac_unit *u) {
     if (!ac_read_columns(&at, u->constraints, nx, &u->close_start, &u->close_row) || at.left) return 0;
     u->closure = integers(found[CLOSURES], u->constraints);
     u->coordinate = integers(found[COORDINATES_TO], u->tape[AC_COORDINATES].outputs);
-    if (!u->closure || !u->coordinate || u->tape[AC_CLOSING].outputs != u->constraints + u->close_start[nx]) return 0;
+    u->kind = integers(found[KINDS], u->constraints);
+    if (!u->closure || !u->kind || !u->coordinate || u->tape[AC_CLOSING].outputs != u->constraints + u->close_start[nx]) return 0;
     for (int32_t k = 0; k < u->constraints; k++) {
         if (u->closure[k] < -1 || u->closure[k] >= u->closures) return 0;
     }

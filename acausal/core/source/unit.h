@@ -56,6 +56,7 @@ int32_t ac_get_states(ac_instance *i, double *x);
 int32_t ac_get_rates(ac_instance *i, double *rate);
 int32_t ac_get_nominals(ac_instance *i, double *nominal);
 int32_t ac_get_indicators(ac_instance *i, double *value);
+int32_t ac_completed(ac_instance *i);              /* the present ends a step that the importer keeps */
 
 /* Co-Simulation: from the present time towards another; with `early`, back at the first event, at *reached. */
 int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event);

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.compiler.constraints import Constraints
 from acausal.policy import POLICY
 from acausal.solve.looks import spread
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import levels_of
-from acausal.solve.start.rank import scaled
 
 
 def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
@@ -31,11 +31,30 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
     counts = c.counting(constants.closures) & np.isin(np.arange(c.size), c.lowest)
     some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
     held = c.held(x[some], problem.p, times[some], constants.vector) * nominal[c.entries[1]]
+    held = held / _sizes(c, held)
     for part in levels_of(problem.compiled):
         on = counts[part.rows]
         if not on.any():
             continue
-        least = np.linalg.svd(scaled(part.dense(held)[:, on]), compute_uv=False)[:, -1]
+        least = np.linalg.svd(part.dense(held)[:, on], compute_uv=False)[:, -1]
         if np.any(np.minimum(least[1:], least[:-1]) <= np.abs(np.diff(least))):
             return True
     return False
+
+
+def _sizes(c: Constraints, held: np.ndarray) -> np.ndarray:
+    """Size of each entry's equation: in a flat position one of its rows may vanish by itself.
+
+    Parameters
+    ----------
+    c : Constraints
+        The constraints.
+    held : array, shape (n, entries)
+        Their Jacobian at n points.
+    """
+    rows = c.entries[0]
+    lengths = np.zeros((len(held), c.size))
+    np.add.at(lengths.T, rows, held.T**2)
+    most = np.zeros((len(held), int(np.max(c.kinds, initial=-1)) + 1))
+    np.maximum.at(most.T, c.kinds, np.sqrt(lengths.T))
+    return np.where(most > 0, most, 1.0)[:, c.kinds[rows]]

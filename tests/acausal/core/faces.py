@@ -45,6 +45,21 @@ def compiled(folder: Path, compiler: list[str], *options: str) -> Path:
     return path
 
 
+def caller(folder: Path, compiler: list[str], *options: str) -> Path:
+    """Compile the driver that calls them in any order."""
+    path, flags = folder / "calls", [flag for flag in FLAGS if flag not in ("-shared", "-fvisibility=hidden")]
+    given = [
+        *compiler,
+        *flags,
+        "-Werror",
+        *options,
+        f"-I{CORE / 'source'}",
+        *map(str, [HERE / "face_calls.c", *SOURCES]),
+    ]
+    subprocess.run([*given, "-lm", "-o", str(path)], check=True, capture_output=True, text=True)
+    return path
+
+
 def resources(folder: Path, content: bytes = b"toy " + TOKEN) -> Path:
     """Write a model's file into a folder."""
     (folder / "model.bin").write_bytes(content)
@@ -118,9 +133,11 @@ class Toy2(Toy):
         given = has_tolerance, c_double(tolerance or 0), c_double(start), has_stop, c_double(stop or 0)
         return self.call("SetupExperiment", *given)
 
+    def enter(self, **times: float) -> int:
+        return self.times(**times) or self.call("EnterInitializationMode")
+
     def start(self, **times: float) -> None:
-        assert self.times(**times) == OK
-        self.right("EnterInitializationMode")
+        assert self.enter(**times) == OK
         self.right("ExitInitializationMode")
 
     def step(self, start: float, size: float) -> int:

@@ -45,6 +45,14 @@ def written(name: str, folder: Path) -> Path:
     return path
 
 
+def sanitizes(compiler: list[str], folder: Path) -> bool:
+    """Return whether a compiler has sanitisers."""
+    probe = folder / "probe.c"
+    probe.write_text("int main(void) { return 0; }\n")
+    command = [*compiler, *SANITIZED, str(probe), "-o", str(folder / "probe")]
+    return not subprocess.run(command, capture_output=True).returncode
+
+
 def driver(source: str, made: Path, compiler: list[str], *options: str) -> Path:
     """Compile a driver together with the core."""
     flags = [flag for flag in FLAGS if flag not in ("-shared", "-fvisibility=hidden")]

@@ -112,9 +112,7 @@ def test_what_is_discarded_can_be_tried_elsewhere(toy, folder):
 def test_an_initialisation_that_fails(toy, folder):
     for trouble, after in ((RETRY, OK), (LOSE, ERROR)):
         for one in (Toy2(toy, folder, EXCHANGE), Toy3(toy, folder, EXCHANGE)):
-            assert one.set(TROUBLE, trouble) == OK
-            assert (one.times() if one.version == 2 else OK) == OK
-            assert (one.call("EnterInitializationMode") if one.version == 2 else one.enter()) == OK
+            assert one.set(TROUBLE, trouble) == one.enter() == OK
             assert one.call("ExitInitializationMode") == ERROR
             assert one.set(TROUBLE, 0) == after
             assert one.call("ExitInitializationMode") == after

@@ -20,13 +20,16 @@ from tests.acausal.core.faces import (
     RATE,
     RETRY,
     SIMULATION,
+    TOKEN,
     TROUBLE,
     Toy2,
     Toy3,
+    caller,
     doubles,
     references,
     resources,
 )
+from tests.acausal.core.stored import SANITIZED, sanitizes
 
 TYPES = (CORE / "source/fmi_types.h").read_text()
 
@@ -284,3 +287,15 @@ def test_counts_are_compared(toy, folder):
     assert one.call("GetContinuousStates", doubles(0, 0), c_size_t(2)) == ERROR
     assert one.told() == "fmi3GetContinuousStates: 2 values, where there are 1"
     one.free()
+
+
+@pytest.mark.slow
+def test_calls_in_any_order(toy, folder, tmp_path):
+    if not sanitizes(own_compiler(), tmp_path):
+        pytest.skip("the C compiler has no sanitisers")
+    calls = 2_000_000
+    command = [str(caller(tmp_path, own_compiler(), *SANITIZED)), folder, TOKEN.decode(), str(calls)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    two, three = map(int, done.stdout.split())
+    assert 0.1 * calls < two + three < 0.9 * calls

@@ -18,7 +18,7 @@ from acausal.core.build.compiling import CORE, own_compiler
 from acausal.core.model_file import VERSION, framed
 from acausal.core.tape import KINDS
 from models import SCENES
-from tests.acausal.core.stored import SANITIZED, SPANS, driver, integrated, replayed, scene, written
+from tests.acausal.core.stored import SANITIZED, SPANS, driver, integrated, replayed, sanitizes, scene, written
 
 READ, FOREIGN, OTHER_VERSION, LENGTH, CHECKSUM, CONTENT = range(6)
 # Numbers of a file stay what they are: new operations come at the end.
@@ -39,12 +39,8 @@ def made(tmp_path_factory):
             pytest.skip("there is no C compiler")
         if (source, sanitized) not in known:
             path = folder / f"{Path(source).stem}{'-sanitized' * sanitized}"
-            if sanitized:
-                probe = folder / "probe.c"
-                probe.write_text("int main(void) { return 0; }\n")
-                command = [*own_compiler(), *SANITIZED, str(probe), "-o", str(folder / "probe")]
-                if subprocess.run(command, capture_output=True).returncode:
-                    pytest.skip(SANITIZER)
+            if sanitized and not sanitizes(own_compiler(), folder):
+                pytest.skip(SANITIZER)
             known[source, sanitized] = driver(source, path, own_compiler(), *(SANITIZED if sanitized else ()))
         return known[source, sanitized]
 

@@ -1,6 +1,6 @@
 /* An engine to try the faces with: x' = u - rate x, in closed form; where x falls to a half it jumps to 1.
-   Files hold "toy" and a token. References: time, x, its rate, rate, u, trouble, x - a half. Trouble 1: other states wanted; 2: lost;
-   3: steps end at their middle for good; 4: events end the simulation. */
+   Files hold "toy" and a token. References: time, x, its rate, rate, u, trouble, x less a half. Trouble 1: other states
+   wanted; 2: lost; 3: steps end at their middle for good; 4: events end the simulation. */
 #include "unit.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define HALF 0.5
+#define SHORTEST 1e-6 /* between two events */
 enum { TIME, X, SLOPE, RATE, U, TROUBLE, INDICATOR, REFERENCES };
 
 struct ac_unit {
@@ -138,6 +139,11 @@ int32_t ac_get_states(ac_instance *i, double *x) {
     return AC_OK;
 }
 
+int32_t ac_completed(ac_instance *i) {
+    (void)i;
+    return AC_OK;
+}
+
 int32_t ac_get_rates(ac_instance *i, double *rate) {
     *rate = slope(i);
     return trouble(i);
@@ -160,7 +166,7 @@ int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32
     if (v[TROUBLE] == 3) to = (v[TIME] + to) / 2;
     while (v[TIME] < to) {
         const double rest = v[U] / v[RATE], falls = log((v[X] - rest) / (HALF - rest)) / v[RATE];
-        const double span = falls < to - v[TIME] ? falls : to - v[TIME];
+        const double span = falls > SHORTEST && falls < to - v[TIME] ? falls : to - v[TIME];
         v[X] = rest + (v[X] - rest) * exp(-v[RATE] * span);
         v[U] += i->u_slope * span;
         if (span == falls) {
