@@ -52,7 +52,9 @@ class _Text:
         r = compiled.reduced
         own, layout = r.flat.parameters, compiled.layout
         self.parameters = [self.names(name) for name in own.names]
-        self.unknowns = [self.names(name) for name in (*compiled.states, *compiled.algebraic)]
+        # What is integrated in place of a coordinate has its name as well: the coordinate is what users read.
+        algebraic = [self.names(name) for name in compiled.algebraic]
+        self.unknowns = [*(self.names(name) for name in compiled.states), *algebraic]
         self.switches = [self.names(f"switch[{k + 1}]") for k in range(layout.switches)]
         discretes = scalars(r.constants)[layout.switches : layout.switches + layout.discretes]
         self.discretes = [self.names(s.name()) for s in discretes]
