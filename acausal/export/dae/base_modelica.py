@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 
 import casadi as ca
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
 from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
+from acausal.flatten.discontinuities import Guard
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
@@ -21,18 +21,6 @@ from acausal.solve.start.start import start
 from acausal.symbols import dense, scalars, stacked
 
 CHOSEN = "// Values that acausal chooses at the start of a run, here for projection along the constraints."
-
-
-@dataclass
-class _Wanted:
-    """Expressions whose texts are needed, in order, and how many there are of each kind."""
-
-    columns: list[ca.SX] = field(default_factory=list)
-    sizes: list[int] = field(default_factory=list)
-
-    def add(self, column: ca.SX) -> None:
-        self.columns.append(dense(column))
-        self.sizes.append(column.numel())
 
 
 class _Text:
@@ -113,43 +101,59 @@ class _Text:
     def whole(self) -> str:
         """Return the model."""
         compiled, r = self.compiled, self.compiled.reduced
-        guards = compiled.guards
         outputs = self._outputs()
-        comparisons = [part.excess.sx for g in guards.guards for part in g.condition.comparisons]
-        jumps = [self._jump(k) for k in range(guards.n_switches, len(guards.guards))]
-        wanted = _Wanted()
         starts = [value for _, value in r.flat.discontinuities.discretes]
-        resolve = r.running.resolve
-        for column in (
-            *(r.ode, r.alg, ca.substitute(compiled.conditions, initial.sx, 1)),
-            *(resolve(stacked(some)) if some else ca.SX(0, 1) for some in (comparisons, starts)),
-            *(stacked([e for _, e in outputs]), stacked([e for some in jumps for _, e in some])),
-        ):
-            wanted.add(column)
-        found, shared = written(stacked(wanted.columns), self.known, self.names)
-        ode, alg, conditions, excesses, starts_of, values, jumped = texts(found, wanted.sizes)
+        switches = r.flat.discontinuities.guards[: compiled.guards.n_switches]
+        columns = [r.ode, r.alg, ca.substitute(compiled.conditions, initial.sx, 1), self._resolved(starts)]
+        columns += [self._resolved(_excesses(switches)), stacked([e for _, e in outputs])]
+        (ode, alg, conditions, begun, excesses, values), shared = self._written(columns, self.known)
         said = iter(excesses)
-        held = [_condition(g.condition, said) for g in guards.guards]
-        states, new = self.unknowns[: compiled.nx], iter(jumped)
+        held = [_condition(guard.condition, said) for guard in switches]
         initials = [f"{e} = 0.0;" for e in conditions]
-        initials += [f"{d} = {e};" for d, e in zip(self.discretes, starts_of, strict=True)]
-        equations = [f"{name} = {text};" for name, text in shared]
-        equations += [f"der({x}) = {e};" for x, e in zip(states, ode, strict=True)]
+        initials += [f"{d} = {e};" for d, e in zip(self.discretes, begun, strict=True)]
+        whens, more = self._whens()
+        equations = [f"{name} = {text};" for name, text in (*shared, *more)]
+        equations += [f"der({x}) = {e};" for x, e in zip(self.unknowns[: compiled.nx], ode, strict=True)]
         equations += [f"0.0 = {e};" for e in alg]
-        equations += [f"{s} = if {c} then 1.0 else 0.0;" for s, c in zip(self.switches, held, strict=False)]
+        equations += [f"{s} = if {c} then 1.0 else 0.0;" for s, c in zip(self.switches, held, strict=True)]
         equations += [f"{name} = {e};" for (name, _), e in zip(outputs, values, strict=True)]
-        for k, some in enumerate(jumps, guards.n_switches):
-            equations += self._when(held[k], guards.guards[k].at_start, [(target, next(new)) for target, _ in some])
-        more = [f"output Real {name};" for name, _ in outputs] + [f"Real {name};" for name, _ in shared]
-        name = Names()(type(compiled.tree).__name__)
-        lines = [*self.declarations(), *more]
-        parts = [("", lines), ("initial equation", initials), ("equation", equations)]
-        body = "\n".join(
-            "\n".join([*([f"  {head}"] if head else []), *(f"    {line}" for line in some)])
-            for head, some in parts
-            if some
-        )
-        return f"//! base 0.1.0\npackage {name}\n  model {name}\n{body}\n  end {name};\nend {name};\n"
+        lines = [*self.declarations(), *(f"output Real {name};" for name, _ in outputs)]
+        lines += [f"Real {name};" for name, _ in (*shared, *more)]
+        return _framed(type(compiled.tree).__name__, lines, initials, [*equations, *whens])
+
+    def _resolved(self, entries: list[ca.SX]) -> ca.SX:
+        return self.compiled.reduced.running.resolve(stacked(entries)) if entries else ca.SX(0, 1)
+
+    def _written(self, columns: list[ca.SX], known: dict[int, str]) -> tuple[list[list[str]], list[tuple[str, str]]]:
+        """Return the texts of columns, and what they share."""
+        found, shared = written(stacked([dense(c) for c in columns]), known, self.names)
+        return texts(found, [c.numel() for c in columns]), shared
+
+    def _whens(self) -> tuple[list[str], list[tuple[str, str]]]:
+        """Return the clauses of jumps and what they share: discrete variables are those before the instant."""
+        guards, first = self.compiled.guards, self.compiled.guards.n_switches
+        stated = guards.guards[first:]
+        jumps = [self._jumps(k) for k in range(first, len(guards.guards))]
+        before = {h: f"pre({name})" for h, name in zip(self.discrete_hashes, self.discretes, strict=True)}
+        columns = [self._resolved(_excesses(stated)), stacked([e for some in jumps for _, e in some])]
+        (excesses, values), shared = self._written(columns, self.known | before)
+        said, new, found = iter(excesses), iter(values), list[str]()
+        for guard, some in zip(stated, jumps, strict=True):
+            held = _condition(guard.condition, said)
+            found.append(f"when {{{held}, initial()}} then" if guard.at_start else f"when {held} then")
+            for left, _ in some:
+                found.append(f"  reinit({left}, {next(new)});" if left in self.unknowns else f"  {left} = {next(new)};")
+            found.append("end when;")
+        return found, shared
+
+    def _jumps(self, guard: int) -> list[tuple[str, ca.SX]]:
+        """Return what jumps at an instant, and its new value."""
+        if not self.compiled.guards.guards[guard].jumps:
+            return []
+        call, places = self.compiled.guards.jump(guard)
+        values = scalars(call.function(*self.compiled.guards.arguments))
+        names = [(self.unknowns if is_state else self.discretes)[k] for is_state, k in places]
+        return list(zip(names, values, strict=True))
 
     def _outputs(self) -> list[tuple[str, ca.SX]]:
         """Return outputs that are no unknowns, and what they are."""
@@ -162,24 +166,10 @@ class _Text:
             found += [(name + k, e) for k, e in zip(places, entries, strict=True)]
         return [(self.names(name), e) for name, e in found if name not in known]
 
-    def _jump(self, guard: int) -> list[tuple[tuple[bool, int], ca.SX]]:
-        """Return what jumps at an instant, a state or discrete variable, and its new value."""
-        if not self.compiled.guards.guards[guard].jumps:
-            return []
-        call, places = self.compiled.guards.jump(guard)
-        values = call.function(*self.compiled.guards.arguments)
-        return list(zip(places, scalars(values), strict=True))
 
-    def _when(self, held: str, at_start: bool, jumps: list[tuple[tuple[bool, int], str]]) -> Iterator[str]:
-        """Yield a clause that is evaluated where a condition becomes true; discrete variables are those before it."""
-        yield f"when {{{held}, initial()}} then" if at_start else f"when {held} then"
-        for (is_state, place), text in jumps:
-            value = text
-            for name in self.discretes:
-                value = value.replace(name, f"pre({name})")
-            left = self.unknowns[place] if is_state else self.discretes[place]
-            yield f"  reinit({left}, {value});" if is_state else f"  {left} = {value};"
-        yield "end when;"
+def _excesses(guards: Sequence[Guard]) -> list[ca.SX]:
+    """Return what is compared with 0 in conditions."""
+    return [part.excess.sx for guard in guards for part in guard.condition.comparisons]
 
 
 def _condition(condition: Condition, excesses: Iterator[str]) -> str:
@@ -187,6 +177,16 @@ def _condition(condition: Condition, excesses: Iterator[str]) -> str:
         return f"{next(excesses)} {condition.kind} 0.0"
     a, b = _condition(condition.a, excesses), _condition(condition.b, excesses)
     return f"({a}) {'and' if condition.every else 'or'} ({b})"
+
+
+def _framed(name: str, lines: list[str], initials: list[str], equations: list[str]) -> str:
+    """Return a package with one model."""
+    name = Names()(name)
+    parts = [("", lines), ("  initial equation", initials), ("  equation", equations)]
+    text = [line for head, some in parts if some for line in (*[head][: bool(head)], *(f"    {one}" for one in some))]
+    return "\n".join(
+        ["//! base 0.1.0", f"package {name}", f"  model {name}", *text, f"  end {name};", f"end {name};", ""]
+    )
 
 
 def base_modelica(compiled: CompiledModel, p: np.ndarray) -> str:

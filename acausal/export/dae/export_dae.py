@@ -8,8 +8,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.requirements import Stated, statements
+from acausal.errors import ExportError
 from acausal.export.dae import archive, tree
 from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
@@ -77,12 +80,20 @@ def export_dae(
     }
     members = {
         "model.json": archive.as_json(inside),
-        "model.mo": base_modelica(compiled, p).encode(),
+        "model.mo": _modelica(compiled, p).encode(),
         "constants": operations.constants.tobytes(),
         "operations": operations.operations.tobytes(),
         "places": operations.places.tobytes(),
     }
     archive.write(path, first, members)
+
+
+def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
+    """Return the model in Base Modelica, or a comment where it cannot say what the model does."""
+    try:
+        return base_modelica(compiled, p)
+    except ExportError as error:
+        return f"// There is no Base Modelica of this model: {error}\n"
 
 
 def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
