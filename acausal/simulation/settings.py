@@ -140,5 +140,5 @@ def _value(compiled: CompiledModel, name: str, values: Mapping[str, Any]) -> Any
     function = ca.Function("own", [compiled.reduced.p], [ca.densify(value.sx)])
     number = float(Call(function)(compiled.parameter_values(values))[0][0])
     if name == "stop_time":
-        return check_stop_time(number)
+        return check_stop_time(number, f" of {type(compiled.tree).__name__}")
     return int(number) if name in COUNTS and number.is_integer() else number

@@ -126,7 +126,7 @@ class _Text:
 
     def _written(self, columns: list[ca.SX], known: dict[int, str]) -> tuple[list[list[str]], list[tuple[str, str]]]:
         """Return the texts of columns, and what they share."""
-        found, shared = written(stacked([dense(c) for c in columns]), known, self.names)
+        found, shared = written(stacked([dense(ca.SX(c)) for c in columns]), known, self.names)
         return texts(found, [c.numel() for c in columns]), shared
 
     def _whens(self) -> tuple[list[str], list[tuple[str, str]]]:

@@ -77,8 +77,9 @@ class Writer:
         self._columns: list[ca.SX] = []
         self._shapes: list[tuple[int, int, list[int] | None]] = []
 
-    def add(self, expression: ca.SX) -> int:
+    def add(self, expression: ca.SX | ca.DM) -> int:
         """Return the number of an expression."""
+        expression = ca.SX(expression)
         rows, columns = expression.shape
         dense = expression.is_dense()
         self._columns.append(ca.vec(expression) if dense else expression.nz[:])

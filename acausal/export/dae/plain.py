@@ -72,7 +72,7 @@ _CLASS = {cls.__name__: cls for cls in FIELDS}
 _FILES = {Origin: "where", Loop: "where"}
 
 
-def encoded(value: Any, add: Callable[[ca.SX], int]) -> Any:
+def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
     """Return what JSON can say of a value.
 
     Parameters
@@ -90,7 +90,7 @@ def encoded(value: Any, add: Callable[[ca.SX], int]) -> Any:
         return int(value)
     if isinstance(value, float):
         return value if np.isfinite(value) else {"number": repr(value)}
-    if isinstance(value, ca.SX):
+    if isinstance(value, ca.SX | ca.DM):  # of nothing CasADi makes a column of numbers
         return {"expression": add(value)}
     if isinstance(value, np.ndarray) and value.ndim == 1:
         return {"array": value.dtype.kind, "entries": [encoded(v, add) for v in value.tolist()]}

@@ -18,7 +18,7 @@ from acausal.language.functions import time
 from acausal.result.lookup import quantity_of
 from acausal.symbols import stacked
 
-Add = Callable[[ca.SX], int]
+Add = Callable[[ca.SX | ca.DM], int]
 
 
 def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | str], add: Add) -> dict[str, Any]:

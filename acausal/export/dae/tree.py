@@ -22,7 +22,7 @@ from acausal.language.expression import Expr
 from acausal.language.validity import Requirement
 from acausal.result.lookup import READABLE
 
-Add = Callable[[ca.SX], int]
+Add = Callable[[ca.SX | ca.DM], int]
 Decode = Callable[[Any], Any]
 BASES: tuple[type[Component], ...] = (Connector, Record, Model, Component)
 PLAIN = (bool, int, float, str, type(None))
@@ -102,7 +102,7 @@ def _class(cls: type[Component]) -> dict[str, Any]:
 
 def _field(name: str, declared: f.Field) -> dict[str, Any]:
     kind = next(kind for kind in MORE if isinstance(declared, kind))
-    found = {"name": name, "kind": kind.__name__.lower(), "description": declared.description}
+    found: dict[str, Any] = {"name": name, "kind": kind.__name__.lower(), "description": declared.description}
     found |= {more: getattr(declared, more) for more in MORE[kind]}
     if isinstance(declared, f.Structural):
         found["refine"] = declared.refine is not None

@@ -52,7 +52,7 @@ def pymoca():
         text = text.replace(
             "(if initial() then 1.0 else 0.0)", "0.0"
         )  # pymoca knows no initial(): while the model runs
-        name = re.search(r"package ('[^']*')", text)[1]
+        name = re.findall(r"package ('[^']*')", text)[0]
         return generator.generate(parser.parse(text), f"{name}.{name}")
 
     yield read
