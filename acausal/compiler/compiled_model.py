@@ -16,6 +16,7 @@ from acausal.compiler.constants import Layout
 from acausal.compiler.constraints import Constraints
 from acausal.compiler.dae import in_sizes, make_dae
 from acausal.compiler.guards import Guards
+from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.compiler.parameters import Settable
 from acausal.compiler.passes import Pass, make_passes
@@ -28,17 +29,6 @@ from acausal.language.functions import initial, time
 from acausal.locks import alone
 from acausal.reduce import Dependence, ReducedModel
 from acausal.symbols import scalars, stacked
-
-
-@dataclass(frozen=True)
-class Local:
-    """Value and Jacobian of the model at one point.
-
-    `ode`, `alg` and `conditions` are stacked in `value`; `jacobian` holds their derivatives by (x, z).
-    """
-
-    value: np.ndarray
-    jacobian: scipy.sparse.csc_matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,8 +177,7 @@ class CompiledModel:
     def at(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray, flag: float) -> Local:
         """Evaluate equations and Jacobian at a point."""
         value, entries = self.local(x, z, p, t, constants, flag)
-        J = self.pattern
-        return Local(value.copy(), scipy.sparse.csc_matrix((entries.copy(), J.indices, J.indptr), shape=J.shape))
+        return Local(value.copy(), entries.copy(), self.pattern)
 
     @cached_property
     def pattern(self) -> scipy.sparse.csc_matrix:

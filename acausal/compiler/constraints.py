@@ -32,6 +32,8 @@ class Constraints:
         Position of the multiplier of each residual among the algebraic unknowns.
     lowest : array of int
         Position of the residual of each constraint at its lowest level.
+    is_lowest : array of bool
+        Whether a residual is one of these.
     closures : list of int
         Constraint of each closure.
     kinds : array of int
@@ -60,6 +62,7 @@ class Constraints:
         pairs = [(residual[m], states[p.state]) for p in constrained.projections for m in p.multipliers]
         self.entries = np.array(pairs, dtype=int).reshape(-1, 2).T
         self.size = len(multipliers)
+        self.is_lowest = np.isin(np.arange(self.size), self.lowest)
         self.states = np.array(sorted({k for _, k in pairs}), dtype=int)
         self._reduced = reduced
         column = reduced.running.constraints

@@ -66,7 +66,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "jacobian_nonzeros": int(local.nnz_out(1)),
         "operations": int(local.n_instructions()),
         "structural_zeros": list(flat.parameters.structural_zeros),
-        "loops": _loops(reduced, found),
+        "loops": loops_at(reduced, found),
         "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
         "independent_states": list(found.independent),
         "break_switches": len(flat.discontinuities.switches),
@@ -103,8 +103,8 @@ def summary(r: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _loops(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
-    """What is known of each loop."""
+def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
+    """Return what is known of each loop."""
     loops = reduced.flat.loops
     dropped_of: list[list[FlatClosure]] = [[] for _ in loops.cuts]
     for k in sorted(at_start.dropped):

@@ -12,10 +12,12 @@ from acausal.core import library, make_tape
 
 # Places in one call.
 AT_ONCE = 16
+# Places at which a function was evaluated when a tape, six times as fast, would have paid: making one takes so long.
+PAYS = 2000
 
 
 class Rowwise:
-    """A function with one result, at many places.
+    """A function with one result, at many places; if it is one of scalar symbols that is called often, by a tape.
 
     Parameters
     ----------
@@ -26,6 +28,7 @@ class Rowwise:
     def __init__(self, function: ca.Function) -> None:
         self.function = function
         self._calls: dict[int, Call] = {}
+        self._places, self._tape = 0, None
 
     def __call__(self, *arguments: np.ndarray) -> np.ndarray:
         """Return one row for each place; nan where the evaluation failed, and in those evaluated with it.
@@ -35,7 +38,13 @@ class Rowwise:
         *arguments : arrays
             Arguments of the function: of shape (n, size), or (size,) where they are the same everywhere.
         """
+        if self._tape:
+            return self._tape.rows(*arguments)
         n, first = next(len(a) for a in arguments if a.ndim == 2), 0
+        self._places += n
+        if self._places > PAYS and library() and self.function.is_a("SXFunction"):
+            self._tape = make_tape(self.function)
+            return self._tape.rows(*arguments)
         found = np.full((n, self.function.nnz_out(0)), np.nan)
         with quiet():
             while first < n:

@@ -14,6 +14,7 @@ import numpy as np
 from acausal.core.curve import Curve
 from acausal.core.library import EquationsData, Progress, RequestData, loaded
 from acausal.core.tape import Tape, make_tape
+from acausal.instructions import READABLE
 from acausal.locks import apart
 from acausal.signals import Signals
 from acausal.symbols import dense
@@ -105,7 +106,7 @@ def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX)
 
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
-    return make_tape(ca.Function(name, list(arguments), [dense(column)]), early=(3, 4))
+    return make_tape(ca.Function(name, list(arguments), [dense(column)], READABLE), early=(3, 4))
 
 
 def _address(array: np.ndarray | None) -> int | None:
@@ -248,6 +249,16 @@ class Rodas:
             if end != End.MORE or steps <= 0:
                 return end
             Signals.raise_lost()
+
+    @property
+    def last(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """Time, states and algebraic unknowns after the last step, which was kept."""
+        times, y = self.steps
+        return float(times[-1]), y[-1, : self.equations.nx], y[-1, self.equations.nx :]
+
+    def move(self, x: np.ndarray, z: np.ndarray) -> None:
+        """Go on from other states and algebraic unknowns, near those after the last step."""
+        self._library.ac_rodas_move(self._memory, *map(_address, (x, z)))
 
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:

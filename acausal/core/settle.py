@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal.core.library import SquareData, loaded
 from acausal.core.tape import Tape, make_tape
+from acausal.instructions import READABLE
 from acausal.symbols import dense
 
 
@@ -61,7 +62,7 @@ def make_square(arguments: Sequence[ca.SX], early: int, residuals: ca.SX, argume
         Places of the unknowns in it.
     """
     J = ca.jacobian(residuals, arguments[argument][places.tolist()])
-    function = ca.Function("square", list(arguments), [ca.vertcat(dense(residuals), J.nz[:])])
+    function = ca.Function("square", list(arguments), [ca.vertcat(dense(residuals), J.nz[:])], READABLE)
     start, row = (np.array(part, dtype=np.int32) for part in (J.sparsity().colind(), J.sparsity().row()))
     before = sum(a.numel() for a in arguments[:argument])
     return Square(make_tape(function, early=range(early)), early, start, row, (before + places).astype(np.int32))

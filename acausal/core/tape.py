@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections import deque
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import copysign
@@ -142,24 +141,23 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
 def _made(read: Instructions, function: ca.Function, early: set[int]) -> Tape:
     sizes = tuple(function.nnz_in(k) for k in range(function.n_in()))
     starts = np.cumsum([0, *sizes])
-    constant_places = [node for node, op in enumerate(read.op) if op == ca.OP_CONST]
-    seats = np.full(len(read.op), -1, dtype=np.int64)
-    seats[constant_places] = np.arange(len(constant_places))
+    constants = list(read.constant)
+    seats = np.full(len(read.op), -1, dtype=np.int32)
+    seats[constants] = np.arange(len(constants))
     for node, (argument, element) in read.place.items():
-        seats[node] = len(constant_places) + starts[argument] + element
+        seats[node] = len(constants) + starts[argument] + element
     order, kinds, lengths, early_runs = _grouped(read, early)
-    base = len(constant_places) + int(starts[-1])
-    seats[order] = base + np.arange(len(order))
-    first, second = (seats[[read.arguments[node][k] for node in order]].astype(np.int32) for k in (0, -1))
+    seats[order] = len(constants) + starts[-1] + np.arange(len(order))
+    first, second = (seats[[read.arguments[node][k] for node in order]] for k in (0, -1))
     return Tape(
-        np.array([read.constant[node] for node in constant_places], dtype=float),
+        np.array(list(read.constant.values()), dtype=float),
         sizes,
         np.array(kinds, dtype=np.int32),
         np.array(lengths, dtype=np.int32),
         first,
         second,
         early_runs,
-        tuple(seats[nodes].astype(np.int32) for nodes in read.results),
+        tuple(seats[nodes] for nodes in read.results),
     )
 
 
@@ -167,54 +165,61 @@ def _merged(read: Instructions) -> Instructions:
     """Return the operations without those that do the same to the same (value numbering)."""
     place: list[int] = []
     known: dict[Any, int] = {}
-    found = Instructions([], [], [], {}, [])
-    for node, (op, arguments, constant) in enumerate(zip(read.op, read.arguments, read.constant, strict=True)):
-        own = tuple(place[k] for k in arguments)
-        # Zeros of both signs are equal.
-        key = op, own or read.place.get(node, (constant, copysign(1.0, constant)))
-        here = known.setdefault(key, len(found.op))
+    found = Instructions([], [], {}, {}, [])
+    for node, (op, arguments) in enumerate(zip(read.op, read.arguments, strict=True)):
+        if arguments:
+            own = [place[k] for k in arguments]
+            key = op, own[0], own[-1]
+        elif node in read.place:
+            own, key = (), read.place[node]
+        else:  # zeros of both signs are equal
+            own, key = (), (op, copysign(1.0, read.constant[node]), read.constant[node])
+        here = known.get(key)
+        if here is None:
+            known[key] = here = len(found.op)
+            found.op.append(op)
+            found.arguments.append(own)
+            if node in read.place:
+                found.place[here] = read.place[node]
+            elif not own:
+                found.constant[here] = read.constant[node]
         place.append(here)
-        if here < len(found.op):
-            continue
-        if node in read.place:
-            found.place[here] = read.place[node]
-        found.op.append(op)
-        found.arguments.append(own)
-        found.constant.append(constant)
     return replace(found, results=[[place[node] for node in nodes] for nodes in read.results])
 
 
 def _grouped(read: Instructions, early: set[int]) -> tuple[list[int], list[int], list[int], int]:
     """Order of the operations, kind and length of each run, and the number of runs that need early arguments alone."""
-    late = [False] * len(read.op)
-    users: list[list[int]] = [[] for _ in read.op]
-    waits = [0] * len(read.op)
+    late, users, waits = list[bool](), list[list[int]](), list[int]()
     for node, arguments in enumerate(read.arguments):
-        late[node] = (node in read.place and read.place[node][0] not in early) or any(late[k] for k in arguments)
-        waits[node] = len(arguments)
+        users.append([])
+        waits.append(len(arguments))
         for argument in arguments:
             users[argument].append(node)
+        if arguments:
+            late.append(late[arguments[0]] or late[arguments[-1]])
+        else:
+            late.append(node in read.place and read.place[node][0] not in early)
+    kinds = [KIND.get(op, -1) for op in read.op]
     order: list[int] = []
     runs: list[tuple[int, int]] = []
-    ready: tuple[dict[int, deque[int]], dict[int, deque[int]]] = ({}, {})
+    ready: tuple[dict[int, list[int]], dict[int, list[int]]] = ({}, {})
 
-    def done(node: int) -> None:
-        for user in users[node]:
-            waits[user] -= 1
-            if not waits[user]:
-                ready[late[user]].setdefault(KIND[read.op[user]], deque()).append(user)
+    def go(nodes: Iterable[int]) -> None:
+        """Let follow what waited for these alone; what becomes ready meanwhile may be among them."""
+        for node in nodes:
+            for user in users[node]:
+                waits[user] -= 1
+                if not waits[user]:
+                    ready[late[user]].setdefault(kinds[user], []).append(user)
 
-    for node, arguments in enumerate(read.arguments):
-        if not arguments:
-            done(node)
+    go(node for node, arguments in enumerate(read.arguments) if not arguments)
     ends = []
     for stage in ready:
         while any(stage.values()):
             kind = max(stage, key=lambda kind: len(stage[kind]))
-            before = len(order)
-            while stage[kind]:
-                order.append(stage[kind].popleft())
-                done(order[-1])
-            runs.append((kind, len(order) - before))
+            go(stage[kind])
+            runs.append((kind, len(stage[kind])))
+            order += stage[kind]
+            stage[kind] = []
         ends.append(len(runs))
     return order, [kind for kind, _ in runs], [length for _, length in runs], ends[0]

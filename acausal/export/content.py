@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.core import StoredModel, make_equations, make_square, make_tape
-from acausal.core.model_file import floats, framed, ints, tape_bytes
+from acausal.core.model_file import floats, ints, tape_bytes
 from acausal.export.beginning import Beginning
 from acausal.export.given import Given
 from acausal.language.functions import time
@@ -52,15 +52,16 @@ class Content:
         """The model."""
         return self.problem.compiled
 
-    def bytes(self, token: str) -> bytes:
-        """Return the file, with what tells the model from others."""
+    @property
+    def sections(self) -> dict[str, bytes]:
+        """Content of the sections of the file by their tags, but for what tells the model from others."""
         constants = self.beginning.at.constants
         shape = [len(constants.switches), len(constants.discretes), len(constants.closures), self.shown.numel()]
         c, jumps = self.compiled.constraints, self._jumps
         shape += [len(self.watched), len(self._timed), self._instants.numel(), jumps[0].numel(), c.size]
         shape += [len(self.given.inputs), len(self._levels)]
         places = [k for pair in self.given.inputs for k in pair]
-        sections = {
+        return {
             **self._model.sections,
             "layout": ints(shape),
             "roles": ints(self.given.roles),
@@ -78,9 +79,7 @@ class Content:
             "coordsto": ints(self._coordinates[1]),
             "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
             "natural": floats(self.compiled.nominal[self.compiled.nx :]),
-            "token": token.encode() + b"\0",
         }
-        return framed(VERSION, sections)
 
     @cached_property
     def watched(self) -> list[int]:
@@ -121,8 +120,9 @@ class Content:
     @cached_property
     def _model(self) -> StoredModel:
         at, nx = self.beginning.at, self.compiled.nx
+        x, z, t, p, c = self._symbols
         return StoredModel(
-            make_equations(*self._symbols, *self.running),
+            make_equations(x, z, t, p, c, *self.running),
             at.time,
             *(at.x, at.z, self.given.values, at.constants.vector),
             size=self.compiled.nominal[:nx],

@@ -9,7 +9,7 @@ import casadi as ca
 
 from acausal.compiler import CompiledModel
 from acausal.export.beginning import Beginning
-from acausal.export.description import Causality, Variable, Variability
+from acausal.export.description import Causality, Variability, Variable
 from acausal.export.given import Given, Role
 from acausal.flatten.tree import walk
 from acausal.language import fields as f

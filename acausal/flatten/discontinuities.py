@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import casadi as ca
 
@@ -90,9 +91,9 @@ class Promise:
     inclusive: bool
     origin: Origin
 
-    def holds(self, excess: float) -> bool:
-        """Whether the case holds."""
-        return excess < 0 or (excess == 0 and self.inclusive)
+    def holds(self, excess: Any) -> Any:
+        """Whether the case holds, for one excess or an array of them."""
+        return (excess < 0) | ((excess == 0) & self.inclusive)
 
 
 def create_discretes(components: list[Component]) -> list[Discrete]:

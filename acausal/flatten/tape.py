@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from acausal.instructions import read_instructions
+from acausal.instructions import READABLE, read_instructions
 from acausal.symbols import combined
 
 Linear = tuple[float, tuple[tuple[int, float], ...]]  # c0 and up to two terms (unknown, c)
@@ -39,7 +39,7 @@ class Tape:
     """
 
     def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:
-        read = read_instructions(ca.Function("residuals", [unknowns, others], [residuals]))
+        read = read_instructions(ca.Function("residuals", [unknowns, others], [residuals], READABLE))
         self.args, self.constant, self.residual = read.arguments, read.constant, read.results[0]
         # Of the two arguments, only the elements of the first are unknown.
         self.unknown = {node: element for node, (argument, element) in read.place.items() if argument == 0}

@@ -89,6 +89,8 @@ class Loops:
     fit: float = 0.5
     angles: float = 1e-3
     spared: float = 0.3
+    # Of the logarithm of an entry: entries as near to each other are one, and sums of up to 2^20 logarithms are exact.
+    grid: float = 2.0**-20
     # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
     decades: int = 12
     # Way out of a singular position in nominal values: its square is the error of what is left out.

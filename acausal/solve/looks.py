@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 GOLDEN = (5**0.5 - 1) / 2
@@ -39,6 +41,9 @@ def uneven(grid: np.ndarray, parts: int) -> np.ndarray:
     return times
 
 
+@lru_cache(maxsize=256)  # runs of one model ask for the same again and again
 def spread(n: int, most: int) -> np.ndarray:
-    """Return the places of at most so many of n rows, evenly spread, the first and the last among them."""
-    return np.unique(np.linspace(0, n - 1, min(n, most)).astype(int))
+    """Return the places of at most so many of n rows, evenly spread, the first and the last among them; not to be changed."""
+    found = np.unique(np.linspace(0, n - 1, min(n, most)).astype(int))
+    found.setflags(write=False)
+    return found

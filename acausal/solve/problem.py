@@ -9,7 +9,8 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.compiled_model import Local
+from acausal.compiler.local import Local
+from acausal.compiler.once import once
 from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
 from acausal.policy import POLICY
@@ -49,16 +50,10 @@ class Problem:
         """Declared sizes of states and algebraic unknowns."""
         return self.compiled.nominal
 
-    @cached_property
+    @property
     def rates(self) -> list[tuple[int, int]]:
         """Pairs (coordinate, rate) among the states."""
-        plan = self.compiled.reduced.plan
-        projected = {p.coordinate: p.state for p in plan.constrained.projections}
-        place = {v: k for k, v in enumerate(plan.states)}
-        pairs = [(p.state, p.rate) for p in plan.constrained.projections]
-        pairs += [(v, plan.system.derivative[v]) for v in plan.states]
-        found = ((v, projected.get(rate, rate)) for v, rate in pairs)
-        return [(place[v], place[rate]) for v, rate in found if rate in place]
+        return _rates(self.compiled)
 
     @cached_property
     def hoisted(self) -> np.ndarray:
@@ -133,6 +128,17 @@ class Problem:
         """Return a row as a point."""
         constants = self.compiled.layout.constants(rows.constants[k])
         return Point(float(rows.times[k]), rows.x[k], rows.z[k], constants)
+
+
+@once
+def _rates(compiled: CompiledModel) -> list[tuple[int, int]]:
+    plan = compiled.reduced.plan
+    projected = {p.coordinate: p.state for p in plan.constrained.projections}
+    place = {v: k for k, v in enumerate(plan.states)}
+    pairs = [(p.state, p.rate) for p in plan.constrained.projections]
+    pairs += [(v, plan.system.derivative[v]) for v in plan.states]
+    found = ((v, projected.get(rate, rate)) for v, rate in pairs)
+    return [(place[v], place[rate]) for v, rate in found if rate in place]
 
 
 def by_columns(J: scipy.sparse.csc_matrix, factors: np.ndarray) -> scipy.sparse.csc_matrix:

@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.report import loops_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
@@ -80,7 +81,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
-    result = _result(done, plan, replace(_counted(done, plan, task), solve_seconds=seconds), task.energy)
+    result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)
     if met:
         raise SimulationError(met.text, result)
     if done.failure is not None:
@@ -166,7 +167,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
             if isinstance(failure, Failure) and failure.kind is Kind.ERROR_TEST:
                 # Values that grow without end are known up to a time that is as uncertain as the tolerance says.
                 integrator.trace.cut(failure.time - task.tolerance * span)
-        fitting = smaller_sizes(problem, integrator.trace.rows(at).x, settings.nominal, task.tolerance, span)
+        fitting = smaller_sizes(problem, integrator.trace.states(at), settings.nominal, task.tolerance, span)
         if fitting is None:
             break
         settings, counts = replace(settings, nominal=fitting), integrator.trace
@@ -196,19 +197,20 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     return found
 
 
-def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
+def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled = integrator.compiled
-    report = compiled.report_at(done.begun.found(compiled))
+    found = done.begun.found(compiled)
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
     return Statistics(
-        equations_flat=report["equations_flat"],
-        equations_reduced=report["equations_reduced"],
+        equations_flat=compiled.reduced.flat.counts["equations_flat"],
+        equations_reduced=compiled.nx + compiled.nz,
         states=compiled.nx,
         algebraic=compiled.nz,
         compile_seconds=sum(compiled.seconds.values()) + trace.building,
+        solve_seconds=seconds,
         integration_seconds=trace.seconds,
         steps=trace.steps,
         factorisations=trace.factorisations,
@@ -229,8 +231,8 @@ def _counted(done: _Done, plan: _Plan, task: Task) -> Statistics:
         break_times=plan.breaks,
         events=len(done.course.events),
         event_times=done.course.events,
-        loops=report["loops"],
-        independent_states=report["independent_states"],
+        loops=loops_at(compiled.reduced, found),
+        independent_states=list(found.independent),
     )
 
 

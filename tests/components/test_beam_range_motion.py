@@ -76,7 +76,7 @@ def test_told_size_of_one_frame_that_turns(scene, ends, omega):
     texts, linear = doubts(scene(omega=omega, **formulation), **options)
     right = free_end(doubts(stiffened(scene), parameters={"omega": omega}, **options)[1], *ends)
     error = np.abs(free_end(linear, *ends) - right).max() / np.abs(right).max()
-    assert error > 0.02
+    assert error > 0.019  # 1.965 % and more, converged in time
     check(texts, error)
 
 

@@ -7,6 +7,9 @@
 
 #define GROWN 1e3 /* entries of L, and of U over those of the matrix, at which pivots are chosen anew: 1e-10 is lost at most */
 
+/* The larger of two numbers, the first where the other is nan: `fmax` is a call of the library, for each entry. */
+static double larger(double most, double x) { return x > most ? x : most; }
+
 /* Factors with the pivots that were chosen; 0 where they are no longer good. */
 static int refactor(ac_lu *lu, const double *value) {
     double *w = lu->work, given = 0, grown = 0;
@@ -15,19 +18,19 @@ static int refactor(ac_lu *lu, const double *value) {
         for (int32_t e = lu->start[j]; e < lu->start[j + 1]; e++) {
             const double x = value[e] * lu->scale[lu->row[e]];
             w[lu->step_of[lu->row[e]]] = x;
-            given = fmax(given, fabs(x));
+            given = larger(given, fabs(x));
         }
         for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) {
             const int32_t s = lu->u_row[e];
             const double x = lu->u[e] = w[s];
             w[s] = 0;
-            grown = fmax(grown, fabs(x));
+            grown = larger(grown, fabs(x));
             for (int32_t i = lu->l_start[s]; i < lu->l_start[s + 1]; i++) w[lu->l_row[i]] -= lu->l[i] * x;
         }
         const double pivot = lu->diagonal[k] = w[k], inverse = 1 / pivot;
         int good = fabs(pivot) > 0 && isfinite(inverse);
         w[k] = 0;
-        grown = fmax(grown, fabs(pivot));
+        grown = larger(grown, fabs(pivot));
         for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) {
             lu->l[i] = w[lu->l_row[i]] * inverse;
             w[lu->l_row[i]] = 0;

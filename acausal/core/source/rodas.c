@@ -91,6 +91,13 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->written_at = 0;
 }
 
+/* Go on from other values at the time that was reached, near those that were. */
+void ac_rodas_move(ac_rodas *r, const double *x, const double *z) {
+    if (r->of.nx) memcpy(r->y, x, (size_t)r->of.nx * sizeof *x);
+    if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
+    r->stale = 1;
+}
+
 /* Root mean square of changes of the states over tolerance (size + |x|). */
 static double norm(const ac_rodas *r, const double *change) {
     double sum = 0;

@@ -18,6 +18,7 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
 from acausal.export.dae.shown import shown
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.language.functions import feedback, initial, time
 from acausal.language.validity import Expectation, Separation
@@ -29,6 +30,7 @@ from acausal.simulation.settings import declared_settings
 SHARED = {"time": time, "initial": initial, "feedback": feedback}
 
 
+@fitting
 @alone
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None

@@ -12,9 +12,11 @@ import numpy as np
 from acausal.core.tape import KIND, KINDS
 from acausal.errors import ExportError
 from acausal.garbage import uncollected
-from acausal.instructions import CONSTANT, read_instructions
+from acausal.instructions import CONSTANT, READABLE, read_instructions
+from acausal.symbols import stacked
 
 INT, FLOAT = np.dtype("<i4"), np.dtype("<f8")
+MOST = 1 << 24  # rows or columns: more than any model has unknowns
 _UNARY = (
     *(ca.OP_NEG, ca.OP_SQ, ca.OP_TWICE, ca.OP_INV, ca.OP_SQRT, ca.OP_SIN, ca.OP_COS, ca.OP_TAN, ca.OP_ASIN, ca.OP_ACOS),
     *(ca.OP_ATAN, ca.OP_EXP, ca.OP_LOG, ca.OP_SINH, ca.OP_COSH, ca.OP_TANH, ca.OP_ASINH, ca.OP_ACOSH, ca.OP_ATANH),
@@ -71,7 +73,7 @@ class Operations:
 
 
 class Writer:
-    """Collects expressions; `column` of all of them gives their operations."""
+    """Collects expressions, and gives the operations of all of them."""
 
     def __init__(self) -> None:
         self._columns: list[ca.SX] = []
@@ -95,9 +97,9 @@ class Writer:
         ExportError
             If an expression holds an operation that the core does not know.
         """
-        column = ca.vertcat(ca.SX(0, 1), *self._columns)
+        column = stacked(self._columns)
         symbols = ca.symvar(column)
-        read = read_instructions(ca.Function("all", [ca.vertcat(ca.SX(0, 1), *symbols)], [column]))
+        read = read_instructions(ca.Function("all", [stacked(symbols)], [column], READABLE))
         constants = [node for node, op in enumerate(read.op) if op == CONSTANT]
         seat = {node: k for k, node in enumerate(constants)}
         seat |= {node: len(constants) + element for node, (_, element) in read.place.items()}
@@ -144,7 +146,7 @@ class Reader:
         for kind, first, second in given.operations.tolist():
             op = KINDS[kind]
             values.append(unary(op, values[first]) if kind in UNARY else binary(op, values[first], values[second]))
-        self._column = ca.vertcat(ca.SX(0, 1), *[values[k] for k in given.places.tolist()])
+        self._column = stacked([values[k] for k in given.places.tolist()])
         self._shapes = given.shapes
         self._starts = np.cumsum([0, *(_size(s) for s in given.shapes)]).tolist()
 
@@ -170,8 +172,8 @@ def check(given: Operations) -> None:
     if np.any((given.places < 0) | (given.places >= first + len(given.operations))):
         raise ValueError("an entry of an expression does not exist")
     for rows, columns, pattern in given.shapes:
-        if rows < 0 or columns < 0:
-            raise ValueError("an expression has no shape")
+        if not (0 <= rows <= MOST and 0 <= columns <= MOST):
+            raise ValueError("an expression has no shape that can be")
         if pattern is not None and any(not 0 <= k < rows * columns for k in pattern):
             raise ValueError("an entry of an expression stands outside it")
     if sum(map(_size, given.shapes)) != len(given.places):

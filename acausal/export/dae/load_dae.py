@@ -14,12 +14,14 @@ from acausal.export.dae import archive, tree
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.reduce import ReducedModel
 from acausal.result import document
 
 
+@fitting
 @alone
 def load_dae(path: str | Path) -> CompiledModel:
     """Read a model that `export_dae` wrote; its classes are not needed.
@@ -47,7 +49,7 @@ def load_dae(path: str | Path) -> CompiledModel:
         compiled.parameter_values(None)
     except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
         # The checksums fit: what is wrong was written so.
-        archive.refuse(path, "its content contradicts itself; it was not written by export_dae")
+        archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
     compiled.seconds["load"] = clock.perf_counter() - begun
     return compiled
 

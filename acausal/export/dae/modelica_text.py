@@ -11,7 +11,7 @@ import numpy as np
 from acausal.core.tape import KIND
 from acausal.errors import ExportError
 from acausal.export.dae.expressions import NAMES
-from acausal.instructions import read_instructions
+from acausal.instructions import READABLE, read_instructions
 from acausal.symbols import scalars, stacked
 
 # Nested deeper, or longer, an expression is given a name: parsers descend a level of calls for each bracket.
@@ -86,7 +86,7 @@ def written(expressions: ca.SX, known: Mapping[int, str], names: Names) -> tuple
         If an operation has no counterpart in Modelica.
     """
     symbols = ca.symvar(expressions)
-    read = read_instructions(ca.Function("text", [stacked(symbols)], [expressions]))
+    read = read_instructions(ca.Function("text", [stacked(symbols)], [expressions], READABLE))
     uses = np.bincount([k for arguments in read.arguments for k in arguments], minlength=len(read.op))
     shared: list[tuple[str, str]] = []
     text: list[str] = []

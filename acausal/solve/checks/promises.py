@@ -98,7 +98,7 @@ def broken_promises(integrator: Integrator, outputs: Evaluator) -> list[str]:
 def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, promise: Promise) -> str:
     """Say that a law jumps, "" if it does not."""
     size = float(np.max(np.abs(np.nan_to_num(values[:, 1 + promise.step.numel() :])), initial=0.0))
-    side = np.array([promise.holds(excess) for excess in values[:, 0]])
+    side = promise.holds(values[:, 0])
     closer = 0
     for k in np.flatnonzero(side[1:] != side[:-1]):
         low, high = int(rows[k]), int(rows[k + 1])

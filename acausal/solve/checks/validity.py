@@ -32,7 +32,7 @@ class Watch:
 
     stated: list[Any]
     function: Rowwise
-    wanted: set[int]
+    wanted: frozenset[int]
 
 
 def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> Watch:
@@ -47,7 +47,7 @@ def watch(compiled: CompiledModel, stated: list[Any], entries: list[ca.SX]) -> W
             origin = stated[k * len(stated) // len(entries)][1]
             refuse_undeclared(r.resolve(entry), [*arguments, initial.sx], f"{origin}: ")
         raise
-    return Watch(stated, Rowwise(function), compiled.dependence.inside(column))
+    return Watch(stated, Rowwise(function), frozenset(compiled.dependence.inside(column)))
 
 
 @once

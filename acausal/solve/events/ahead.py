@@ -157,6 +157,9 @@ class Ahead:
             if integrator.way.order != settings.max_order:
                 return Found(at)
         following = next_ways(integrator.way, refusal, settings.rescues(grid, integrator.loops))
+        if integrator.loops and refusal.kind is Kind.CORRECTOR and integrator.way.method == settings.careful:
+            # Beside a flat position a shorter time helps, and there each method in turn; no other one is taken for good.
+            following = tuple(way for way in following if way.method == settings.careful)
         if integrator.loops and not following and integrator.way.method == settings.methods[0] != settings.careful:
             following = (replace(integrator.way, method=settings.careful),)
         if not following:

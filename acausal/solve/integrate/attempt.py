@@ -179,7 +179,7 @@ class Integrator:
         return found.every(parts)
 
     def settled(self, leg: Leg, way: Way) -> Leg | Refusal:
-        """Return a leg whose last row satisfies the equations, as the next call starts from it.
+        """Let the last row of a leg, whose arrays are its own, satisfy the equations, as the next call starts from it.
 
         The other rows are solved when they are read.
         Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
@@ -198,7 +198,8 @@ class Integrator:
         ends = (last, given[-1:])
         if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
-        return replace(leg, rows=Rows.joined([leg.rows[:-1], last]))
+        leg.rows.z[-1] = last.z[0]
+        return leg
 
     def report(self, time: float) -> None:
         """Report the progress."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
@@ -31,8 +33,9 @@ class ByCore(Integration):
         problem, way, at = request.problem, request.way, request.at
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
-        self._wary = bool(problem.compiled.constraints.size) and not damps
-        self.ended, self._keeps = False, self._wary or request.curves
+        loops = bool(problem.compiled.constraints.size)
+        self._wary, self._returns = loops and not damps, loops and way.moves
+        self.ended, self._keeps = False, self._wary or self._returns or request.curves
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -56,12 +59,14 @@ class ByCore(Integration):
         """Integrate to the end, or as far as possible."""
         refusal = None
         while not (refusal or self.ended):
-            refusal = self.advance(POLICY.calls.steps if self._wary else 2**62)
+            refusal = self.advance(POLICY.calls.steps if self._wary or self._returns else 2**62)
         return refusal
 
     def advance(self, steps: int) -> Refusal | None:
         """Take some steps at most, refused ones among them; where they are kept, as many as take some hundredths of a second."""
         steps = min(steps, self._at_once) if self._keeps else steps
+        if self._returns and self._rodas.progress.steps:
+            self._return()
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
         if self._wary and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
@@ -72,6 +77,13 @@ class ByCore(Integration):
     def curve(self) -> Curve:
         """The motion in the last steps."""
         return self._rodas.curve
+
+    def _return(self) -> None:
+        """Go on from where the constraints have the states: errors that lead away from there would add up."""
+        time, x, z = self._rodas.last
+        there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z)).x
+        z[self.request.problem.compiled.constraints.multipliers] = 0.0
+        self._rodas.move(there, z)
 
     def _passed_flat(self) -> bool:
         """Whether loops may have passed a flat position in the last steps."""

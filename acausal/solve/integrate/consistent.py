@@ -6,10 +6,13 @@ An integrator controls the error of states only: algebraic unknowns between its 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
+from acausal.compiler.once import once
 from acausal.compiler.passes import Pass
 from acausal.core import Settler, library
 from acausal.errors import InitializationError
@@ -21,6 +24,58 @@ from acausal.solve.start.newton import algebraic, terms
 from acausal.solve.start.parts import part_of
 
 CONSISTENT = POLICY.consistent
+
+
+@dataclass(frozen=True, eq=False)
+class _Needed:
+    """Algebraic unknowns and their equations, and the Jacobian of these.
+
+    Attributes
+    ----------
+    unknowns, equations : arrays of int
+        Places among all of the model.
+    key : tuple of int
+        The unknowns.
+    rows, entries : arrays of int
+        Equation, counted from the first of the model, and place of each entry, column by column.
+    first, columns : arrays of int
+        Where the entries of each unknown begin, and these unknowns, counted from the first: some have none.
+    """
+
+    unknowns: np.ndarray
+    equations: np.ndarray
+    key: tuple[int, ...]
+    rows: np.ndarray
+    entries: np.ndarray
+    first: np.ndarray
+    columns: np.ndarray
+
+    def changes(self, problem: Problem, rows: Rows, k: int) -> np.ndarray:
+        """Change of each unknown, in one of some rows, that changes an equation by as much as its terms; 0 if none does."""
+        x, z = rows.x[k], rows.z[k]
+        local = problem.compiled.at(x, z, problem.p, rows.times[k], rows.constants[k], 0.0)
+        terms = local.magnitudes(np.abs(np.concatenate([x, z])))[self.rows]
+        found = np.zeros(len(self.unknowns))
+        if self.entries.size:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                least = np.fmin.reduceat(terms / np.abs(local.entries[self.entries]), self.first)
+            found[self.columns] = np.where(np.isfinite(least), least, 0.0)
+        return found
+
+
+@once
+def _needed(compiled: CompiledModel, wanted: frozenset[int] | None) -> _Needed:
+    """Return what has to be solved for to know some unknowns, all if not given."""
+    unknowns, _ = compiled.dependence.needed(range(compiled.nz) if wanted is None else wanted)
+    return _solved(compiled, tuple(unknowns.tolist()))
+
+
+@once
+def _solved(compiled: CompiledModel, key: tuple[int, ...]) -> _Needed:
+    unknowns, equations = compiled.dependence.needed(key)
+    part = part_of(compiled.pattern, compiled.nx + equations, compiled.nx + unknowns)
+    columns, first = np.unique(part.places[1], return_index=True)
+    return _Needed(unknowns, equations, key, part.rows[part.places[0]], part.entries, first, columns)
 
 
 class Consistent:
@@ -40,8 +95,8 @@ class Consistent:
     def __init__(self, problem: Problem) -> None:
         self.problem, self.compiled = problem, problem.compiled
         self.evaluations = 0
-        self._natural: dict[tuple[int, ...], np.ndarray] = {}
-        self._settlers: dict[tuple[int, ...], Settler] = {}
+        self._natural: dict[_Needed, np.ndarray] = {}
+        self._settlers: dict[_Needed, Settler] = {}
 
     def __call__(self, rows: Rows, wanted: Iterable[int] | None = None) -> tuple[Rows, list[float]]:
         """Return rows whose algebraic unknowns satisfy their equations, and times at which no such are found.
@@ -55,18 +110,17 @@ class Consistent:
         wanted : iterable of int, optional
             Unknowns that must be right, with all that they need; all if not given.
         """
-        c = self.compiled
-        unknowns, equations = c.dependence.needed(range(c.nz) if wanted is None else wanted)
-        if not unknowns.size or not len(rows):
+        needed = _needed(self.compiled, None if wanted is None else frozenset(wanted))
+        if not needed.unknowns.size or not len(rows):
             return rows, []
         found = rows.with_z(rows.z.copy())
-        size = self._sizes(rows, unknowns, equations)
+        size = self._sizes(rows, needed)
         doubtful: set[int] = set()
-        left = self._by_core(unknowns, size, found)
-        for step in c.passes(tuple(unknowns.tolist())) if left.size else ():
+        left = self._by_core(needed, size, found)
+        for step in self.compiled.passes(needed.key) if left.size else ():
             doubtful |= self._settle(step, size[step.unknowns], found, left)
         rounding = POLICY.newton.terms * np.finfo(float).eps
-        wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, equations)]
+        wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, needed.equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
 
     def rates(self, rows: Rows) -> np.ndarray:
@@ -79,36 +133,27 @@ class Consistent:
         c, at = self.compiled, self.problem.point(rows, k)
         local = self.problem.local(at)
         own = c.nx + (np.arange(c.nz) if equations is None else equations)
-        sizes = terms(local.jacobian, at.y, c.nominal)[own]
+        sizes = terms(local, at.y, c.nominal)[own]
         return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
 
-    def _sizes(self, rows: Rows, unknowns: np.ndarray, equations: np.ndarray) -> np.ndarray:
+    def _sizes(self, rows: Rows, needed: _Needed) -> np.ndarray:
         """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
-        c = self.compiled
-        key = tuple(unknowns)
-        if key not in self._natural or len(rows) > CONSISTENT.many:
-            size, part = np.zeros(c.nz), part_of(c.pattern, c.nx + equations, c.nx + unknowns)
-            for k in spread(len(rows), CONSISTENT.looks):
-                at = self.problem.point(rows, k)
-                J = abs(self.problem.local(at).jacobian)
-                terms = (J @ np.abs(at.y))[part.rows[part.places[0]]]
-                here = np.full(len(unknowns), np.inf)
-                with np.errstate(divide="ignore", invalid="ignore"):
-                    np.fmin.at(here, part.places[1], terms / J.data[part.entries])
-                size[unknowns] = np.fmax(size[unknowns], np.where(np.isfinite(here), here, 0))
-            self._natural[key] = size
-        size = np.maximum(self._natural[key], np.max(np.abs(rows.z), axis=0))
+        c, unknowns = self.compiled, needed.unknowns
+        if needed not in self._natural or len(rows) > CONSISTENT.many:
+            found = [needed.changes(self.problem, rows, k) for k in spread(len(rows), CONSISTENT.looks)]
+            self._natural[needed] = np.zeros(c.nz)
+            self._natural[needed][unknowns] = np.max(found, axis=0)
+        size = np.maximum(self._natural[needed], np.max(np.abs(rows.z), axis=0))
         nominal = c.nominal[c.nx :]
         return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
-    def _by_core(self, unknowns: np.ndarray, size: np.ndarray, rows: Rows) -> np.ndarray:
+    def _by_core(self, needed: _Needed, size: np.ndarray, rows: Rows) -> np.ndarray:
         """Solve for unknowns in place, all at once; return the rows where that does not converge, which are as they were."""
         if not library():
             return np.arange(len(rows))
-        key = tuple(unknowns.tolist())
-        if key not in self._settlers:
-            self._settlers[key] = Settler(core_square(self.compiled, key))
-        settler = self._settlers[key]
+        if needed not in self._settlers:
+            self._settlers[needed] = Settler(core_square(self.compiled, needed.key))
+        unknowns, settler = needed.unknowns, self._settlers[needed]
         before = settler.evaluations
         given = self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
         found, settled = settler(*given, size=size[unknowns], enough=CONSISTENT.settled)

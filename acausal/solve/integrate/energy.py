@@ -101,7 +101,7 @@ def refined(
 def between_rows(
     solver: Consistent, rows: Rows, tolerance: float, exchanged: float | None = None
 ) -> tuple[np.ndarray, bool]:
-    """Work up to each row from more and more points between them, on cubics through the states, until it settles.
+    """Work up to each row from more and more points between them, on cubic splines through the states, until it settles.
 
     Parameters
     ----------
@@ -112,12 +112,12 @@ def between_rows(
     """
     rows, _ = solver(rows)
     t, n, agreed = rows.times, len(rows) - 1, 0
-    rates = solver.rates(rows)
+    slopes = _slopes(solver, rows)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
     exchanged = _exchanged(solver, rows) if exchanged is None else exchanged
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
     while n * parts <= ENERGY.most:
-        inside, since = _inside(rows, rates, np.arange(n * parts + 1) / parts)
+        inside, since = _inside(rows, slopes, np.arange(n * parts + 1) / parts)
         power = powers(solver, inside)
         if not np.all(np.isfinite(power)):
             break
@@ -127,7 +127,7 @@ def between_rows(
         # Between its steps an integrator is not smooth: then more points do not change less.
         rough = np.all((change >= last / 4) & (change <= ENERGY.alike * scale))
         agreed = agreed + 1 if np.all(change / ENERGY.gain <= tolerance * scale) or rough else 0
-        if agreed == 2 and _seen(solver, rows, since, power, tolerance * exchanged, rates):
+        if agreed == 2 and _seen(solver, rows, since, power, tolerance * exchanged):
             return found, True
         parts *= 2
     return np.nan_to_num(found), False
@@ -159,30 +159,36 @@ def _exchanged(solver: Consistent, rows: Rows) -> float:
     return float(np.ptp(stored) + ENERGY.rounding * np.max(np.abs(stored)))
 
 
-def _inside(rows: Rows, rates: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
+def _slopes(solver: Consistent, rows: Rows) -> np.ndarray:
+    """Slopes of the states at consistent rows: those of splines of order 5 through them, or the rates of a few rows.
+
+    What is stiff makes more of an interpolant's errors in its rates: stiff dampers would waste what is not there.
+    """
+    if len(rows) < 6:
+        return solver.rates(rows)
+    return scipy.interpolate.make_interp_spline(rows.times, rows.x, 5)(rows.times, 1)
+
+
+def _inside(rows: Rows, slopes: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
     """Rows whose algebraic unknowns are nearly right, and their times since the first row; s counts rows."""
     x, z, t = rows.x, rows.z, rows.times
     k = np.minimum(s.astype(int), len(t) - 2)
     u = (s - k)[:, None]
     h = (t[k + 1] - t[k])[:, None]
-    found, _ = cubic(u, h, (x[k], x[k + 1]), (rates[k], rates[k + 1]))
+    found, _ = cubic(u, h, (x[k], x[k + 1]), (slopes[k], slopes[k + 1]))
     since = t[k] - t[0] + (u * h)[:, 0]
     return Rows(t[0] + since, found, z[k] + u * (z[k + 1] - z[k]), rows.constants[k]), since
 
 
-def _seen(
-    solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, least: float, rates: np.ndarray | None = None
-) -> bool:
+def _seen(solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, least: float) -> bool:
     """Whether a spline of the power, over times since the first row, is right beside its nodes, but for a work of `least`."""
     s = (np.arange(1, ENERGY.probes + 1) * GOLDEN) % 1 * (len(rows) - 1)
-    if rates is None:
-        k = np.minimum(s.astype(int), len(rows) - 2)
-        ends = np.unique([k, k + 1])
-        settled, _ = solver(rows[ends])
-        z, rates = rows.z.copy(), np.zeros(rows.x.shape)
-        z[ends], rates[ends] = settled.z, solver.rates(settled)
-        rows = rows.with_z(z)
-    probes, since = _inside(rows, rates, s)
+    k = np.minimum(s.astype(int), len(rows) - 2)
+    ends = np.unique([k, k + 1])
+    z = rows.z.copy()
+    z[ends] = solver(rows[ends])[0].z
+    rows = rows.with_z(z)
+    probes, since = _inside(rows, _slopes(solver, rows), s)
     missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(since) - powers(solver, probes))
     return bool(np.all(missed <= np.maximum(ENERGY.alike * np.max(np.abs(power), axis=0), least / times[-1])))
 

@@ -28,7 +28,7 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
         Those of the segment.
     """
     c, nominal = problem.compiled.constraints, problem.nominal
-    counts = c.counting(constants.closures) & np.isin(np.arange(c.size), c.lowest)
+    counts = c.counting(constants.closures) & c.is_lowest
     some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
     held = c.held(x[some], problem.p, times[some], constants.vector) * nominal[c.entries[1]]
     held = held / _sizes(c, held)

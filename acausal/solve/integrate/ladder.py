@@ -151,10 +151,17 @@ class Rescues:
         """Whether another choice of states may help."""
         return self.loops and refusal.kind not in (Kind.STEPS, Kind.STALLED)
 
-    def after(self, method: str, refusal: Refusal) -> str:
-        """Return the method that follows a refused one: the last one where there are too many steps; that one stays."""
-        next_one = self.methods.index(method) + 1
-        return self.methods[-1] if refusal.kind is Kind.STEPS else self.methods[min(next_one, len(self.methods) - 1)]
+    def is_flat(self, way: Way, refusal: Refusal) -> bool:
+        """Whether a refusal is due to a flat position of a loop: near it steps of the one-step method get short.
+
+        Where there are vibrations, these may be why.
+        """
+        many = refusal.kind is Kind.STEPS and way.method == "following"
+        return refusal.kind is Kind.FLAT or (many and self.loops and not self.damps)
+
+    def after(self, method: str) -> str:
+        """Return the method that follows a refused one; the last one stays."""
+        return self.methods[min(self.methods.index(method) + 1, len(self.methods) - 1)]
 
 
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
@@ -183,11 +190,12 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
             for method in reversed(rescues.methods)
             if (method, tolerance) != (way.method, way.tolerance)
         )
-    if refusal.kind is Kind.FLAT:
-        other = replace(way, method=rescues.after(way.method, refusal), moves=way.moves and not rescues.projects)
+    if rescues.is_flat(way, refusal):
+        other = replace(way, method=rescues.after(way.method), moves=way.moves and not rescues.projects)
         return () if other.method == way.method else (other,)
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
-    stuck = refusal.kind is Kind.CORRECTOR and changed == way
-    if stuck or (refusal.kind is Kind.STEPS and rescues.damps):
-        changed = replace(changed, method=rescues.after(way.method, refusal))
+    if refusal.kind is Kind.STEPS and rescues.damps:
+        changed = replace(changed, method=rescues.methods[-1])
+    elif refusal.kind is Kind.CORRECTOR and changed == way:
+        changed = replace(changed, method=rescues.after(way.method))
     return () if changed == way else (changed,)

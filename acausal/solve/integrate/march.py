@@ -107,7 +107,9 @@ class March:
         None if it is refused.
         """
         last = int(np.searchsorted(leg.times, time))
-        kept = self.integrator.settled(leg.part(0, last), self._way) if last else leg
+        part = leg.part(0, last)
+        part = replace(part, rows=part.rows.with_z(part.rows.z.copy()))
+        kept = self.integrator.settled(part, self._way) if last else leg
         if self.integrator.is_worn(leg.rows, leg.constants):
             kept = Refusal(Kind.WORN, float(leg.times[0]))
         if isinstance(kept, Refusal):

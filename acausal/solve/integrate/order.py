@@ -33,13 +33,13 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
 
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
-    J = problem.local(at).jacobian
-    if not np.all(np.isfinite(J.data[J.indices < nx + nz])):
+    local = problem.local(at)
+    if not np.all(np.isfinite(local.entries[local.pattern.indices < nx + nz])):
         return np.zeros(0, complex)
     if nx <= (ORDER.looped if problem.compiled.constraints.size else ORDER.dense):
         N, chosen = tangent(problem, at)
-        return np.linalg.eigvals((of_states(problem.compiled).matrix(J.data) @ N)[chosen])
-    J = J[: nx + nz]
+        return np.linalg.eigvals((of_states(problem.compiled).matrix(local.entries) @ N)[chosen])
+    J = local.jacobian[: nx + nz]
     inner = scipy.sparse.linalg.splu(J[nx:, nx:].tocsc(), permc_spec="NATURAL").solve if nz else None
     to_z, from_z, own = J[nx:, :nx], J[:nx, nx:], J[:nx, :nx]
 
@@ -48,7 +48,8 @@ def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
 
     fast = _dominant(rate, nx)
     shift = ORDER.shift * float(np.max(np.abs(fast), initial=problem.feedback))
-    diagonal = scipy.sparse.diags(np.r_[np.full(nx, shift), np.zeros(nz)], format="csc")
+    ends = np.minimum(np.arange(nx + nz + 1), nx)
+    diagonal = scipy.sparse.csc_matrix((np.full(nx, shift), np.arange(nx), ends), shape=J.shape)
     outer = scipy.sparse.linalg.splu((J - diagonal).tocsc()).solve
 
     def inverse(v: np.ndarray) -> np.ndarray:

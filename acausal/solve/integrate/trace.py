@@ -47,6 +47,10 @@ class Trace:
         """Return all rows, the point of the start before them."""
         return Rows.joined([Rows.of(first), *(piece.rows for piece in self.pieces)])
 
+    def states(self, first: Point) -> list[np.ndarray]:
+        """Return the states of all rows, piece by piece."""
+        return [first.x[None], *(piece.rows.x for piece in self.pieces)]
+
     @property
     def energy(self) -> np.ndarray:
         """Integrals of the supplied and of the dissipated power up to the last row, in J."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.once import once
+from acausal.compiler.local import Local
+from acausal.compiler.once import latest, once
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
 from acausal.language.functions import initial as initial_flag
@@ -17,6 +17,7 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.complete import closed_guess, ranked
+from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.opponents import opponents
@@ -85,8 +86,9 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         if loops:
             system, at, redundancy = _ranked(problem, at, initial)
         else:
-            system = _system(problem, at, initial)
-            at = _direct_values(problem, system.direct, at)
+            local = problem.local(at, 1.0)
+            system = _system(problem, local, initial)
+            at = with_direct(problem, system.given, at, local)
         try:
             at = _solve(problem, system, at)
         except InitializationError:
@@ -115,7 +117,7 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
         As of `initialize`; in equilibrium derivatives take part as conditions.
     """
     if not problem.compiled.constraints.size and initial != "steady":
-        return _system(problem, at, initial)
+        return _system(problem, problem.local(at, 1.0), initial)
     first = {state: row for row, state in reversed(_giving(problem.compiled).items())}
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial)
 
@@ -181,22 +183,12 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     # The first condition on a state gives it, another one must agree.
     first = {state: row for row, state in reversed(_giving(compiled).items())}
     direct = {row: state for state, row in first.items()}
-    at = _direct_values(problem, tuple(direct.items()), at)
+    if direct:
+        at = with_direct(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
     if not compiled.constraints.size:
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
     return problem.completed(at), redundancy, direct
-
-
-def _direct_values(problem: Problem, direct: tuple[tuple[int, int], ...], at: Point) -> Point:
-    """Give states the values that conditions state for them."""
-    if not direct:
-        return at
-    local = problem.local(at, 1.0)
-    rows, states = np.array(direct).T + np.array([[problem.nx], [0]])
-    x = at.x.copy()
-    x[states] -= local.value[rows] / np.asarray(local.jacobian[rows, states]).ravel()
-    return replace(at, x=x)
 
 
 @once
@@ -210,11 +202,22 @@ def _curved(compiled: CompiledModel) -> list[bool]:
     return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)
 
 
-def _system(problem: Problem, at: Point, initial: str) -> InitialSystem:
-    """Choose conditions, from the pattern of the equations."""
-    compiled = problem.compiled
+def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
+    """Choose conditions, from the pattern of the equations, in each of which those unknowns come first that it depends on most.
+
+    A condition on a velocity then determines a velocity, although it also holds the orientation.
+    """
+    J = local.pattern
+    size = np.abs(np.nan_to_num(local.entries)) * np.repeat(problem.nominal, np.diff(J.indptr))
+    order = np.lexsort((-size, J.indices))
+    return _chosen(problem.compiled, initial, order.tobytes())
+
+
+@latest
+def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSystem:
+    """Choose conditions; `order` is that of the entries of the Jacobian, row by row."""
     nx, nz = compiled.nx, compiled.nz
-    rows = _rows(problem, at)
+    rows = _rows(compiled, np.frombuffer(order, dtype=np.intp))
     equations, conditions = rows[nx : nx + nz], rows[nx + nz :]
     given = len(conditions)
     done = complete(equations, conditions, nx + nz)
@@ -241,16 +244,12 @@ def _is_guessed(compiled: CompiledModel, state: int) -> bool:
     return index < len(guessed) and bool(guessed[index])
 
 
-def _rows(problem: Problem, at: Point) -> list[list[int]]:
-    """Unknowns of each equation, those first on which it depends most at the guesses.
-
-    A condition on a velocity then determines a velocity, although it also holds the orientation.
-    """
-    J: Any = problem.local(at, 1.0).jacobian.tocoo()
-    row, column = J.row, J.col
-    order = np.lexsort((-np.abs(np.nan_to_num(J.data)) * problem.nominal[column], row))
-    ends = np.searchsorted(row[order], np.arange(1, J.shape[0]))
-    return [part.tolist() for part in np.split(column[order], ends)][: J.shape[0]]
+def _rows(compiled: CompiledModel, order: np.ndarray) -> list[list[int]]:
+    """Unknowns of each equation, from the order of the entries of the Jacobian."""
+    J = compiled.pattern
+    columns = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))[order].tolist()
+    ends = np.cumsum(np.bincount(J.indices, minlength=J.shape[0])).tolist()
+    return [columns[first:last] for first, last in zip([0, *ends], ends, strict=False)]
 
 
 @once
@@ -278,7 +277,7 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
         at = found
     if system.surplus.size:
         local = problem.local(at, 1.0)
-        allowed = POLICY.newton.consistent * reach(local.jacobian, at.y, problem.nominal)[problem.nx :]
+        allowed = POLICY.newton.consistent * reach(local, at.y, problem.nominal)[problem.nx :]
         value = local.value[problem.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:

@@ -20,6 +20,9 @@ from acausal.solve.start.tangent import Elimination
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
 
+# Of each part, and of those of its rows that are given as bytes.
+Spaces = dict[tuple[Part, bytes], np.ndarray]
+
 
 def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bool = False) -> Constants:
     """Return the constants of a segment with a new choice of D at a consistent point.
@@ -75,7 +78,7 @@ def _stiffness(problem: Problem, at: Point) -> np.ndarray:
     rates, coordinates = left.own.rows, left.own.columns
     stiffness = np.zeros(problem.nx)
     with suppress(RuntimeError):  # singular: nothing is stiff
-        slopes = left.diagonal(problem.local(at).jacobian.data)
+        slopes = left.diagonal(problem.local(at).entries)
         stiffness[coordinates] = stiffness[rates] = np.abs(slopes)
     return stiffness
 
@@ -101,8 +104,9 @@ def _select(levels: list[Part], D: np.ndarray, on: np.ndarray) -> np.ndarray:
     if not rows.size:
         return selection
     (row_of, row), (column_of, column) = (np.unique(k, return_inverse=True) for k in (rows, columns))
-    # A weight of 0 would count as none.
-    weight = scipy.sparse.csr_matrix((1 - np.log(sizes), (row, column)))
+    # A weight of 0 would count as none; on a grid their sums are exact: the search may turn for ever where they round.
+    weights = np.ceil((1 - np.log(sizes)) / LOOPS.grid) * LOOPS.grid
+    weight = scipy.sparse.csr_matrix((weights, (row, column)))
     pairs = scipy.sparse.csgraph.min_weight_full_bipartite_matching(weight)
     follows[row_of[pairs[0]]] = column_of[pairs[1]]
     for part in levels:
@@ -133,16 +137,20 @@ def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: 
 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
+    known: Spaces = {}
     for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
         weights = 1 / (1 + stiffness / (10.0**decade * feedback**2))
-        if _transversality(levels, J[None], J * weights)[0] >= LOOPS.spared:
+        if _transversality(levels, J[None], J * weights, known)[0] >= LOOPS.spared:
             return weights
     return np.ones(len(stiffness))
 
 
-def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray) -> np.ndarray:
-    """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular."""
-    least = np.ones(len(J))
+def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray, known: Spaces | None = None) -> np.ndarray:
+    """Cosine of the largest angle between the row spaces of J, shape (n, entries), and D: 1 is best, 0 is singular.
+
+    `known` keeps the row spaces of J for the next D.
+    """
+    least, known = np.ones(len(J)), {} if known is None else known
     for part in levels:
         chosen = part.dense(D)
         on = np.linalg.norm(chosen, axis=1) > 0
@@ -152,11 +160,18 @@ def _transversality(levels: list[Part], J: np.ndarray, D: np.ndarray) -> np.ndar
             to = part.sparse(D)[on]
             found = np.array([1 / _oblique(part.sparse(row)[on], to) for row in J])
         else:
-            bases = (np.linalg.qr(np.swapaxes(A[..., on, :], -1, -2))[0] for A in (part.dense(J), chosen))
-            held_by, follows = bases
-            found = np.linalg.svd(np.swapaxes(held_by, -1, -2) @ follows, compute_uv=False)[..., -1]
+            if (part, rows := on.tobytes()) not in known:
+                known[part, rows] = _basis(part.dense(J)[..., on, :])
+            found = np.linalg.svd(np.swapaxes(known[part, rows], -1, -2) @ _basis(chosen[on]), compute_uv=False)[
+                ..., -1
+            ]
         least = np.fmin(least, found)
     return least
+
+
+def _basis(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal columns that span the same as some rows."""
+    return np.linalg.qr(np.swapaxes(rows, -1, -2))[0]
 
 
 def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:

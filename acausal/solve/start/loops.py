@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -22,6 +23,7 @@ LOOPS = POLICY.loops
 Residuals = Callable[[np.ndarray], "tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]"]
 
 
+@once
 def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
     """Residuals and states of each level of the constraints, positions first."""
     c = compiled.constraints

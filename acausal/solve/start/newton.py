@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
 
+from acausal.compiler import CompiledModel
+from acausal.compiler.local import Local
+from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
-from acausal.solve.points import Point
-from acausal.solve.problem import Problem, by_columns
+from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
+from acausal.solve.start.parts import Part, part_of
 from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text, worst_lines
 
@@ -47,6 +52,19 @@ class InitialSystem:
     surplus: np.ndarray
     known: np.ndarray
     direct: tuple[tuple[int, int], ...] = ()
+    _blocks: list[Part] = field(default_factory=list, repr=False)
+
+    @cached_property
+    def given(self) -> np.ndarray:
+        """The rows of `direct`, and their states, shape (2, n)."""
+        return np.array(self.direct, dtype=int).reshape(-1, 2).T
+
+    def block(self, J: scipy.sparse.csc_matrix, first: int) -> Part:
+        """Its part of the Jacobian of a model, the first `first` of whose rows are derivatives of states."""
+        if not self._blocks:
+            free = np.setdiff1d(np.arange(J.shape[1]), self.known)
+            self._blocks.append(part_of(J, first + self.rows, free))
+        return self._blocks[0]
 
 
 def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
@@ -67,12 +85,12 @@ def follow(problem: Problem, system: InitialSystem, at: Point) -> Point | None:
 
 def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offset: np.ndarray | float = 0.0) -> Point:
     """Damped Newton iteration with the natural monotonicity test (Deuflhard 2004, section 3.3)."""
-    nx, rows, y = problem.nx, system.rows + problem.nx, at.y
-    free = np.setdiff1d(np.arange(len(y)), system.known)
+    nx, y = problem.nx, at.y
+    part = system.block(problem.compiled.pattern, nx)
+    rows, free = part.rows, part.columns
     if not free.size:
         return at
     scale = problem.nominal[free]
-    plain = _is_range(rows) and _is_range(free)
 
     def residual(y: np.ndarray) -> np.ndarray:
         return problem.values(at.with_y(y), flag)[rows] - offset
@@ -85,11 +103,10 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     if not np.all(np.isfinite(value)):
         raise lost(value)
     for _ in range(NEWTON.iterations):
-        J = problem.local(at.with_y(y), flag).jacobian
-        block = J[rows[0] : rows[-1] + 1, free[0] : free[-1] + 1] if plain else J[rows][:, free]
+        local = problem.local(at.with_y(y), flag)
         # Where the block is singular, the step of least norm, if there is one, leads on.
         order = "NATURAL" if free[0] == nx else "COLAMD"
-        solve = factored(block, scale, POLICY.ranks.least_norm, order)
+        solve = factored(part.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
         found = _damped(residual, solve, y, free, scale, -solve(value))
         if found is None:
             break
@@ -97,12 +114,11 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
         if change <= NEWTON.converged:
             y[free] -= simplified if change > NEWTON.rounding else 0.0
-            if np.any(np.abs(value) > NEWTON.consistent * reach(J, y, problem.nominal)[rows]):
+            if np.any(np.abs(value) > NEWTON.consistent * reach(local, y, problem.nominal)[rows]):
                 break
             return at.with_y(y)
     here = residual(y)
-    J = problem.local(at.with_y(y), flag).jacobian
-    if np.all(np.abs(here) <= rounding(J, y, problem.nominal)[rows]):
+    if np.all(np.abs(here) <= rounding(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
         return at.with_y(y)
     raise lost(here)
 
@@ -128,31 +144,53 @@ def _damped(
 
 def algebraic(problem: Problem, at: Point) -> Point:
     """Solve for the algebraic unknowns, with the states as they are."""
-    system = InitialSystem(np.arange(problem.nz), np.empty(0, int), np.arange(problem.nx))
-    return newton(problem, system, at, 0.0)
+    try:
+        return newton(problem, _algebraic(problem.compiled), at, 0.0)
+    except Lost:
+        found = _by_parts(problem, at)
+        if found is None:
+            raise
+        return found
 
 
-def rounding(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def _by_parts(problem: Problem, at: Point) -> Point | None:
+    """Solve for them part after part; None where that does not solve the equations.
+
+    At a distance d from a flat position constraints of coordinates and of rates are singular but for d, forces but for d^2,
+    each of them alone. In one matrix that is d^4, which is less than rounding.
+    """
+    for step in problem.compiled.passes(tuple(range(problem.nz))):
+        for _ in range(1 if step.linear else NEWTON.iterations):
+            z, own = at.z.copy(), step.unknowns
+            z[own] = problem.each(step.function, Rows.of(at))[0]
+            change = np.abs(z - at.z)[own] / (problem.nominal[problem.nx + own] + np.abs(z[own]))
+            at = replace(at, z=z)
+            if not np.max(change) > NEWTON.converged:
+                break
+    own = slice(problem.nx, problem.nx + problem.nz)
+    solved = np.abs(problem.values(at)[own]) <= rounding(problem.local(at), at.y, problem.nominal)[own]
+    return at if np.all(solved) else None
+
+
+@once
+def _algebraic(compiled: CompiledModel) -> InitialSystem:
+    return InitialSystem(np.arange(compiled.nz), np.empty(0, int), np.arange(compiled.nx))
+
+
+def rounding(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return what residuals may be by rounding; stiff parts make unknowns follow it."""
-    return NEWTON.terms * np.finfo(float).eps * reach(J, y, nominal)
+    return NEWTON.terms * np.finfo(float).eps * reach(local, y, nominal)
 
 
-def reach(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def reach(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the change in each row by unknowns of their present and nominal sizes together."""
-    return abs(J) @ (np.abs(y) + nominal)
+    return local.magnitudes(np.abs(y) + nominal)
 
 
-def terms(J: scipy.sparse.csc_matrix, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
+def terms(local: Local, y: np.ndarray, nominal: np.ndarray) -> np.ndarray:
     """Return the size of the terms of each row, and at least that of its smallest one at nominal values."""
-    size = by_columns(abs(J), nominal)
-    rows = size.indices[size.data != 0]
+    size, J = local.terms(nominal), local.pattern
     least = np.full(J.shape[0], np.inf)
-    np.minimum.at(least, rows, size.data[size.data != 0])
-    found = abs(J) @ np.abs(y)
-    own = np.unique(rows)
-    found[own] += least[own]
-    return found
-
-
-def _is_range(indices: np.ndarray) -> bool:
-    return bool(np.all(np.diff(indices) == 1))
+    np.minimum.at(least, J.indices, np.where(size != 0, size, np.inf))
+    # Rows of zeros have no smallest term.
+    return local.magnitudes(np.abs(y)) + np.where(least == np.inf, 0.0, least)

@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import close
-from acausal.solve.start.parts import Part, parts_of
+from acausal.solve.start.parts import Part, part_of, parts, parts_of
 from acausal.solve.start.rank import is_regular, null_space, pivots, rank, scaled
 
 RANKS = POLICY.ranks
@@ -31,18 +32,18 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    lowest = problem.compiled.constraints.lowest
-    J = problem.gradients(at)[lowest].tocsc()
-    doubtful = [part for part in parts_of(J) if not is_regular(part.sparse(J.data), RANKS.nearly)]
+    lowest, apart = _lowest(problem.compiled)
+    entries = problem.gradients(at).data[lowest.entries]
+    doubtful = [part for part in apart if not is_regular(part.sparse(entries), RANKS.nearly)]
     if not doubtful:
         return Redundancy()
-    here = [scaled(part.dense(J.data)) for part in doubtful]
+    here = [scaled(part.dense(entries)) for part in doubtful]
     best, singular = list(here), False
     for seed in range(RANKS.motions):
         moved = _moved(problem, at, doubtful, here, seed)
         if moved is None:
             continue
-        entries = problem.gradients(moved)[lowest].tocsc().data
+        entries = problem.gradients(moved).data[lowest.entries]
         for k, part in enumerate(doubtful):
             there = scaled(part.dense(entries))
             if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
@@ -50,6 +51,14 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     weight = _weight(problem.compiled)
     dropped = [row for part, rows in zip(doubtful, best, strict=True) for row in _surplus(part, rows, weight)]
     return Redundancy(tuple(sorted(dropped)), singular)
+
+
+@once
+def _lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
+    """Constraints at their lowest levels, and the parts of these that share no coordinates."""
+    c = compiled.constraints
+    found = part_of(c.pattern, c.lowest, np.arange(compiled.nx))
+    return found, parts(found.places[0], found.places[1], (len(c.lowest), compiled.nx))
 
 
 def _weight(compiled: CompiledModel) -> np.ndarray:

@@ -10,7 +10,8 @@ import pytest
 
 from acausal.compiler.call import Call
 from acausal.compiler.once import latest, once
-from acausal.compiler.rowwise import AT_ONCE, Rowwise
+from acausal.compiler.rowwise import AT_ONCE, PAYS, Rowwise
+from acausal.core import library
 
 X = ca.SX.sym("x", 2)
 
@@ -76,3 +77,13 @@ def test_the_latest_of_each_model():
     a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
     assert [twice(m, k) for m, k in ((a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1))] == [2, 2, 2, 2, 4, 2]
     assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 1)]
+
+
+def test_places_have_the_same_values_once_a_tape_pays():
+    x, p = ca.SX.sym("x", 2), ca.SX.sym("p")
+    rowwise = Rowwise(ca.Function("f", [x, p], [ca.vertcat(ca.sin(x[0]) * p, x[1] / p)]))
+    xs, p0 = np.random.default_rng(0).standard_normal((PAYS // 2, 2)), np.array([0.7])
+    first, second, third = (rowwise(xs, p0) for _ in range(3))
+    np.testing.assert_array_equal(second, first)
+    np.testing.assert_array_equal(third, first)
+    assert (rowwise._tape is not None) == bool(library())

@@ -212,6 +212,20 @@ def test_steps_are_kept():
     assert times[-1] == TIMES[-1]
 
 
+def test_it_goes_on_from_other_values():
+    e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
+    rodas = Rodas(e)
+    found = rodas.begin(TIMES, *given, size=np.ones(2), tolerance=1e-9, room=8)
+    rodas.go(8)
+    time, x, _ = rodas.last
+    rodas.move(np.array([x[0], 2 * x[1]]), np.array([2 * x[0] * x[1] + time**2]))
+    assert rodas.go(1_000_000) == End.DONE
+    # The second equation decays linearly: what is added to it decays as exp(-t).
+    later = TIMES[1:] > time
+    expected = solution(TIMES[1:])[:, 1] + np.where(later, x[1] * np.exp(time - TIMES[1:]), 0)
+    np.testing.assert_allclose(found.x[:, 1], expected, atol=1e-7)
+
+
 def oscillator(**options) -> Found:
     """A mass at 1 m/s on a spring of 1e6 rad/s, over 100 s in steps of any length."""
     e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)

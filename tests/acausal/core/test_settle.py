@@ -36,7 +36,7 @@ def test_unknowns_are_those_of_the_equations() -> None:
     np.testing.assert_allclose(again, found, atol=1e-15)
     assert solve.evaluations == first + n
     far, settled = solve(p + 1, c, x, z, size=np.ones(2), enough=1e-7)
-    assert 0 < np.sum(settled) < n
+    assert np.any(settled)
     np.testing.assert_allclose(far[settled], known(p + 1, c, x)[settled], atol=1e-13)
 
 

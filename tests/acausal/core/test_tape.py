@@ -8,6 +8,7 @@ import pytest
 
 from acausal.compiler.call import Call
 from acausal.core import make_tape
+from acausal.instructions import READABLE
 from models import SCENES
 from tests.acausal.core.models import jacobian, points
 from tests.shared import compiled
@@ -70,3 +71,12 @@ def test_nothing_and_constants():
         make_tape(ca.Function("f", [x], [x])).rows(np.zeros(3))
     with pytest.raises(ValueError, match="shapes"):
         make_tape(ca.Function("f", [x, ca.SX.sym("y", 2)], [x])).rows(np.zeros((3, 2)), np.zeros((4, 2)))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_function_made_to_be_read_gives_the_same_tape(name):
+    model = compiled(SCENES[name])
+    arguments, column = model.arguments[:-1], ca.densify(model.reduced.running.ode)
+    one, other = (make_tape(ca.Function("f", arguments, [column], options)) for options in ({}, READABLE))
+    for mine, others in zip(one.arrays, other.arrays, strict=True):
+        np.testing.assert_array_equal(mine, others)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 import numpy as np
@@ -10,11 +13,8 @@ from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
-import acausal as ac
 from acausal import Model, Scalar, der, discrete, input, output, parameter, piecewise, reinit, time, variable, when
 from acausal.export import export_fmu
-from components import Body, Prismatic, Revolute, World
-from components.rotational import Friction, Inertia, Torque
 
 
 class Ball(Model):
@@ -68,3 +68,28 @@ def simulated(path: Path, kind: str, stop: float, intervals: int = 40, **options
     return simulate_fmu(
         str(path), fmi_type=kind, stop_time=stop, output_interval=stop / intervals, record_events=False, **given
     )
+
+
+@contextmanager
+def opened(path: Path, kind: str) -> Iterator[tuple[Any, Any]]:
+    """An instance of an FMU, and the description."""
+    description, folder = read_model_description(str(path)), extract(str(path))
+    classes = {
+        ("2.0", "CoSimulation"): FMU2Slave,
+        ("2.0", "ModelExchange"): FMU2Model,
+        ("3.0", "CoSimulation"): FMU3Slave,
+        ("3.0", "ModelExchange"): FMU3Model,
+    }
+    about = description.coSimulation if kind == "CoSimulation" else description.modelExchange
+    fmu = classes[description.fmiVersion, kind](
+        guid=description.guid, unzipDirectory=folder, modelIdentifier=about.modelIdentifier, instanceName="one"
+    )
+    try:
+        fmu.instantiate()
+        if description.fmiVersion == "2.0":
+            fmu.setupExperiment(startTime=0.0)
+        yield fmu, description
+    finally:
+        fmu.terminate()
+        fmu.freeInstance()
+        rmtree(folder, ignore_errors=True)

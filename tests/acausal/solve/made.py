@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import scipy
 
-from acausal.compiler.compiled_model import Local
+from acausal.compiler.local import Local
 from acausal.solve.points import Point
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -37,6 +37,7 @@ class Made:
             constraints=SimpleNamespace(size=0),
             states=[f"x{k}" for k in range(nx)],
             kept={},
+            pattern=scipy.sparse.csc_matrix(np.ones((n, n))),
         )
 
     def values(self, at: Point, flag: float = 0.0) -> np.ndarray:
@@ -44,7 +45,9 @@ class Made:
 
     def local(self, at: Point, flag: float = 0.0) -> Local:
         self.seen.append(at.y)
-        return Local(self.values(at), scipy.sparse.csc_matrix(self.jacobian(at.y), dtype=float))
+        J = self.compiled.pattern
+        columns = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
+        return Local(self.values(at), np.asarray(self.jacobian(at.y), dtype=float)[J.indices, columns], J)
 
     def at(self, *y: float) -> Point:
         """Return a point."""

@@ -11,6 +11,8 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, Rescues, Way,
 QUICK = Way("idas", moves=False, tolerance=1e-6, max_steps=100)
 AUTO = Rescues(("idas", "rosenbrock"), projects=True, loops=True, damps=True, tolerance=1e-6)
 FREE = replace(AUTO, loops=False)
+FIRST = replace(QUICK, method="following", moves=True)
+THREE = replace(AUTO, methods=("following", "idas", "rosenbrock"))
 
 
 @pytest.mark.parametrize(
@@ -24,6 +26,10 @@ FREE = replace(AUTO, loops=False)
         (QUICK, Kind.STEPS, AUTO, "rosenbrock", False),
         (QUICK, Kind.STEPS, FREE, "rosenbrock", False),
         (QUICK, Kind.CORRECTOR, replace(AUTO, projects=False), "rosenbrock", False),
+        (FIRST, Kind.FLAT, THREE, "idas", False),
+        (FIRST, Kind.STEPS, THREE, "rosenbrock", True),
+        (FIRST, Kind.STEPS, replace(THREE, damps=False), "idas", False),
+        (FIRST, Kind.STEPS, replace(THREE, damps=False, projects=False), "idas", True),
     ],
 )
 def test_what_follows_a_quick_way(way, kind, rescues, method, moves):
@@ -40,6 +46,7 @@ def test_what_follows_a_quick_way(way, kind, rescues, method, moves):
         (replace(QUICK, method="rosenbrock"), Kind.STEPS, AUTO),
         (replace(QUICK, method="rosenbrock"), Kind.CORRECTOR, FREE),
         (QUICK, Kind.WORN, replace(AUTO, projects=False)),
+        (FIRST, Kind.STEPS, replace(THREE, damps=False, loops=False)),
     ],
 )
 def test_where_nothing_follows_a_quick_way(way, kind, rescues):

@@ -9,7 +9,9 @@ import acausal as ac
 from acausal import Model, Scalar, der, fixed, output, variable
 from acausal.core import library
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
-from models import NFourBar
+from components.rotational import Damper
+from models import FourBar, NFourBar
+from tests.reference import four_bar
 
 CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
@@ -64,6 +66,21 @@ def test_flat_positions_are_left_to_idas():
     assert stats.method == "rosenbrock and idas"
     assert stats.method_steps["idas"] > 0
     assert "constraints are not independent" in stats.method_reason
+
+
+class Undamped(FourBar):
+    """The four-bar without its damper: it swings for ever."""
+
+    damper = Damper(d=0)
+
+
+@CORE
+def test_errors_that_lead_off_the_constraints_do_not_add_up():
+    result = ac.simulate(Undamped(), stop_time=100.0, tolerance=1e-6, intervals=200)
+    reference = four_bar.FourBar(damping=0.0)
+    energy = np.array([reference.energy(*pair) for pair in zip(result["j1_phi"], result["j1_w"], strict=True)])
+    exchanged = abs(max(reference.energy(phi, 0.0) for phi in np.linspace(0, 2 * np.pi, 100)) - energy[0])
+    assert np.abs(energy - energy[0]).max() < 1e-4 * exchanged
 
 
 class Fast(Spring):

@@ -1,0 +1,36 @@
+"""Value and Jacobian of a compiled model at one point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy
+
+
+@dataclass(frozen=True, eq=False)
+class Local:
+    """Value and Jacobian of the model at one point.
+
+    `ode`, `alg` and `conditions` are stacked in `value`; `entries` are those of their derivatives by (x, z), where `pattern`
+    has them. A matrix is made where one is needed: that takes as long as evaluating them.
+    """
+
+    value: np.ndarray
+    entries: np.ndarray
+    pattern: scipy.sparse.csc_matrix
+
+    @cached_property
+    def jacobian(self) -> scipy.sparse.csc_matrix:
+        """The derivatives as a matrix."""
+        J = self.pattern
+        return scipy.sparse.csc_matrix((self.entries, J.indices, J.indptr), shape=J.shape)
+
+    def terms(self, sizes: np.ndarray) -> np.ndarray:
+        """Return the sizes of the terms of the derivatives, in the order of `entries`, for unknowns of some sizes."""
+        return np.abs(self.entries) * np.repeat(sizes, np.diff(self.pattern.indptr))
+
+    def magnitudes(self, sizes: np.ndarray) -> np.ndarray:
+        """Return the sum of the sizes of the terms in each row, for unknowns of some sizes."""
+        return np.bincount(self.pattern.indices, self.terms(sizes), minlength=self.pattern.shape[0])

@@ -1,0 +1,234 @@
+"""Exported models against simulations by acausal, with fmpy as importer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("fmpy")
+
+from fmpy.validation import validate_fmu
+
+import acausal as ac
+import models
+from tests.acausal.export.hybrid import Ball, Hybrid, exported, opened, simulated
+
+# Stop times within which a converged run is quick.
+SCENES: dict[str, tuple[Any, float]] = {
+    "free-vibration": (models.FreeVibration(), 0.1),
+    "pendulum": (models.FlexiblePendulum(), 0.1),
+    "spin-up": (models.SpinUp(), 20.0),
+    "slider-crank": (models.SliderCrank(crank="rigid", rod="rigid"), 1.0),
+    "simple-pendulum": (models.SimplePendulum(), 5.0),
+    "squeezer": (models.Squeezer(), 0.02),
+    "bricard": (models.Bricard(), 5.0),
+    "governor": (models.Governor(), 3.0),
+    "car-axis": (models.CarAxis(), 1.0),
+    "four-bar": (models.FourBar(), 3.0),
+    "four-bar-spatial": (models.FourBarSpatial(), 2.0),
+    "ball": (Ball(), 1.9),
+    "hybrid": (Hybrid(wanted=0.4), 2.0),
+}
+SOLVED_BY_CVODE = ("simple-pendulum", "slider-crank", "squeezer", "bricard", "governor", "four-bar", "ball", "hybrid")
+
+
+def columns(result: ac.Result) -> dict[str, np.ndarray]:
+    """Outputs of a run, entry by entry, as importers name them."""
+    found = {}
+    for name in result.outputs:
+        value = result[name]
+        for index in np.ndindex(value.shape[1:]):
+            key = f"{name}[{','.join(map(str, index))}]" if index else name
+            found[key] = value[(slice(None), *index)]
+    return found
+
+
+def error(found: Any, exact: dict[str, np.ndarray]) -> float:
+    """Largest error of any output, over its range."""
+    return max(float(np.max(np.abs(found[k] - v)) / (np.ptp(v) or 1.0)) for k, v in exact.items())
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("scene", SCENES)
+def test_co_simulation_is_as_exact_as_simulate(scene: str, version: int, tmp_path: Path) -> None:
+    model, stop = SCENES[scene]
+    compiled = ac.compile(model)
+    path = exported(compiled, tmp_path / "a.fmu", version)
+    assert validate_fmu(str(path)) == []
+    given = {"stop_time": stop, "intervals": 40}
+    exact = columns(ac.simulate(compiled, tolerance=1e-10 if stop > 0.1 else 1e-8, method="idas", **given))
+    own = error(columns(ac.simulate(compiled, tolerance=1e-5, **given)), exact)
+    found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-5)
+    assert len(found) == 41
+    assert error(found, exact) <= 2 * own + 1e-8
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("scene", SOLVED_BY_CVODE)
+def test_model_exchange(scene: str, version: int, tmp_path: Path) -> None:
+    model, stop = SCENES[scene]
+    compiled = ac.compile(model)
+    path = exported(compiled, tmp_path / "a.fmu", version)
+    exact = columns(ac.simulate(compiled, tolerance=1e-9, method="idas", stop_time=stop, intervals=40))
+    loose, tight = (error(simulated(path, "ModelExchange", stop, relative_tolerance=t), exact) for t in (1e-4, 1e-7))
+    assert tight < 1e-4
+    assert tight < loose or loose < 1e-6
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_a_beam_with_damping_suits_importers(kind: str, tmp_path: Path) -> None:
+    compiled = ac.compile(models.FlexiblePendulum(), parameters={"beam.beta": 1e-3})
+    path = exported(compiled, tmp_path / "a.fmu", 3)
+    exact = columns(ac.simulate(compiled, tolerance=1e-8, method="idas", stop_time=0.5, intervals=40))
+    assert error(simulated(path, kind, 0.5, relative_tolerance=1e-6), exact) < 1e-3
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+@pytest.mark.parametrize(
+    ("scene", "changes"),
+    [
+        ("four-bar", {"b1.r[0]": 0.45, "b3.r[0]": -0.3, "damper.d": 0.2, "b2.density": 9000.0}),
+        ("squeezer", {"K2.r[0]": -0.0285, "K1.m": 0.1, "spring.c": 3000.0}),
+        ("governor", {"rod1.r[0]": 1.05, "ball1.m": 6.0}),
+        ("hybrid", {"tau": 0.2, "late": 1.1, "wanted": 0.3, "step": 0.2}),
+    ],
+)
+def test_a_changed_parameter_equals_a_run_with_that_value(
+    scene: str, changes: dict[str, float], kind: str, tmp_path: Path
+) -> None:
+    model, stop = SCENES[scene]
+    compiled = ac.compile(model)
+    path = exported(compiled, tmp_path / "a.fmu", 2 if kind == "CoSimulation" else 3)
+    given = {"stop_time": stop, "intervals": 40, "parameters": changes, "method": "idas"}
+    exact = columns(ac.simulate(compiled, tolerance=1e-9, **given))
+    found = simulated(path, kind, stop, relative_tolerance=1e-8, start_values=changes)
+    assert error(found, exact) < 2e-5
+
+
+def test_start_values_of_states_can_be_set(tmp_path: Path) -> None:
+    path = exported(ac.compile(Ball()), tmp_path / "a.fmu", 3)
+    found = simulated(path, "CoSimulation", 0.5, start_values={"h": 3.0, "v": 1.0})
+    t = found["time"]
+    np.testing.assert_allclose(found["height"], 3 + t - 9.81 * t**2 / 2, atol=1e-9)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_inputs_that_vary(kind: str, version: int, tmp_path: Path) -> None:
+    """A filter without its load: tau x' + x = u + 2 held, of which the second part is a known staircase."""
+    path = exported(
+        ac.compile(Hybrid(), parameters={"wanted": 0.5, "late": 9.0, "step": 8.0}), tmp_path / "a.fmu", version
+    )
+    t = np.linspace(0, 2, 2001)
+    signal = np.array(list(zip(t, 0.5 + 0.4 * np.sin(3 * t), strict=True)), dtype=[("time", float), ("wanted", float)])
+    found = simulated(path, kind, 2.0, 400, input=signal)
+
+    def slope(time: float, x: float, held: float) -> float:
+        return (2 * held + 0.5 + 0.4 * np.sin(3 * time) - x) / 0.3
+
+    x, held, h, exact = 0.2, 0.0, 2.0 / 4000, [0.2]
+    for k in range(4000):
+        time = k * h
+        if time >= 0.05 and not held:
+            held = 0.5 + 0.4 * np.sin(0.15) - x
+        a = slope(time, x, held)
+        b = slope(time + h / 2, x + h * a / 2, held)
+        x += h * slope(time + h / 2, x + h * b / 2, held)
+        exact.append(x)
+    # Importers hold an input, which changes by 1.2/s at most, between communication points; the value that is held counts twice.
+    np.testing.assert_allclose(found["y"], np.clip(exact[::10], -0.3, 0.9), atol=3 * 1.2 * 2.0 / 400)
+
+
+@contextmanager
+def started(path: Path, kind: str) -> Iterator[Any]:
+    """An FMU that has been initialised."""
+    with opened(path, kind) as (fmu, description):
+        fmu.enterInitializationMode(**({"startTime": 0.0} if description.fmiVersion == "3.0" else {}))
+        fmu.exitInitializationMode()
+        yield fmu, description
+
+
+def references(description: Any, *names: str) -> list[int]:
+    by_name = {v.name: v.valueReference for v in description.modelVariables}
+    return [by_name[name] for name in names]
+
+
+@pytest.mark.parametrize("scene", ["four-bar", "squeezer", "spin-up", "hybrid", "governor"])
+def test_derivatives_are_those_of_differences(scene: str, tmp_path: Path) -> None:
+    path = exported(ac.compile(SCENES[scene][0]), tmp_path / "a.fmu", 3)
+    with started(path, "ModelExchange") as (fmu, description):
+        fmu.updateDiscreteStates()
+        fmu.enterContinuousTimeMode()
+        n = len(description.derivatives)
+        rates = [d.variable.valueReference for d in description.derivatives]
+        outputs = [o.variable.valueReference for o in description.outputs]
+        states = [d.variable.derivative.valueReference for d in description.derivatives]
+        x = np.array(fmu.getFloat64(states))
+        rng = np.random.default_rng(0)
+        x += 1e-3 * rng.standard_normal(n)
+        seed = rng.standard_normal(n)
+
+        def values(at: np.ndarray) -> np.ndarray:
+            fmu.setContinuousStates((np.ctypeslib.as_ctypes(np.ascontiguousarray(at))), n)
+            return np.array(fmu.getFloat64(rates + outputs))
+
+        def differences(step: float) -> np.ndarray:
+            return (values(x + step * seed) - values(x - step * seed)) / (2 * step)
+
+        size = np.abs(values(x)) + 1
+        expected = (4 * differences(1e-5) - differences(2e-5)) / 3
+        values(x)
+        forward = np.array(fmu.getDirectionalDerivative(rates + outputs, states, seed.tolist()))
+        np.testing.assert_allclose(
+            forward / size, expected / size, rtol=1e-5, atol=1e-5 * np.max(np.abs(expected / size))
+        )
+        weights = rng.standard_normal(len(forward))
+        backward = np.array(fmu.getAdjointDerivative(rates + outputs, states, weights.tolist(), n))
+        assert weights @ forward == pytest.approx(backward @ seed, rel=1e-9)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("scene", ["four-bar", "spin-up", "hybrid", "ball"])
+def test_stored_states_go_on_bit_by_bit(scene: str, version: int, tmp_path: Path) -> None:
+    model, stop = SCENES[scene]
+    path = exported(ac.compile(model), tmp_path / "a.fmu", version)
+    h = stop / 30
+
+    def step(fmu: Any, k: int, outputs: list[int]) -> list[float]:
+        fmu.doStep(currentCommunicationPoint=k * h, communicationStepSize=h)
+        return list((fmu.getReal if version == 2 else fmu.getFloat64)(outputs))
+
+    with started(path, "CoSimulation") as (one, description), started(path, "CoSimulation") as (other, _):
+        outputs = [o.variable.valueReference for o in description.outputs]
+        first = [step(one, k, outputs) for k in range(10)]
+        get, put, free = (f"{w}FMU{'S' if version == 3 else 's'}tate" for w in ("get", "set", "free"))
+        state = getattr(one, get)()
+        serialise = "serializeFMUState" if version == 3 else "serializeFMUstate"
+        content = getattr(one, serialise)(state)
+        rest = [step(one, k, outputs) for k in range(10, 30)]
+        getattr(one, put)(state)
+        assert [step(one, k, outputs) for k in range(10, 30)] == rest
+        getattr(one, free)(state)
+        # Another instance goes on from the bytes, while it did something else before.
+        step(other, 0, outputs)
+        foreign = getattr(
+            other, serialise.replace("serialize", "deSerialize") if version == 2 else "deserializeFMUState"
+        )(content)
+        getattr(other, put)(foreign)
+        assert [step(other, k, outputs) for k in range(10, 30)] == rest
+        assert len(first) == 10
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
+    path = exported(ac.compile(models.NFourBar()), tmp_path / "a.fmu", version)
+    for kind in ("CoSimulation", "ModelExchange"):
+        with pytest.raises(Exception, match=r"[Ee]rror"):
+            simulated(path, kind, 10.0, 400)
+        before = simulated(path, kind, 0.7, 28)
+        assert before["b0_y"][-1] < 0.15
