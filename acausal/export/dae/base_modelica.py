@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 import casadi as ca
@@ -20,7 +21,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.start import start
 from acausal.symbols import dense, scalars, stacked
 
-CHOSEN = "// Values that acausal chooses at the start of a run, here for projection along the constraints."
+CHOSEN = "// What acausal chooses when it starts a run, here for projection along the constraints, and feedback for a run of 1 s."
 
 
 class _Text:
@@ -67,10 +68,12 @@ class _Text:
         units = {name: unit for name, unit in zip(own.names, own.units, strict=True) if unit is not None}
         for text, name, value in zip(self.parameters, r.flat.parameters.names, self.p.tolist(), strict=True):
             yield f"parameter Real {text} = {number(value)}{self._comment(name)};"
-        if self.chosen:
-            yield CHOSEN
-        for text, value in zip(self.chosen, self._choice(), strict=True):
-            yield f"parameter Real {text} = {number(value)};"
+        inside = {s.element_hash() for s in ca.symvar(ca.vertcat(r.ode, r.alg, compiled.conditions))}
+        chosen = scalars(r.constants)[len(self.switches) + len(self.discretes) :]
+        values = zip(chosen, self.chosen, self._choice(), strict=True)
+        lines = [f"parameter Real {text} = {number(v)};" for s, text, v in values if s.element_hash() in inside]
+        yield from [CHOSEN][: len(lines)]
+        yield from lines
         at = compiled.start(self.p, 0.0)[0].tolist()
         entries = zip(self.unknowns, (*compiled.states, *compiled.algebraic), at, strict=True)
         for text, name, value in entries:
@@ -81,7 +84,7 @@ class _Text:
         yield from (f"discrete Real {text};" for text in self.discretes)
 
     def _comment(self, name: str) -> str:
-        said = self.described.get(name.partition("[")[0] if name not in self.described else name, "")
+        said = self.described.get(re.sub(r"\[[\d,]+\]$", "", name), "")
         said = said.replace("\\", "\\\\").replace('"', '\\"')
         return f' "{said}"' if said else ""
 

@@ -111,6 +111,7 @@ def agrees(pymoca, compiled, t):
     p = {f"'{name}'": value for name, value in zip(r.flat.parameters.names, values, strict=True)}
     names = [f"'${s.name()}'" for s in ca.vertsplit(r.constants[layout.switches + layout.discretes :])]
     p |= dict(zip(names, chosen[layout.switches + layout.discretes :], strict=True))
+    p = {name: value for name, value in p.items() if name[1] != "$" or name in others}
     assert set(p) == others
     quoted = re.findall(r"^    Real ('[^'$]*')\(.*start = ", text, re.MULTILINE)
     more, residuals = solved(model, text, {**dict(zip(quoted, at, strict=True)), **p}, t)
