@@ -16,28 +16,40 @@ from acausal.symbols import scalars, stacked
 
 # Nested deeper, or longer, an expression is given a name: parsers descend a level of calls for each bracket.
 DEEP, LONG = 12, 400
-SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sinh", "cosh", "tanh")
+_SAME = ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "sqrt")
+_ARCS = ("sin", "cos", "tan")
 FORMS = {
     **{
         "add": "({} + {})",
-        "sub": "({} - {})",
-        "mul": "({} * {})",
-        "div": "({} / {})",
-        "neg": "(-{})",
-        "square": "({} ^ 2)",
+        "subtract": "({} - {})",
+        "multiply": "({} * {})",
+        "divide": "({} / {})",
+        "negative": "(-{})",
     },
-    **{"twice": "(2.0 * {})", "inverse": "(1.0 / {})", "pow": "({} ^ {})", "atan2": "atan2({}, {})"},
-    **{name: name + "({})" for name in SAME},
-    **{"sqrt": "sqrt({})", "abs": "noEvent(abs({}))", "sign": "noEvent(sign({}))", "assign": "{}"},
-    **{"floor": "noEvent(floor({}))", "ceil": "noEvent(ceil({}))"},
-    **{"fmin": "noEvent(min({}, {}))", "fmax": "noEvent(max({}, {}))", "hypot": "sqrt({} ^ 2 + {} ^ 2)"},
-    **{"log1p": "log(1.0 + {})", "expm1": "(exp({}) - 1.0)"},
-    **{"lt": "noEvent(if {} < {} then 1.0 else 0.0)", "le": "noEvent(if {} <= {} then 1.0 else 0.0)"},
-    **{"eq": "noEvent(if abs({} - {}) > 0.0 then 0.0 else 1.0)", "fmod": "noEvent(rem({}, {}))"},
-    **{"ne": "noEvent(if abs({} - {}) > 0.0 then 1.0 else 0.0)"},
-    **{"not": "noEvent(if abs({}) > 0.0 then 0.0 else 1.0)", "and": "noEvent(if abs({} * {}) > 0.0 then 1.0 else 0.0)"},
-    **{"or": "noEvent(if abs({}) + abs({}) > 0.0 then 1.0 else 0.0)"},
-    **{"if_else_zero": "noEvent(if abs({}) > 0.0 then {} else 0.0)"},
+    **{"square": "({} ^ 2)", "twice": "(2.0 * {})", "reciprocal": "(1.0 / {})", "power": "({} ^ {})", "assign": "{}"},
+    **{name: name + "({})" for name in _SAME},
+    **{f"arc{name}": f"a{name}" + "({})" for name in _ARCS},
+    **{
+        "arctan2": "atan2({}, {})",
+        "hypot": "sqrt({} ^ 2 + {} ^ 2)",
+        "log1p": "log(1.0 + {})",
+        "expm1": "(exp({}) - 1.0)",
+    },
+    **{
+        "abs": "noEvent(abs({}))",
+        "sign": "noEvent(sign({}))",
+        "floor": "noEvent(floor({}))",
+        "ceil": "noEvent(ceil({}))",
+    },
+    **{"fmin": "noEvent(min({}, {}))", "fmax": "noEvent(max({}, {}))", "fmod": "noEvent(rem({}, {}))"},
+    "less": "noEvent(if {} < {} then 1.0 else 0.0)",
+    "less_equal": "noEvent(if {} <= {} then 1.0 else 0.0)",
+    "equal": "noEvent(if abs({} - {}) > 0.0 then 0.0 else 1.0)",
+    "not_equal": "noEvent(if abs({} - {}) > 0.0 then 1.0 else 0.0)",
+    "logical_not": "noEvent(if abs({}) > 0.0 then 0.0 else 1.0)",
+    "logical_and": "noEvent(if abs({} * {}) > 0.0 then 1.0 else 0.0)",
+    "logical_or": "noEvent(if abs({}) + abs({}) > 0.0 then 1.0 else 0.0)",
+    "if_else_zero": "noEvent(if abs({}) > 0.0 then {} else 0.0)",
 }
 _PLAIN = re.compile(r"[^0-9A-Za-z_!#$%&()*+,\-./:;<>=?@\[\]^{}|~ ]")
 

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from itertools import chain, repeat
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.call import Call
 from acausal.compiler.whole import origin_of
-from acausal.export.dae.plain import without_folder
+from acausal.export.dae.plain import encoded, without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.language.functions import time
 from acausal.result.lookup import quantity_of
-from acausal.symbols import stacked
+from acausal.symbols import dense, stacked
 
 Add = Callable[[ca.SX | ca.DM], int]
 
@@ -36,7 +38,6 @@ def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | st
         From an expression to its number.
     """
     r, flat = compiled.reduced, compiled.reduced.flat
-    units = dict(zip(flat.unknowns.names, flat.unknowns.units, strict=True))
     parameters = zip(flat.parameters.names, p.tolist(), strict=True)
     return {
         "outputs": list(compiled.outputs),
@@ -50,8 +51,8 @@ def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | st
             "start": add(_start(compiled)),
             "conditions": add(compiled.conditions),
         },
-        "parameters": [{"name": name, "value": value} for name, value in parameters],
-        "unknowns": list(_unknowns(compiled, units)),
+        "parameters": [{"name": name, "value": encoded(value, add)} for name, value in parameters],
+        "unknowns": list(_unknowns(compiled, p, add)),
         "equations": [_equation(compiled, k) for k in range(len(r.residuals))],
         "variables": list(_variables(compiled, values, add)),
         "loops": [{"closed_by": [c.a, c.b], "kind": c.kind, "parts": list(c.parts)} for c in flat.loops.cuts],
@@ -63,19 +64,23 @@ def _start(compiled: CompiledModel) -> ca.SX:
     return compiled.start.function(compiled.reduced.p, time.sx)
 
 
-def _unknowns(compiled: CompiledModel, units: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _unknowns(compiled: CompiledModel, p: np.ndarray, add: Add) -> Iterator[dict[str, Any]]:
     """Yield the scalar unknowns of all equations, and how each is found."""
     r = compiled.reduced
     plan, own = r.plan, r.flat.unknowns
     kinds = dict.fromkeys(plan.states, "state") | dict.fromkeys(plan.algebraic, "algebraic")
     kinds |= {k: "assigned" for k, _ in plan.assigned} | {k: "observed" for k, _ in plan.observed}
     derivative_of = {d: k for k, d in enumerate(plan.system.derivative) if d >= 0}
-    for k, name in enumerate(r.names):
-        unit = units.get(name)
+    starts = Call(ca.Function("starts", [r.p, time.sx], [dense(own.start)]))(p, 0.0)[0].tolist()
+    declared = zip(own.units, starts, own.nominal.tolist(), strict=True)
+    for k, (name, (unit, start, nominal)) in enumerate(
+        zip(r.names, chain(declared, repeat((None, 0.0, 1.0))), strict=False)
+    ):
         yield {
             "name": name,
             "unit": None if unit is None else str(unit),
-            "nominal": float(own.nominal[k]) if k < len(own.names) else 1.0,
+            "start": encoded(start, add),
+            "nominal": nominal,
             "kind": kinds.get(k, "derivative"),
             "derivative_of": derivative_of.get(k),
         }

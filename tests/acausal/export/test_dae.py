@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 import subprocess
 import sys
 import warnings
 import zipfile
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -187,6 +189,17 @@ def test_what_only_a_class_can_check_is_told(tmp_path):
     loaded = saved(ac.compile(Controlled(wanted=0.4)), tmp_path / "a.dae")
     with pytest.warns(ac.AcausalWarning, match=r"`step` was changed .* not checked"):
         ac.simulate(loaded, parameters={"step": 0.2})
+
+
+def test_what_needs_classes_is_refused(tmp_path):
+    loaded = saved(ac.compile(Controlled(wanted=0.4)), tmp_path / "a.dae")
+    for function in (ac.study, ac.effects):
+        with pytest.raises(ac.DeclarationError, match="compiled already; give the model itself"):
+            function(loaded)
+    with pytest.raises(ac.ExportError, match=r"Write it as an open DAE"):
+        pickle.dumps(loaded)
+    again = pickle.loads(pickle.dumps(ac.simulate(loaded)))
+    assert again["x"].tolist() == ac.simulate(copy(loaded))["x"].tolist()
 
 
 def test_parameters_of_the_file(tmp_path):
@@ -400,4 +413,4 @@ def test_read_without_acausal(good, tmp_path):
     p = own.parameter_values(None)
     x = np.array([0.1, 0.2])
     values = own.values(x, np.array([0.3]), p, 0.0, np.ones(own.reduced.constants.numel()), 0.0)[0][:3]
-    assert [float(v) for v in done.stdout.split()[-3:]] == pytest.approx(values.tolist(), abs=1e-15)
+    assert [float(v) for v in done.stdout.split()[-3:]] == pytest.approx(values.tolist(), rel=1e-14, abs=1e-15)
