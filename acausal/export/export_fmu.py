@@ -79,6 +79,8 @@ def export_fmu(
     sections = content.sections
     token = _token(framed(VERSION, sections))
     name = type(compiled.tree).__name__
+    exact = {v.reference for v in variables if not is_solved(v)}
+    solved = [v.reference for v in variables if v.reference not in exact]
     outputs = tuple(v.reference for v in variables if v.causality == "output")
     first = table.first_shown + len(table.shown)
     indicators = tuple(range(first, first + len(content.watched)))
@@ -94,7 +96,7 @@ def export_fmu(
         outputs=outputs,
         indicators=indicators,
         dependencies=_dependencies(content, table, outputs, indicators),
-        initial_unknowns=_initial(content, table, [v.reference for v in variables if is_solved(v)], set(outputs)),
+        initial_unknowns=_initial(content, table, solved, set(outputs)),
         start_time=0.0,
         stop_time=span,
         tolerance=tolerance,
