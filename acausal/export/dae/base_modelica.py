@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import AcausalError
 from acausal.export.dae.modelica_text import Names, hashed, number, texts, written
+from acausal.export.dae.shown import unknown_names
 from acausal.flatten.discontinuities import Guard
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
@@ -41,9 +42,8 @@ class _Text:
         r = compiled.reduced
         own, layout = r.flat.parameters, compiled.layout
         self.parameters = [self.names(name) for name in own.names]
-        # What is integrated in place of a coordinate has its name as well: the coordinate is what users read.
-        algebraic = [self.names(name) for name in compiled.algebraic]
-        self.unknowns = [*(self.names(name) for name in compiled.states), *algebraic]
+        every, plan = unknown_names(compiled), r.plan
+        self.unknowns = [self.names(every[k]) for k in (*plan.states, *plan.algebraic)]
         self.switches = [self.names(f"switch[{k + 1}]") for k in range(layout.switches)]
         discretes = scalars(r.constants)[layout.switches : layout.switches + layout.discretes]
         self.discretes = [self.names(s.name()) for s in discretes]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from itertools import chain, repeat
 from typing import Any
 
 import casadi as ca
@@ -59,6 +58,13 @@ def shown(compiled: CompiledModel, p: np.ndarray, values: Mapping[str, Expr | st
     }
 
 
+def unknown_names(compiled: CompiledModel) -> tuple[str, ...]:
+    """Return the names of all unknowns, each once: what is integrated in place of a coordinate is told from it."""
+    r = compiled.reduced
+    projected = {p.state for p in r.plan.constrained.projections}
+    return tuple(f"integrated.{name}" if k in projected else name for k, name in enumerate(r.names))
+
+
 def _start(compiled: CompiledModel) -> ca.SX:
     """Start values of states and algebraic unknowns, in parameters and time."""
     return compiled.start.function(compiled.reduced.p, time.sx)
@@ -72,15 +78,16 @@ def _unknowns(compiled: CompiledModel, p: np.ndarray, add: Add) -> Iterator[dict
     kinds |= {k: "assigned" for k, _ in plan.assigned} | {k: "observed" for k, _ in plan.observed}
     derivative_of = {d: k for k, d in enumerate(plan.system.derivative) if d >= 0}
     starts = Call(ca.Function("starts", [r.p, time.sx], [dense(own.start)]))(p, 0.0)[0].tolist()
-    declared = zip(own.units, starts, own.nominal.tolist(), strict=True)
-    for k, (name, (unit, start, nominal)) in enumerate(
-        zip(r.names, chain(declared, repeat((None, 0.0, 1.0))), strict=False)
-    ):
+    coordinate = {one.state: one.coordinate for one in plan.constrained.projections}
+    for k, name in enumerate(unknown_names(compiled)):
+        same = coordinate.get(k, k)
+        known = same < len(starts)
+        unit, start, nominal = (own.units[same], starts[same], own.nominal[same]) if known else (None, 0.0, 1.0)
         yield {
             "name": name,
             "unit": None if unit is None else str(unit),
             "start": encoded(start, add),
-            "nominal": nominal,
+            "nominal": float(nominal),
             "kind": kinds.get(k, "derivative"),
             "derivative_of": derivative_of.get(k),
         }

@@ -195,7 +195,7 @@ def test_what_needs_classes_is_refused(tmp_path):
     loaded = saved(ac.compile(Controlled(wanted=0.4)), tmp_path / "a.dae")
     for function in (ac.study, ac.effects):
         with pytest.raises(ac.DeclarationError, match="compiled already; give the model itself"):
-            function(loaded)
+            function(loaded)  # type: ignore[arg-type]
     with pytest.raises(ac.ExportError, match=r"Write it as an open DAE"):
         pickle.dumps(loaded)
     again = pickle.loads(pickle.dumps(ac.simulate(loaded)))
