@@ -17,7 +17,7 @@ from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
-from acausal.symbols import dense, picked, scalars, stacked
+from acausal.symbols import dense, picked, scalars, stacked, vec
 
 VERSION = 2
 
@@ -77,6 +77,8 @@ class Content:
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
+            "bounds": floats([k for least, strict in self._bounds[1] for k in (least, strict)]),
+            "limited": b"".join(name.encode() + b"\0" for name in self._bounds[2]),
             "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
             "natural": floats(self.compiled.nominal[self.compiled.nx :]),
         }
@@ -156,7 +158,21 @@ class Content:
             "jumps": self._jumps[0],
             "closing": ca.vertcat(residuals, stacked(J.nz[:].elements()) if J.nnz() else ca.SX(0, 1)),
             "coords": self._coordinates[0],
+            "limits": self._bounds[0],
         }
+
+    @cached_property
+    def _bounds(self) -> tuple[ca.SX, list[tuple[float, float]], list[str]]:
+        """Values that are limited, the least of each and whether it has to be above that, and their names."""
+        values, bounds, names = list[ca.SX](), list[tuple[float, float]](), list[str]()
+        for path, sx, declared in self.compiled.reduced.flat.parameters.limits:
+            column = dense(vec(sx))
+            if not column.is_constant():
+                least = 0.0 if declared.minimum is None else float(declared.minimum)
+                values.append(column)
+                bounds += [(least, float(declared.positive and least <= 0))] * column.numel()
+                names += [path] * column.numel()
+        return stacked(values), bounds, names
 
     @property
     def _scale(self) -> ca.SX:

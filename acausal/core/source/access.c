@@ -37,37 +37,54 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
     return AC_OK;
 }
 
-static int32_t set_setting(ac_instance *i, int32_t place, double value) {
-    const int good = place == TOLERANCE ? value > 0 && value < 1 : value >= 1 && isfinite(value);
-    if (!good) return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
-    *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value;
-    return AC_OK;
-}
+/* Whether a setting may have a value. */
+static int fits(int32_t place, double value) { return place == TOLERANCE ? value > 0 && value < 1 : value >= 1; }
 
-int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
+/* Entry of p behind a reference that may be set now, -1 for a setting; -2 where it may not, and why. */
+static int32_t entry_of(ac_instance *i, uint32_t reference) {
     const ac_unit *u = i->of;
     const int starting = i->now.phase <= AC_INITIALISING;
+    int32_t place;
+    const int32_t kind = kind_of(i, reference, &place);
+    if (kind == SETTING && starting) return -1;
+    const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
+    const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
+    const int open = role == AC_INPUT || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting)
+        || (role == AC_TUNABLE && (i->now.phase != AC_RUNNING || i->now.simulates));
+    if (open) return entry;
+    ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
+        : role == AC_TUNABLE ? "a tunable parameter is set at events." : "this variable cannot be set, or not now.");
+    return -2;
+}
+
+/* Set all or nothing. */
+int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
+    const size_t size = (size_t)i->of->parts.model.equations.np * sizeof *i->p;
+    int32_t place;
     for (size_t k = 0; k < count; k++) {
-        int32_t place;
-        const int32_t kind = kind_of(i, reference[k], &place);
         if (!isfinite(value[k])) return ac_fail(i, AC_REFUSED, "a value is no finite number.");
-        if (kind == SETTING && starting) {
-            if (set_setting(i, place, value[k])) return AC_REFUSED;
-            continue;
+        if (entry_of(i, reference[k]) == -2) return AC_REFUSED;
+        if (kind_of(i, reference[k], &place) == SETTING && !fits(place, value[k])) {
+            return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
         }
-        const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
-        const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
-        const int open = role == AC_INPUT || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting)
-            || (role == AC_TUNABLE && (i->now.phase != AC_RUNNING || i->now.simulates));
-        if (!open) {
-            return ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
-                : role == AC_TUNABLE ? "a tunable parameter is set at events." : "this variable cannot be set, or not now.");
-        }
-        if (i->p[entry] == value[k]) continue;
-        i->p[entry] = value[k];
-        ac_changed(i);
     }
-    return AC_OK;
+    int changed = 0;
+    if (size) memcpy(i->other, i->p, size);
+    for (size_t k = 0; k < count; k++) {
+        const int32_t entry = entry_of(i, reference[k]);
+        if (kind_of(i, reference[k], &place) == SETTING) {
+            *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value[k];
+        } else if (i->p[entry] != value[k]) {
+            i->p[entry] = value[k];
+            changed = 1;
+        }
+    }
+    if (!changed) return AC_OK;
+    ac_changed(i);
+    if (i->now.phase <= AC_INITIALISING || !ac_within_limits(i)) return AC_OK;
+    memcpy(i->p, i->other, size);
+    ac_changed(i);
+    return AC_REFUSED;
 }
 
 /* Slopes of inputs by time, from the present on; a value that is set later is that of its time. */

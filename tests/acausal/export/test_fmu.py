@@ -232,3 +232,14 @@ def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
             simulated(path, kind, 10.0, 400)
         before = simulated(path, kind, 0.7, 28)
         assert before["b0_y"][-1] < 0.15
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_limits_of_parameters(version: int, tmp_path: Path) -> None:
+    path = exported(ac.compile(models.FourBar()), tmp_path / "a.fmu", version)
+    lines: list[str] = []
+    with pytest.raises(Exception, match=r"[Ee]rror"):
+        simulated(
+            path, "CoSimulation", 0.1, start_values={"damper.d": -1.0}, logger=lambda *a: lines.append(str(a[-1]))
+        )
+    assert any("`damper.d` is -1; it must be at least 0" in line for line in map(str, lines)), lines
