@@ -145,6 +145,7 @@ __all__ = [
     "effects",
     "exp",
     "expect",
+    "export_dae",
     "export_fmu",
     "feedback",
     "fixed",
@@ -155,6 +156,7 @@ __all__ = [
     "input",
     "is_root",
     "linearize",
+    "load_dae",
     "log",
     "observed",
     "outer",
@@ -185,10 +187,10 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
-    from acausal.export import export_fmu
+    from acausal.export import export_dae, export_fmu, load_dae
 
 # What few runs need: loading it takes as long as a small simulation.
-_LATER = {"export_fmu": "acausal.export"}
+_LATER = dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export")
 
 
 def __getattr__(name: str) -> Any:
