@@ -111,4 +111,3 @@ def _square(
 def _is_number(condition: ca.SX, state: ca.SX) -> bool:
     """Whether a condition says that a state is a number."""
     return [s.element_hash() for s in ca.symvar(condition)] == [state.element_hash()]
-

@@ -130,9 +130,7 @@ def _dependencies(
     return {k: tuple(references[j] for j in reach(e)) for k, e in found.items()}
 
 
-def _initial(
-    content: Content, table: Table, solved: Sequence[int], outputs: set[int]
-) -> dict[int, tuple[int, ...]]:
+def _initial(content: Content, table: Table, solved: Sequence[int], outputs: set[int]) -> dict[int, tuple[int, ...]]:
     """On what those depend that are solved for at the start."""
     r, own = content.problem.compiled.reduced, content.given
     settable = [k for k, role in enumerate(own.roles) if role is not Role.INNER]

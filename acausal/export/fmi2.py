@@ -60,7 +60,9 @@ def _add_interfaces(root: Element, description: Description) -> None:
         canSerializeFMUstate=True,
         providesDirectionalDerivative=True,
     )
-    exchange = SubElement(root, "ModelExchange", common | attributes(completedIntegratorStepNotNeeded=not description.completes))
+    exchange = SubElement(
+        root, "ModelExchange", common | attributes(completedIntegratorStepNotNeeded=not description.completes)
+    )
     simulation = SubElement(
         root,
         "CoSimulation",

@@ -46,7 +46,7 @@ static int32_t set_setting(ac_instance *i, int32_t place, double value) {
 
 int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
     const ac_unit *u = i->of;
-    const int starting = i->now.phase <= AC_INITIALISING;
+    const int starting = i->now.phase <= AC_INITIALISING, exchanges = i->now.phase == AC_RUNNING && !i->now.simulates;
     for (size_t k = 0; k < count; k++) {
         int32_t place;
         const int32_t kind = kind_of(i, reference[k], &place);
@@ -55,13 +55,18 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
             if (set_setting(i, place, value[k])) return AC_REFUSED;
             continue;
         }
+        if (exchanges && (kind == TIME || kind == STATE)) {
+            *(kind == TIME ? &i->now.time : i->x + place) = value[k];
+            ac_moved(i);
+            continue;
+        }
         const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
         const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
-        const int open = role == AC_INPUT || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting)
-            || (role == AC_TUNABLE && (i->now.phase != AC_RUNNING || i->now.simulates));
+        const int open = role == AC_INPUT || role == AC_TUNABLE
+            || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
         if (!open) {
             return ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
-                : role == AC_TUNABLE ? "a tunable parameter is set at events." : "this variable cannot be set, or not now.");
+                : "this variable cannot be set, or not now.");
         }
         if (i->p[entry] == value[k]) continue;
         i->p[entry] = value[k];

@@ -12,10 +12,10 @@ import pytest
 
 pytest.importorskip("fmpy")
 
-import models
 from fmpy.validation import validate_fmu
 
 import acausal as ac
+import models
 from tests.acausal.export.hybrid import Ball, Hybrid, exported, opened, simulated
 
 # Stop times within which a converged run is quick.
@@ -121,7 +121,9 @@ def test_start_values_of_states_can_be_set(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 def test_inputs_that_vary(kind: str, version: int, tmp_path: Path) -> None:
     """A filter without its load: tau x' + x = u + 2 held, of which the second part is a known staircase."""
-    path = exported(ac.compile(Hybrid(), parameters={"wanted": 0.5, "late": 9.0, "step": 8.0}), tmp_path / "a.fmu", version)
+    path = exported(
+        ac.compile(Hybrid(), parameters={"wanted": 0.5, "late": 9.0, "step": 8.0}), tmp_path / "a.fmu", version
+    )
     t = np.linspace(0, 2, 2001)
     signal = np.array(list(zip(t, 0.5 + 0.4 * np.sin(3 * t), strict=True)), dtype=[("time", float), ("wanted", float)])
     found = simulated(path, kind, 2.0, 400, input=signal)
@@ -182,7 +184,9 @@ def test_derivatives_are_those_of_differences(scene: str, tmp_path: Path) -> Non
         expected = (4 * differences(1e-5) - differences(2e-5)) / 3
         values(x)
         forward = np.array(fmu.getDirectionalDerivative(rates + outputs, states, seed.tolist()))
-        np.testing.assert_allclose(forward / size, expected / size, rtol=1e-5, atol=1e-5 * np.max(np.abs(expected / size)))
+        np.testing.assert_allclose(
+            forward / size, expected / size, rtol=1e-5, atol=1e-5 * np.max(np.abs(expected / size))
+        )
         weights = rng.standard_normal(len(forward))
         backward = np.array(fmu.getAdjointDerivative(rates + outputs, states, weights.tolist(), n))
         assert weights @ forward == pytest.approx(backward @ seed, rel=1e-9)
@@ -212,9 +216,9 @@ def test_stored_states_go_on_bit_by_bit(scene: str, version: int, tmp_path: Path
         getattr(one, free)(state)
         # Another instance goes on from the bytes, while it did something else before.
         step(other, 0, outputs)
-        foreign = getattr(other, serialise.replace("serialize", "deSerialize") if version == 2 else "deserializeFMUState")(
-            content
-        )
+        foreign = getattr(
+            other, serialise.replace("serialize", "deSerialize") if version == 2 else "deserializeFMUState"
+        )(content)
         getattr(other, put)(foreign)
         assert [step(other, k, outputs) for k in range(10, 30)] == rest
         assert len(first) == 10

@@ -12,10 +12,10 @@ import pytest
 
 pytest.importorskip("fmpy")
 
-import models
 from fmpy import extract
 from fmpy.build import build_platform_binary
 
+import models
 from acausal.core.build.compiling import own_compiler
 from tests.acausal.export.hybrid import Hybrid, exported, simulated
 
