@@ -87,5 +87,7 @@ def own(tmp_path_factory) -> list[str]:
 def test_an_exported_model_elsewhere(machine: str, name: str, command, own: list[str], tmp_path: Path) -> None:
     elsewhere = command(machine, "importer.c")
     for version in (2, 3):
-        here = imported(own, name, SIMULATION, version, tmp_path)
-        assert np.all(apart(here, imported(elsewhere, name, SIMULATION, version, tmp_path)) < WANTED)
+        here, there = (imported(c, name, SIMULATION, version, tmp_path, part=0.1)[:, 1:] for c in (own, elsewhere))
+        different = apart(here, there)
+        if np.any(different >= WANTED):
+            assert np.all(different < np.maximum(WANTED, 2 * by_last_bits(name, (SPANS[name] / 10, 200, 1e-6))))

@@ -51,20 +51,21 @@ def unit(name: str, version: int, folder: Path) -> Unit:
     return Unit(path.with_suffix("") / "resources", token, len(counted), indicators)
 
 
-def span(name: str, kind: int) -> float:
-    """How far a scene is run."""
+def span(name: str, kind: int, part: float) -> float:
+    """How far a scene is run; a part in Co-Simulation."""
     if name not in SCENES:
         return 1.9
-    return POINTS * QUICKEST if kind == EXCHANGE else SPANS[name] / 100
+    return POINTS * QUICKEST if kind == EXCHANGE else part * SPANS[name]
 
 
-def imported(command: list[str], name: str, kind: int, version: int, folder: Path, cycles: int = 1) -> np.ndarray:
+def imported(
+    command: list[str], name: str, kind: int, version: int, folder: Path, cycles: int = 1, part: float = 0.01
+) -> np.ndarray:
     """Run a scene by a driver; return the time and the states after each step."""
-    of, stop = unit(name, version, folder), span(name, kind)
+    of, stop = unit(name, version, folder), span(name, kind, part)
     steps = POINTS if name in SCENES else 50 * POINTS
     counts = (repr(stop), steps, cycles, of.states, of.indicators, *range(1, 1 + of.states))
     given = [*command, str(version), str(kind), str(of.resources), of.token, *map(str, counts)]
     done = subprocess.run(given, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout[-500:] + done.stderr[-2000:]
-    assert not done.stderr
     return np.array([[float(number) for number in row.split()] for row in done.stdout.splitlines()])
