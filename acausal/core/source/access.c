@@ -190,11 +190,11 @@ int32_t ac_get_indicators(ac_instance *i, double *value) {
     return read_all(i, (uint32_t)first, u->watched, value);
 }
 
-/* Columns of the derivatives: the states, or entries of p that a caller may change. */
-static double *known_of(ac_instance *i, uint32_t reference, double *dx, double *dp) {
+/* Columns of the derivatives: the time, the states, or entries of p that a caller may change. */
+static double *known_of(ac_instance *i, uint32_t reference, double *dt, double *dx, double *dp) {
     int32_t place;
     const int32_t kind = kind_of(i, reference, &place);
-    return kind == STATE ? dx + place : kind == GIVEN ? dp + place : NULL;
+    return kind == TIME ? dt : kind == STATE ? dx + place : kind == GIVEN ? dp + place : NULL;
 }
 
 /* Rows: where the derivative of an unknown stands. */
@@ -204,10 +204,11 @@ static double *unknown_of(ac_instance *i, uint32_t reference, double *of[3]) {
     return kind == RATE ? of[0] + place : kind == VARIABLE ? of[1] + place : kind == INDICATOR ? of[2] + place : NULL;
 }
 
-int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dx, double *dp, const double *seed, double *found) {
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
+                double *found) {
     for (size_t k = 0; k < count; k++) {
-        double *at = known_of(i, known[k], dx, dp);
-        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are by states, inputs and parameters.");
+        double *at = known_of(i, known[k], dt, dx, dp);
+        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are by the time, states, inputs and parameters.");
         if (seed) *at += seed[k];
         if (found) found[k] = *at;
     }

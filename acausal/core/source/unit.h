@@ -61,7 +61,7 @@ int32_t ac_completed(ac_instance *i);              /* the present ends a step th
 /* Co-Simulation: from the present time towards another; with `early`, back at the first event, at *reached. */
 int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event);
 
-/* Directional derivatives: of unknowns (rates, variables, indicators) along a seed of knowns (states, inputs, parameters), and
+/* Directional derivatives: of unknowns (rates, variables, indicators) along a seed of knowns (time, states, inputs, parameters), and
    the transpose. */
 int32_t ac_forward(ac_instance *i, const uint32_t *unknown, size_t unknowns, const uint32_t *known, size_t knowns,
                    const double *seed, double *sensitivity);
