@@ -45,7 +45,7 @@ HEAD = (
 )
 LEGEND = (
     "Error: largest over all outputs, as a fraction of the range of each, against a converged run. ms: processor time, the "
-    "second run; `simulate` with its steps and method, that of fmpy with unpacking the file and reading the description. 401 outputs. "
+    "second run; `simulate` with its steps and method, that of fmpy with unpacking and reading the file. 401 outputs. "
     "Model Exchange: CVode of fmpy; *: beams with beta=1e-3, errors against a run with that."
 )
 
