@@ -9,6 +9,8 @@ from acausal.interrupts import heed
 
 heed()
 
+from typing import TYPE_CHECKING, Any
+
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,
@@ -143,6 +145,8 @@ __all__ = [
     "effects",
     "exp",
     "expect",
+    "export_dae",
+    "export_fmu",
     "feedback",
     "fixed",
     "flow",
@@ -152,6 +156,7 @@ __all__ = [
     "input",
     "is_root",
     "linearize",
+    "load_dae",
     "log",
     "observed",
     "outer",
@@ -180,3 +185,17 @@ __all__ = [
     "when",
     "with_and_without",
 ]
+
+if TYPE_CHECKING:
+    from acausal.export import export_dae, export_fmu, load_dae
+
+# What few runs need: loading it takes as long as a small simulation.
+_LATER = dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export")
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(_LATER[name]), name)

@@ -32,7 +32,7 @@ def export(
     ] = None,
     free: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help="What is left for the importer to give; may be repeated."),
+        typer.Option(metavar="NAME", help="Keep a parameter in the equations although it is 0; may be repeated."),
     ] = None,
     dae: Annotated[
         str | None, typer.Option(metavar="FILE", help="Write the equations, for `acausal.load_dae` and CasADi.")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,9 @@ from acausal.reduce import plan_of, reduce
 @fitting
 @alone
 @uncollected()
-def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> CompiledModel:
+def compile(
+    model: Component, parameters: Mapping[str, Any] | None = None, *, free: Collection[str] = ()
+) -> CompiledModel:
     """Compile a model: flatten, analyse, reduce and generate code.
 
     Parameters
@@ -35,6 +38,9 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         An instance, such as SpinUp(omega=4).
     parameters : mapping of str to value, optional
         Values by path ("beam.E") that replace those of the model, structural ones as well.
+    free : collection of str, optional
+        Parameters, or entries such as "body.r_CM[0]", that stay in the equations although they are 0, so that they can be
+        changed afterwards.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
         started = now
 
     model, parameters = model_of(model), values_of(parameters)
-    flat = flatten(model, parameters)
+    flat = flatten(model, parameters, free)
     Settable(flat).values(None)  # a length of 0 also breaks the structure: report the cause first
     lap("flatten")
     try:
@@ -68,7 +74,9 @@ def compile(model: Component, parameters: Mapping[str, Any] | None = None) -> Co
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
-    compiled = CompiledModel(reduced, seconds, Source(compile, model, parameters))
+    compiled = CompiledModel(
+        reduced, seconds, Source(partial(compile, free=tuple(free)) if free else compile, model, parameters)
+    )
     compiled.parameter_values(None)
     _ = (
         compiled.local,

@@ -43,6 +43,8 @@ class CompiledModel:
         Time of each stage of compiling.
     source : Source, optional
         What it was compiled from: a pickle holds that alone.
+    declared : mapping of str to value, optional
+        What a model without a source declares of its simulation, numbers or expressions of parameters.
     """
 
     reduced: ReducedModel
@@ -50,6 +52,7 @@ class CompiledModel:
     source: Source | None = None
     integrators: dict[tuple, Call] = field(default_factory=dict)
     kept: dict[Any, Any] = field(default_factory=dict)
+    declared: Mapping[str, Any] | None = None
 
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
@@ -58,7 +61,7 @@ class CompiledModel:
 
     def __copy__(self) -> CompiledModel:
         # The equations never change; everything that is computed from them is recomputed.
-        return CompiledModel(self.reduced, dict(self.seconds), self.source)
+        return CompiledModel(self.reduced, dict(self.seconds), self.source, declared=self.declared)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
         return self.__copy__()

@@ -45,7 +45,10 @@ def pickled(source: Source | None) -> tuple[Any, ...]:
         If another process could not import the model.
     """
     if source is None:
-        raise ExportError("this compiled model cannot be pickled: it was not made by ac.compile.")
+        raise ExportError(
+            "this compiled model cannot be pickled: it was not made by ac.compile. Write it as an open DAE, which any process "
+            "reads: ac.export_dae(compiled, path), ac.load_dae(path)."
+        )
     for cls in {type(c) for c in _templates(source.model)}:
         _refuse_hidden(cls)
     try:

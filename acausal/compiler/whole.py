@@ -74,7 +74,7 @@ def whole(compiled: Any) -> Whole:
     """Make the functions of all rows of a compiled model."""
     r: ReducedModel = compiled.reduced
     arguments = [r.unknowns, r.p, time.sx, r.constants, initial.sx]
-    equations = [Row(e, _origin(r, k), EQUATION) for k, e in enumerate(r.residuals)]
+    equations = [Row(e, origin_of(r, k), EQUATION) for k, e in enumerate(r.residuals)]
     rows = equations + _assigned(r) + _conditions(r)
     known = {s.element_hash() for a in arguments for s in scalars(a)}
     rows = [row for row in rows if all(s.element_hash() in known for s in ca.symvar(row.expression))]
@@ -99,7 +99,7 @@ def _remaining(r: ReducedModel, entries: list[ca.SX]) -> ca.SX:
     return dense(ca.substitute([stacked(entries)], [was], [becomes])[0]) if entries else ca.SX(0, 1)
 
 
-def _origin(r: ReducedModel, row: int) -> Origin:
+def origin_of(r: ReducedModel, row: int) -> Origin:
     """Where an equation, or the one of which it is a derivative, is stated."""
     origins, differentiated = r.flat.equations.origins, r.plan.differentiated
     while len(origins) <= row < len(origins) + len(differentiated):
@@ -111,7 +111,7 @@ def _assigned(r: ReducedModel) -> list[Row]:
     """What is assigned: solving for an unknown divides by its coefficient."""
     pairs = (*r.plan.assigned, *r.plan.observed)
     values = scalars(r.definitions[1]) if pairs else []
-    return [Row(value, _origin(r, e), EQUATION) for value, (_, e) in zip(values, pairs, strict=True)]
+    return [Row(value, origin_of(r, e), EQUATION) for value, (_, e) in zip(values, pairs, strict=True)]
 
 
 def _conditions(r: ReducedModel) -> list[Row]:

@@ -16,8 +16,8 @@ from acausal.core.library import TapeData, loaded
 from acausal.garbage import uncollected
 from acausal.instructions import Instructions, read_instructions
 
-# In the order of `core.h`: the numbers are part of the file format.
-_KINDS = (
+# In the order of `core.h`: the numbers are part of file formats.
+KINDS = (
     *(ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_NEG, ca.OP_SQ, ca.OP_TWICE, ca.OP_INV, ca.OP_SQRT, ca.OP_SIN),
     *(ca.OP_COS, ca.OP_TAN, ca.OP_ASIN, ca.OP_ACOS, ca.OP_ATAN, ca.OP_ATAN2, ca.OP_EXP, ca.OP_LOG, ca.OP_POW),
     *(ca.OP_SINH, ca.OP_COSH, ca.OP_TANH, ca.OP_ASINH, ca.OP_ACOSH, ca.OP_ATANH, ca.OP_FABS, ca.OP_SIGN, ca.OP_FLOOR),
@@ -25,7 +25,7 @@ _KINDS = (
     *(ca.OP_EXPM1, ca.OP_ERF, ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR),
     *(ca.OP_IF_ELSE_ZERO, ca.OP_ASSIGN),
 )
-_KIND = {op: kind for kind, op in enumerate(_KINDS)} | {ca.OP_CONSTPOW: _KINDS.index(ca.OP_POW)}
+KIND = {op: kind for kind, op in enumerate(KINDS)} | {ca.OP_CONSTPOW: KINDS.index(ca.OP_POW)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +199,7 @@ def _grouped(read: Instructions, early: set[int]) -> tuple[list[int], list[int],
             late.append(late[arguments[0]] or late[arguments[-1]])
         else:
             late.append(node in read.place and read.place[node][0] not in early)
-    kinds = [_KIND.get(op, -1) for op in read.op]
+    kinds = [KIND.get(op, -1) for op in read.op]
     order: list[int] = []
     runs: list[tuple[int, int]] = []
     ready: tuple[dict[int, list[int]], dict[int, list[int]]] = ({}, {})

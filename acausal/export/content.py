@@ -10,14 +10,14 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.core import StoredModel, make_equations, make_square, make_tape
-from acausal.core.model_file import floats, framed, ints, tape_bytes
+from acausal.core.model_file import floats, ints, tape_bytes
 from acausal.export.beginning import Beginning
 from acausal.export.given import Given
 from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
-from acausal.symbols import dense, picked, scalars, stacked
+from acausal.symbols import dense, picked, scalars, stacked, vec
 
 VERSION = 2
 
@@ -52,15 +52,16 @@ class Content:
         """The model."""
         return self.problem.compiled
 
-    def bytes(self, token: str) -> bytes:
-        """Return the file, with what tells the model from others."""
+    @property
+    def sections(self) -> dict[str, bytes]:
+        """Content of the sections of the file by their tags, but for what tells the model from others."""
         constants = self.beginning.at.constants
         shape = [len(constants.switches), len(constants.discretes), len(constants.closures), self.shown.numel()]
         c, jumps = self.compiled.constraints, self._jumps
         shape += [len(self.watched), len(self._timed), self._instants.numel(), jumps[0].numel(), c.size]
         shape += [len(self.given.inputs), len(self._levels)]
         places = [k for pair in self.given.inputs for k in pair]
-        sections = {
+        return {
             **self._model.sections,
             "layout": ints(shape),
             "roles": ints(self.given.roles),
@@ -76,11 +77,11 @@ class Content:
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
+            "bounds": floats([k for least, strict in self._bounds[1] for k in (least, strict)]),
+            "limited": b"".join(name.encode() + b"\0" for name in self._bounds[2]),
             "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
             "natural": floats(self.compiled.nominal[self.compiled.nx :]),
-            "token": token.encode() + b"\0",
         }
-        return framed(VERSION, sections)
 
     @cached_property
     def watched(self) -> list[int]:
@@ -121,8 +122,9 @@ class Content:
     @cached_property
     def _model(self) -> StoredModel:
         at, nx = self.beginning.at, self.compiled.nx
+        x, z, t, p, c = self._symbols
         return StoredModel(
-            make_equations(*self._symbols, *self.running),
+            make_equations(x, z, t, p, c, *self.running),
             at.time,
             *(at.x, at.z, self.given.values, at.constants.vector),
             size=self.compiled.nominal[:nx],
@@ -156,7 +158,21 @@ class Content:
             "jumps": self._jumps[0],
             "closing": ca.vertcat(residuals, stacked(J.nz[:].elements()) if J.nnz() else ca.SX(0, 1)),
             "coords": self._coordinates[0],
+            "limits": self._bounds[0],
         }
+
+    @cached_property
+    def _bounds(self) -> tuple[ca.SX, list[tuple[float, float]], list[str]]:
+        """Values that are limited, the least of each and whether it has to be above that, and their names."""
+        values, bounds, names = list[ca.SX](), list[tuple[float, float]](), list[str]()
+        for path, sx, declared in self.compiled.reduced.flat.parameters.limits:
+            column = dense(vec(sx))
+            if not column.is_constant():
+                least = 0.0 if declared.minimum is None else float(declared.minimum)
+                values.append(column)
+                bounds += [(least, float(declared.positive and least <= 0))] * column.numel()
+                names += [path] * column.numel()
+        return stacked(values), bounds, names
 
     @property
     def _scale(self) -> ca.SX:

@@ -12,10 +12,12 @@ from typing import Any
 
 import casadi as ca
 
-from acausal.compiler import CompiledModel, ready
+from acausal.compiler import CompiledModel, compile, ready
+from acausal.core.model_file import framed
+from acausal.errors import ExportError
 from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.beginning import begin
-from acausal.export.content import Content
+from acausal.export.content import VERSION, Content
 from acausal.export.description import Description, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
@@ -62,7 +64,7 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
-    compiled, p = ready(model, parameters)
+    compiled, p = _freed(model, parameters, tuple(free)) if free else ready(model, parameters)
     settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
     span = float(settings["stop_time"] or 1.0)
     tolerance = float(settings["tolerance"] or POLICY.defaults.tolerance)
@@ -74,8 +76,11 @@ def export_fmu(
     table = Table(compiled, known, beginning, tolerance, content.watched)
     variables = table.variables()
     content = Content(problem, beginning, known, stacked(table.shown), span, tolerance)
-    token = _token(content.bytes(""))
+    sections = content.sections
+    token = _token(framed(VERSION, sections))
     name = type(compiled.tree).__name__
+    exact = {v.reference for v in variables if not is_solved(v)}
+    solved = [v.reference for v in variables if v.reference not in exact]
     outputs = tuple(v.reference for v in variables if v.causality == "output")
     first = table.first_shown + len(table.shown)
     indicators = tuple(range(first, first + len(content.watched)))
@@ -91,7 +96,7 @@ def export_fmu(
         outputs=outputs,
         indicators=indicators,
         dependencies=_dependencies(content, table, outputs, indicators),
-        initial_unknowns=_initial(content, table, [v.reference for v in variables if is_solved(v)], set(outputs)),
+        initial_unknowns=_initial(content, table, solved, set(outputs)),
         start_time=0.0,
         stop_time=span,
         tolerance=tolerance,
@@ -99,7 +104,22 @@ def export_fmu(
         completes=bool(compiled.constraints.size),
         sources=source_names(),
     )
-    write_fmu(path, description, content.bytes(token), fmi_version, platforms)
+    whole = framed(VERSION, {**sections, "token": token.encode() + b"\0"})
+    write_fmu(path, description, whole, fmi_version, platforms)
+
+
+def _freed(
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: tuple[str, ...]
+) -> tuple[CompiledModel, np.ndarray]:
+    """Compile a model with some parameters in its equations although they are 0."""
+    if isinstance(model, Component):
+        compiled = compile(model, parameters, free=free)
+    elif model.source is None:
+        raise ExportError("parameters can be left free where a model is compiled: give the model itself.")
+    else:
+        source = model.source
+        compiled = compile(source.model, {**(source.parameters or {}), **(parameters or {})}, free=free)
+    return compiled, compiled.parameter_values(None)
 
 
 def _token(content: bytes) -> str:
@@ -140,5 +160,5 @@ def _initial(content: Content, table: Table, solved: Sequence[int], outputs: set
     reach = Reach(content.moving(content.beginning.residuals), y, picked(own.symbols, settable))
     wanted = [k for k in solved if k in outputs or k in set(table.rates) or k in set(table.states)]
     expressions = _expressions(content, table, wanted)
-    states = dict(zip(table.states, scalars(r.x), strict=True))
-    return {k: tuple(sorted(references[j] for j in reach(expressions.get(k, states.get(k))))) for k in wanted}
+    expressions |= dict(zip(table.states, scalars(r.x), strict=True))
+    return {k: tuple(sorted(references[j] for j in reach(expressions[k]))) for k in wanted}

@@ -127,12 +127,12 @@ class Table:
     def _of_states(self, seen: list[Seen]) -> Iterator[Variable]:
         r, x = self.compiled.reduced, self.beginning.at.x
         known = {s.name: s for s in seen}
-        free = {s.expression.element_hash(): s.name for s in seen if s.expression.is_symbolic() and not s.output}
+        named = {(s.name, s.expression.element_hash()) for s in seen if not s.output}
         jumping = self._jumping()
         for k, (symbol, name) in enumerate(zip(scalars(r.x), r.states, strict=True)):
             # In closed loops what is integrated is projected: the coordinate itself is shown under its own name.
-            own = free.get(symbol.element_hash(), name if name not in known else f"integrated.{name}")
-            about = known.get(own) or known.get(name)
+            own = name if name not in known or (name, symbol.element_hash()) in named else f"integrated.{name}"
+            about = known.get(name)
             unit, text = (about.unit, about.description) if about else ("", "")
             starts = k in self.beginning.starts
             yield Variable(
@@ -155,15 +155,20 @@ class Table:
 
     def _of_seen(self, seen: list[Seen]) -> Iterator[Variable]:
         r, places = self.compiled.reduced, dict[int, int]()
-        state = {s.element_hash() for s in scalars(r.x)}
-        parameter = {s.element_hash() for s in scalars(r.p)}
+        state = {s.element_hash(): k for k, s in enumerate(scalars(r.x))}
+        own = {(r.p[k].element_hash(), name) for k, name in enumerate(r.flat.parameters.names)}
         moving = {s.element_hash() for s in [*scalars(ca.vertcat(r.x, r.z)), time.sx]}
         for one in seen:
             key = one.expression.element_hash()
-            if one.expression.is_constant() and not one.output:
+            if not one.output and (one.expression.is_constant() or (key, one.name) in own or one.name == "time"):
                 continue
-            if not one.output and key in state | parameter | {time.sx.element_hash()}:
-                continue  # it has a reference already
+            if not one.output and key in state:
+                if one.name != r.states[state[key]]:
+                    yield Variable(
+                        *(one.name, self.states[state[key]], "local", "continuous", "calculated", one.unit, None),
+                        description=one.description,
+                    )
+                continue
             if one.output or key not in places:
                 self.shown.append(one.expression)
                 place = self.first_shown + len(self.shown) - 1
@@ -173,9 +178,17 @@ class Table:
                 place = places[key]
             moves = any(s.element_hash() in moving for s in ca.symvar(one.expression))
             yield Variable(
-                *(one.name, place, "output" if one.output else "local", "continuous" if moves else "discrete"),
+                *(one.name, place, "output" if one.output else "local", "continuous" if moves else self._still(one)),
                 *("calculated", one.unit, None, one.description),
             )
+
+    def _still(self, one: Seen) -> Variability:
+        """Variability of what changes at events alone."""
+        roles = {s.element_hash(): r for s, r in zip(scalars(self.given.symbols), self.given.roles, strict=True)}
+        found = {roles.get(s.element_hash(), Role.INPUT) for s in ca.symvar(one.expression)}
+        if one.output or Role.INPUT in found:
+            return "discrete"
+        return "tunable" if Role.TUNABLE in found else "fixed"
 
 
 def _seen(compiled: CompiledModel) -> Iterator[Seen]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import casadi as ca
@@ -18,7 +18,7 @@ from acausal.language.component import Component
 from acausal.symbols import scalars
 
 
-def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> FlatModel:
+def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()) -> FlatModel:
     """Flatten a model: instantiate, connect, collect the equations, propagate constants and aliases.
 
     Parameters
@@ -27,6 +27,8 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
         The model as constructed.
     overrides : mapping of str to value, optional
         Parameters and structural parameters by path that replace those of the model.
+    free : collection of str
+        Parameters that stay in the equations even if they are 0.
 
     Returns
     -------
@@ -37,7 +39,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None) -> Fla
     DeclarationError, ConnectError, UnitsError
         Where the model is wrong, with component and line.
     """
-    raw = hear(model, overrides)
+    raw = hear(model, overrides, free)
     refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)

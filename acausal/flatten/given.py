@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -50,10 +50,13 @@ class Given:
     ----------
     overrides : mapping of str to value, optional
         Values by path that replace those of the model; those that were used are taken out.
+    free : collection of str
+        Parameters, or entries of them, that have a symbol even if they are 0; `kept` says which of them there are.
     """
 
-    def __init__(self, overrides: Mapping[str, Any] | None) -> None:
+    def __init__(self, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> None:
         self.overrides = dict(overrides or {})
+        self.free, self.kept = set(free), set[str]()
         self.parameters = Parameters()
         self._open: list[tuple[Component, str]] = []
 
@@ -190,7 +193,9 @@ class Given:
         entries = []
         for index in np.ndindex(value.shape):
             name = path + (f"[{','.join(map(str, index))}]" if index else "")
-            if fold and value[index] == 0:
+            kept = {path, name} & self.free
+            self.kept |= kept
+            if fold and value[index] == 0 and not kept:
                 self.parameters.structural_zeros.append(name)
                 entries.append(ca.SX(0))
                 continue

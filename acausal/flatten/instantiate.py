@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from itertools import islice
 from typing import Any
 
@@ -30,10 +30,14 @@ class Instantiation:
         The model as the user constructed it.
     overrides : mapping of str to value
         Values by path that replace those of the model.
+    free : collection of str
+        Parameters that stay in the equations even if they are 0.
     """
 
-    def __init__(self, template: Component, overrides: Mapping[str, Any] | None = None) -> None:
-        self._given = Given(overrides)
+    def __init__(
+        self, template: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()
+    ) -> None:
+        self._given = Given(overrides, free)
         self.parameters = self._given.parameters
         self.components: list[Component] = []
         self._classes: set[type] = set()
@@ -43,6 +47,10 @@ class Instantiation:
             self._resolve_outers(component)
         if self._given.overrides:
             name = next(iter(self._given.overrides))
+            raise DeclarationError(not_settable(name, self.root, self.settable()))
+        for name in sorted(set(free) - self._given.kept):
+            if follows := self.parameters.bound.get(name):
+                raise DeclarationError(f"`{name}` follows {follows} and cannot be left free; leave that free.")
             raise DeclarationError(not_settable(name, self.root, self.settable()))
 
     def settable(self) -> list[str]:

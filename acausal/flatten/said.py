@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -51,12 +51,12 @@ class Said:
     index: dict[int, int]
 
 
-def hear(model: Component, overrides: Mapping[str, Any] | None) -> Said:
+def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> Said:
     """Instantiate a model, connect it and collect everything that its components state."""
     pending = Pending()
     token = PENDING.set(pending)
     try:
-        build = Instantiation(model, overrides)
+        build = Instantiation(model, overrides, free)
         components = build.components
         graph = build_graph(components)
         discretes = create_discretes(components)

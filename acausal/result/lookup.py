@@ -174,7 +174,7 @@ def _walk(tree: Component, path: str) -> Quantity:
     declared = type(owner).fields[last]
     if not isinstance(declared, READABLE):
         raise DeclarationError(not_readable(path, choose(value, last, indices)))
-    quantity = _quantity(owner, last, declared, value)
+    quantity = quantity_of(owner, last, declared, value)
     for index in indices:
         try:
             quantity = quantity[index]
@@ -217,7 +217,20 @@ def _member(owner: Any, name: str) -> Any:
     return value
 
 
-def _quantity(owner: Component, name: str, declared: f.Field, expr: Expr) -> Quantity:
+def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Quantity:
+    """Return what a member of a bound component means.
+
+    Parameters
+    ----------
+    owner : Component
+        The component.
+    name : str
+        The member.
+    declared : Field
+        How it is declared.
+    expr : Expr
+        Its value.
+    """
     # SX knows rows and columns only: a declared shape (1,) or (n, 1) is not to be seen from it.
     shape = declared.shape(owner) if callable(declared.shape) else declared.shape
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel, model_of, values_of
+from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.policy import POLICY
-from acausal.simulation.stop_time import own_stop_time, own_value
+from acausal.simulation.stop_time import check_stop_time, own_stop_time, own_value
 
 DEFAULTS = {
     "stop_time": None,
@@ -42,8 +44,8 @@ def settled(
     given : mapping of str to value
         Settings by the name of the argument, None where it is not given.
     """
-    source, values = _source(model, values)
-    found = {name: own_setting(source, name, values) if v is None else v for name, v in given.items()}
+    own = _declared(model, values)
+    found = {name: own(name) if v is None else v for name, v in given.items()}
     # One of the two is enough, and an argument takes precedence over the model.
     for one, other in (("tolerance", "accuracy"), ("accuracy", "tolerance")):
         if given.get(one) is not None and given.get(other) is None:
@@ -105,13 +107,38 @@ def check_number(name: str, value: Any) -> None:
         raise DeclarationError(f"{name} is {value!r}; it must be finite.")
 
 
-def _source(
-    model: Component | CompiledModel, values: Mapping[str, Any] | None
-) -> tuple[Component, Mapping[str, Any] | None]:
-    """Return a model that is not built, and the values that replace its own."""
+def declared_settings(compiled: CompiledModel) -> dict[str, Any]:
+    """Return what a compiled model declares, as numbers, texts, or expressions of its free parameters."""
+    if compiled.source is None:
+        return dict(compiled.declared or {})
+    found = {}
+    for name in DEFAULTS:
+        value = own_setting(compiled.source.model, name, compiled.source.parameters)
+        if value is not None:
+            follows = own_value(compiled.tree, name)
+            varies = isinstance(follows, Expr) and not follows.sx.is_constant()
+            found[name] = follows if varies else value
+    return found
+
+
+def _declared(model: Component | CompiledModel, values: Mapping[str, Any] | None) -> Callable[[str], Any]:
+    """Return what gives the settings that a model declares, with values by path that replace its own."""
     model, values = model_of(model, compiled=True), values_of(values)
     if not isinstance(model, CompiledModel):
-        return model, values
+        return lambda name: own_setting(model, name, values)
     if model.source is None:
-        return model.tree, None
-    return model.source.model, {**model.source.parameters, **values}
+        return lambda name: _value(model, name, values)
+    source, values = model.source.model, {**model.source.parameters, **values}
+    return lambda name: own_setting(source, name, values)
+
+
+def _value(compiled: CompiledModel, name: str, values: Mapping[str, Any]) -> Any:
+    """Return a setting of a model without a source."""
+    value = (compiled.declared or {}).get(name)
+    if not isinstance(value, Expr):
+        return value
+    function = ca.Function("own", [compiled.reduced.p], [ca.densify(value.sx)])
+    number = float(Call(function)(compiled.parameter_values(values))[0][0])
+    if name == "stop_time":
+        return check_stop_time(number, f" of {type(compiled.tree).__name__}")
+    return int(number) if name in COUNTS and number.is_integer() else number

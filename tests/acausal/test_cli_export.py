@@ -99,3 +99,8 @@ def test_the_compiled_scene_is_exported(run, monkeypatch):
     monkeypatch.setattr(acausal.export, "export_dae", lambda compiled, path: found.append(compiled), raising=False)
     assert run("--set", "rate=3", "--dae", "c.dae").exit_code == 0
     assert found[0].parameter_values(None).tolist() == [3.0]
+
+
+def test_an_open_dae_is_written_and_loaded(run, tmp_path):
+    assert run("--set", "rate=3", "--dae", "c.dae").exit_code == 0
+    assert acausal.load_dae("c.dae").parameter_values(None).tolist() == [3.0]

@@ -20,7 +20,8 @@ MAY = {
     "result": BASE | {"language", "flatten"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "core", "compiler", "result"},
     "simulation": BASE | {"language", "flatten", "compiler", "result", "solve"},
-    "export": BASE | {"language", "flatten", "core", "compiler", "result", "solve", "simulation"},
+    "export": BASE
+    | {"language", "flatten", "structure", "reduce", "core", "compiler", "result", "solve", "simulation"},
     "study": BASE | {"language", "flatten", "compiler", "result", "simulation"},
     "cli": BASE | {"", "language", "flatten", "reduce", "compiler", "result", "solve", "simulation", "study", "export"},
 }

@@ -8,6 +8,8 @@
 enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
 enum { TOLERANCE, MOST };
 
+#define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
+
 static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
@@ -32,47 +34,63 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
         if (failed) return failed;
         const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards, NULL};
         value[k] = kind != SETTING ? from[kind][place] : place == TOLERANCE ? i->now.tolerance : i->now.most;
-        if (kind == INDICATOR) value[k] += i->truth[place] ? -ac_width(i, place) : ac_width(i, place);
+        if (kind == INDICATOR) value[k] += (i->truth[place] > 0 ? -HYSTERESIS : HYSTERESIS) * ac_width(i, place);
     }
     return AC_OK;
 }
 
-static int32_t set_setting(ac_instance *i, int32_t place, double value) {
-    const int good = place == TOLERANCE ? value > 0 && value < 1 : value >= 1 && isfinite(value);
-    if (!good) return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
-    *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value;
-    return AC_OK;
-}
+/* Whether a setting may have a value. */
+static int fits(int32_t place, double value) { return place == TOLERANCE ? value > 0 && value < 1 : value >= 1; }
 
-int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
+/* Entry of p behind a reference that may be set now, -1 for a setting, the time or a state itself; -2 where it may not, and why. */
+static int32_t entry_of(ac_instance *i, uint32_t reference) {
     const ac_unit *u = i->of;
     const int starting = i->now.phase <= AC_INITIALISING, exchanges = i->now.phase == AC_RUNNING && !i->now.simulates;
+    int32_t place;
+    const int32_t kind = kind_of(i, reference, &place);
+    if ((kind == SETTING && starting) || ((kind == TIME || kind == STATE) && exchanges)) return -1;
+    const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
+    const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
+    const int open = role == AC_INPUT || role == AC_TUNABLE
+        || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
+    if (open) return entry;
+    ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
+        : "this variable cannot be set, or not now.");
+    return -2;
+}
+
+/* Set all or nothing. */
+int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value) {
+    const size_t size = (size_t)i->of->parts.model.equations.np * sizeof *i->p;
+    int32_t place;
     for (size_t k = 0; k < count; k++) {
-        int32_t place;
-        const int32_t kind = kind_of(i, reference[k], &place);
         if (!isfinite(value[k])) return ac_fail(i, AC_REFUSED, "a value is no finite number.");
-        if (kind == SETTING && starting) {
-            if (set_setting(i, place, value[k])) return AC_REFUSED;
-            continue;
+        if (entry_of(i, reference[k]) == -2) return AC_REFUSED;
+        if (kind_of(i, reference[k], &place) == SETTING && !fits(place, value[k])) {
+            return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
         }
-        if (exchanges && (kind == TIME || kind == STATE)) {
+    }
+    int changed = 0;
+    if (size) memcpy(i->other, i->p, size);
+    for (size_t k = 0; k < count; k++) {
+        const int32_t entry = entry_of(i, reference[k]);
+        const int32_t kind = kind_of(i, reference[k], &place);
+        if (entry < 0 && kind != SETTING) {
             *(kind == TIME ? &i->now.time : i->x + place) = value[k];
             ac_moved(i);
-            continue;
+        } else if (kind == SETTING) {
+            *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value[k];
+        } else if (i->p[entry] != value[k]) {
+            i->p[entry] = value[k];
+            changed = 1;
         }
-        const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
-        const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
-        const int open = role == AC_INPUT || role == AC_TUNABLE
-            || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
-        if (!open) {
-            return ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
-                : "this variable cannot be set, or not now.");
-        }
-        if (i->p[entry] == value[k]) continue;
-        i->p[entry] = value[k];
-        ac_changed(i);
     }
-    return AC_OK;
+    if (!changed) return AC_OK;
+    ac_changed(i);
+    if (i->now.phase <= AC_INITIALISING || !ac_within_limits(i)) return AC_OK;
+    memcpy(i->p, i->other, size);
+    ac_changed(i);
+    return AC_REFUSED;
 }
 
 /* Slopes of inputs by time, from the present on; a value that is set later is that of its time. */

@@ -2,6 +2,7 @@
 #include "instance.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define FIRST 0.0625    /* of the way: the first step */
@@ -98,8 +99,27 @@ static int fitting(ac_instance *i) {
     return same;
 }
 
+/* Whether parameters are within their limits. */
+int32_t ac_within_limits(ac_instance *i) {
+    const ac_tape *t = &i->of->tape[AC_LIMITS];
+    const double *w = ac_run(i, AC_LIMITS), *bound = i->of->bound;
+    const char *name = i->of->limited;
+    for (int32_t k = 0; k < t->outputs; k++, bound += 2) {
+        const double value = w[t->output[k]];
+        if (bound[1] > 0 ? !(value > bound[0]) : !(value >= bound[0])) {
+            char text[200];
+            const char *how = bound[1] > 0 ? "greater than" : "at least";
+            snprintf(text, sizeof text, "`%.120s` is %g; it must be %s %g.", name, value, how, bound[0]);
+            return ac_fail(i, AC_REFUSED, text);
+        }
+        while (*name++) {}
+    }
+    return AC_OK;
+}
+
 int32_t ac_initial(ac_instance *i) {
     if (i->now.known & AC_FIRST) return AC_OK;
+    if (ac_within_limits(i)) return AC_REFUSED;
     const ac_unit *u = i->of;
     double *p = i->dw; /* the wanted ones, while i->p is on the way */
     const double time = i->now.time;

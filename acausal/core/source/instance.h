@@ -9,7 +9,7 @@
 #include "unit.h"
 
 /* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
-enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_TAPES };
+enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
 /* Square systems; their inputs are p, c, x, z, t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
 /* What an entry of p is. */
@@ -47,6 +47,8 @@ struct ac_unit {
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
     const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
+    const double *bound;                    /* (limits, 2): least value of each, and 1 where it has to be above that */
+    const char *limited;                    /* their names, each with a 0 at its end */
     double span, tolerance;
     const char *token;
     double file[];
@@ -107,6 +109,7 @@ void ac_along(ac_instance *i, const ac_tape *tape, const double *w, const double
 int32_t ac_indicator_rates(ac_instance *i, double *rate);       /* conditions have to be known */
 int32_t ac_close(ac_instance *i, const double *held);
 int32_t ac_initial(ac_instance *i);
+int32_t ac_within_limits(ac_instance *i);                       /* of parameters */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
 void ac_renew_inputs(ac_instance *i);
 double ac_next_instant(ac_instance *i, double *between);

@@ -9,12 +9,12 @@
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
-    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, NOMINAL, NATURAL, TOKEN, SECTIONS
+    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, BOUNDS, LIMITED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
-    "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords",
-    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "nominal", "natural", "token",
+    "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits",
+    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "bounds", "limited", "nominal", "natural", "token",
 };
 
 const char *ac_unit_why(int32_t why) {
@@ -61,7 +61,7 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
     const int32_t outputs[AC_TAPES] = {
-        u->switches + u->discretes, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1,
+        u->switches + u->discretes, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1, -1,
     };
     for (int k = 0; k < AC_TAPES; k++) {
         if (!ac_read_tape(found[TAPES + k], inputs, 0, varying, &u->tape[k])) return 0;
@@ -129,6 +129,17 @@ static int read_closing(const ac_section *found, ac_unit *u) {
     return !level.left && ac_within(u->coordinate, u->tape[AC_COORDINATES].outputs, nx);
 }
 
+/* Bounds of what follows from parameters, with a name for each. */
+static int read_limits(const ac_section *found, ac_unit *u) {
+    ac_section bound = found[BOUNDS], names = found[LIMITED];
+    const int32_t count = u->tape[AC_LIMITS].outputs;
+    size_t ends = 0;
+    u->bound = ac_take(&bound, 2 * (int64_t)count, sizeof *u->bound);
+    u->limited = (const char *)names.at;
+    for (size_t k = 0; k < names.left; k++) ends += !names.at[k];
+    return u->bound && !bound.left && names.at && ends == (size_t)count && (count ? !names.at[names.left - 1] : !names.left);
+}
+
 static int read_numbers(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     ac_section nominal = found[NOMINAL], natural = found[NATURAL], token = found[TOKEN];
@@ -143,7 +154,8 @@ static int read_numbers(const ac_section *found, ac_unit *u) {
 
 static int read_all(const ac_section *found, ac_unit *u) {
     return ac_read_parts(found, &u->parts) && !u->parts.model.equations.powers && read_layout(found, u) && read_tapes(found, u)
-        && read_squares(found, u) && read_rules(found, u) && read_closing(found, u) && read_numbers(found, u);
+        && read_squares(found, u) && read_rules(found, u) && read_closing(found, u)
+        && read_limits(found, u) && read_numbers(found, u);
 }
 
 /* Read a unit; NULL where the bytes are none, and why. */

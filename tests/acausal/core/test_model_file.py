@@ -16,7 +16,7 @@ import pytest
 from acausal.core import End, StoredModel, library
 from acausal.core.build.compiling import CORE, own_compiler
 from acausal.core.model_file import VERSION, framed
-from acausal.core.tape import _KINDS
+from acausal.core.tape import KINDS
 from models import SCENES
 from tests.acausal.core.stored import SANITIZED, SPANS, driver, integrated, replayed, sanitizes, scene, written
 
@@ -155,7 +155,7 @@ def wrong(m: StoredModel) -> dict[str, StoredModel]:
     e, t = m.equations, m.equations.values
     results = t.size - len(t.first)
     return {
-        "operation": tape(m, kinds=changed(t.kinds, 0, len(_KINDS))),
+        "operation": tape(m, kinds=changed(t.kinds, 0, len(KINDS))),
         "negative operation": tape(m, kinds=changed(t.kinds, -1, -1)),
         "argument of its own": tape(m, first=changed(t.first, -1, t.size - 1)),
         "second argument beyond": tape(m, second=changed(t.second, 0, results)),
@@ -200,4 +200,4 @@ def test_numbers_of_operations_stay():
     assert enum
     assert re.findall(r"AC_(\w+),", enum[1]) == OPERATIONS.split()
     names = {"IF": "IF_ELSE_ZERO"}
-    assert list(_KINDS) == [getattr(ca, f"OP_{names.get(name, name)}") for name in OPERATIONS.split()]
+    assert list(KINDS) == [getattr(ca, f"OP_{names.get(name, name)}") for name in OPERATIONS.split()]

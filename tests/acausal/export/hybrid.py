@@ -15,6 +15,7 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from acausal import Model, Scalar, der, discrete, input, output, parameter, piecewise, reinit, time, variable, when
 from acausal.export import export_fmu
+from models import FourBar
 
 
 class Ball(Model):
@@ -54,6 +55,17 @@ class Hybrid(Model):
         yield self.tau * der(self.x) == 2 * self.held + self.wanted - self.x - load
         yield self.y == piecewise((0.9, self.x > 0.9), (self.x, self.x > -0.3), -0.3)
         yield when(time >= self.due, reinit(self.held, self.wanted - self.x), reinit(self.due, self.due + self.step))
+
+
+class Struck(FourBar):
+    """A four-bar whose crank is struck where the coupler joint turns back: all rates of the loop jump."""
+
+    stop_time = 1.5
+
+    def equations(self):
+        yield from super().equations()
+        yield when(self.j1.phi < -2, reinit(self.j1.w, 0.5 * self.j1.w))
+        yield when(time > 0.8, reinit(self.j1.w, self.j1.w + 2))
 
 
 def exported(model: Any, path: Path, version: int, **options: Any) -> Path:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,9 @@ from fmpy.validation import validate_fmu
 
 import acausal as ac
 import models
-from tests.acausal.export.hybrid import Ball, Hybrid, exported, opened, simulated
+from tests.acausal.export.hybrid import Ball, Hybrid, Struck, exported, opened, simulated
+from tests.acausal.solve.events.test_friction import Block as Block
+from tests.benchmarks.events.scenes import Drive, SampledPendulum, StickSlip
 
 # Stop times within which a converged run is quick.
 SCENES: dict[str, tuple[Any, float]] = {
@@ -33,14 +35,30 @@ SCENES: dict[str, tuple[Any, float]] = {
     "four-bar-spatial": (models.FourBarSpatial(), 2.0),
     "ball": (Ball(), 1.9),
     "hybrid": (Hybrid(wanted=0.4), 2.0),
+    "struck": (Struck(), 1.5),
+    "stiction": (Block(), 6.0),
+    "stick-slip": (StickSlip(), 3.0),
+    "drive": (Drive(), 2.0),
+    "sampled": (SampledPendulum(), 1.0),
 }
-SOLVED_BY_CVODE = ("simple-pendulum", "slider-crank", "squeezer", "bricard", "governor", "four-bar", "ball", "hybrid")
+SOLVED_BY_CVODE = (
+    *("simple-pendulum", "slider-crank", "squeezer", "bricard", "governor", "four-bar", "ball", "hybrid", "struck"),
+    *("stiction", "stick-slip", "drive", "sampled"),
+)
 
 
-def columns(result: ac.Result) -> dict[str, np.ndarray]:
-    """Outputs of a run, entry by entry, as importers name them."""
+def each_in_turn(scenes: Iterable[str]) -> list[Any]:
+    """Each scene with one version, and with the other one among the slow tests."""
+    found: list[Any] = []
+    for k, scene in enumerate(scenes):
+        found += [(scene, 2 + k % 2), pytest.param(scene, 3 - k % 2, marks=pytest.mark.slow)]
+    return found
+
+
+def columns(result: ac.Result, names: tuple[str, ...] = ()) -> dict[str, np.ndarray]:
+    """Outputs of a run, or other variables, entry by entry, as importers name them."""
     found = {}
-    for name in result.outputs:
+    for name in names or result.outputs:
         value = result[name]
         for index in np.ndindex(value.shape[1:]):
             key = f"{name}[{','.join(map(str, index))}]" if index else name
@@ -53,29 +71,34 @@ def error(found: Any, exact: dict[str, np.ndarray]) -> float:
     return max(float(np.max(np.abs(found[k] - v)) / (np.ptp(v) or 1.0)) for k, v in exact.items())
 
 
-@pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(("scene", "version"), each_in_turn(SCENES))
 def test_co_simulation_is_as_exact_as_simulate(scene: str, version: int, tmp_path: Path) -> None:
     model, stop = SCENES[scene]
     compiled = ac.compile(model)
     path = exported(compiled, tmp_path / "a.fmu", version)
     assert validate_fmu(str(path)) == []
     given = {"stop_time": stop, "intervals": 40}
-    exact = columns(ac.simulate(compiled, tolerance=1e-10 if stop > 0.1 else 1e-8, method="idas", **given))
-    own = error(columns(ac.simulate(compiled, tolerance=1e-5, **given)), exact)
-    found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-5)
+    names = compiled.outputs or compiled.states
+    tolerance = 1e-10 if stop > 0.1 else 1e-8
+    exact = columns(ac.simulate(compiled, tolerance=tolerance, method="idas", **given), names)
+    own = error(columns(ac.simulate(compiled, tolerance=1e-5, **given), names), exact)
+    found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-5, output=list(exact))
     assert len(found) == 41
     assert error(found, exact) <= 2 * own + 1e-8
 
 
-@pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize("scene", SOLVED_BY_CVODE)
+@pytest.mark.parametrize(("scene", "version"), each_in_turn(SOLVED_BY_CVODE))
 def test_model_exchange(scene: str, version: int, tmp_path: Path) -> None:
     model, stop = SCENES[scene]
     compiled = ac.compile(model)
     path = exported(compiled, tmp_path / "a.fmu", version)
-    exact = columns(ac.simulate(compiled, tolerance=1e-9, method="idas", stop_time=stop, intervals=40))
-    loose, tight = (error(simulated(path, "ModelExchange", stop, relative_tolerance=t), exact) for t in (1e-4, 1e-7))
+    names = compiled.outputs or compiled.states
+    exact = columns(ac.simulate(compiled, tolerance=1e-9, method="idas", stop_time=stop, intervals=40), names)
+    runs = (
+        simulated(path, "ModelExchange", stop, relative_tolerance=tolerance, output=list(exact))
+        for tolerance in (1e-4, 1e-7)
+    )
+    loose, tight = (error(run, exact) for run in runs)
     assert tight < 1e-4
     assert tight < loose or loose < 1e-6
 
@@ -232,3 +255,14 @@ def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
             simulated(path, kind, 10.0, 400)
         before = simulated(path, kind, 0.7, 28)
         assert before["b0_y"][-1] < 0.15
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_limits_of_parameters(version: int, tmp_path: Path) -> None:
+    path = exported(ac.compile(models.FourBar()), tmp_path / "a.fmu", version)
+    lines: list[str] = []
+    with pytest.raises(Exception, match=r"[Ee]rror"):
+        simulated(
+            path, "CoSimulation", 0.1, start_values={"damper.d": -1.0}, logger=lambda *a: lines.append(str(a[-1]))
+        )
+    assert any("`damper.d` is -1; it must be at least 0" in line for line in map(str, lines)), lines

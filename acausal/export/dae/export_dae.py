@@ -1,0 +1,112 @@
+"""Export a model as an open DAE: its equations for whoever reads them, and for `load_dae`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.compiler import CompiledModel, ready
+from acausal.compiler.requirements import Stated, statements
+from acausal.errors import ExportError
+from acausal.export.dae import archive, tree
+from acausal.export.dae.base_modelica import base_modelica
+from acausal.export.dae.expressions import NAMES, Writer
+from acausal.export.dae.plain import encoded
+from acausal.export.dae.shown import shown
+from acausal.language.arguments import fitting
+from acausal.language.component import Component
+from acausal.language.functions import feedback, initial, time
+from acausal.language.validity import Expectation, Separation
+from acausal.locks import alone
+from acausal.result import check_writable
+from acausal.simulation.settings import declared_settings
+
+# Symbols that all models share.
+SHARED = {"time": time, "initial": initial, "feedback": feedback}
+
+
+@fitting
+@alone
+def export_dae(
+    model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
+) -> None:
+    """Write the equations of a model as an open DAE, an archive that `load_dae` and other programs read.
+
+    It holds variables, parameters and equations with names, units and origins in JSON, all expressions as lists of
+    operations, and the model in Base Modelica; docs/open-dae.md describes it.
+
+    Parameters
+    ----------
+    model : Component or CompiledModel
+        The model.
+    path : str or Path
+        File that is written, whole or not at all.
+    parameters : mapping of str to value, optional
+        Values by path that the model has in the file.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be written, or the model holds something that the file cannot.
+    """
+    check_writable(path)
+    compiled, p = ready(model, parameters)
+    writer = Writer()
+    kept, unchecked = _stated(compiled)
+    values = tree.evaluated(compiled.tree)
+    inside = {
+        "model": encoded(compiled.reduced, writer.add),
+        "values": encoded(p, writer.add),
+        "tree": tree.written(compiled.tree, values, kept, writer.add),
+        "settings": {name: encoded(value, writer.add) for name, value in declared_settings(compiled).items()},
+    }
+    described = shown(compiled, p, values, writer.add)
+    operations, symbols = writer.operations()
+    hashes = [s.element_hash() for s in symbols]
+    places = {name: expr.sx.element_hash() for name, expr in SHARED.items()}
+    first = {
+        "acausal": version("acausal"),
+        "model": type(compiled.tree).__name__,
+        "description": (type(compiled.tree).__doc__ or "").strip().partition("\n")[0],
+        **described,
+        "unchecked": unchecked,
+        "operations": list(NAMES),
+        "symbols": operations.symbols,
+        "shared": {name: hashes.index(h) if h in hashes else None for name, h in places.items()},
+        "expressions": operations.shapes,
+    }
+    members = {
+        "model.json": archive.as_json(inside),
+        "model.mo": _modelica(compiled, p).encode(),
+        "constants": operations.constants.tobytes(),
+        "operations": operations.operations.tobytes(),
+        "places": operations.places.tobytes(),
+    }
+    archive.write(path, first, members)
+
+
+def _modelica(compiled: CompiledModel, p: np.ndarray) -> str:
+    """Return the model in Base Modelica, or a comment where it cannot say what the model does."""
+    try:
+        return base_modelica(compiled, p)
+    except ExportError as error:
+        return f"// There is no Base Modelica of this model: {error}\n"
+
+
+def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
+    """Return what components state, and of which requirements only the subject is kept: functions need the classes."""
+    kept: list[Stated] = []
+    unchecked: list[str] = []
+    for statement, origin in compiled.requirements.stated:
+        if callable(statement.problem):
+            unchecked.append(getattr(statement.subject, "name", "") or origin.path)
+            kept.append((replace(statement, problem=""), origin))
+        else:
+            kept.append((statement, origin))
+    kept += statements(compiled.tree, "validity", (Expectation, Separation))
+    return kept, unchecked

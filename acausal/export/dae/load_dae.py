@@ -1,0 +1,85 @@
+"""Read an open DAE: a compiled model, without the classes that made it."""
+
+from __future__ import annotations
+
+import time as clock
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.export.dae import archive, tree
+from acausal.export.dae.export_dae import SHARED
+from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
+from acausal.export.dae.plain import decoded
+from acausal.language.arguments import fitting
+from acausal.language.component import Component
+from acausal.locks import alone
+from acausal.reduce import ReducedModel
+from acausal.result import document
+
+
+@fitting
+@alone
+def load_dae(path: str | Path) -> CompiledModel:
+    """Read a model that `export_dae` wrote; its classes are not needed.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    CompiledModel
+        It simulates as the model that was written; sizes and effects, which need the classes, are fixed.
+
+    Raises
+    ------
+    DeclarationError
+        If the file cannot be read, is foreign, of another version, cut or damaged.
+    """
+    begun = clock.perf_counter()
+    first, members = archive.read(path)
+    try:
+        reduced, settings = _read(first, members)
+        compiled = CompiledModel(reduced, {}, None, declared=settings)
+        compiled.parameter_values(None)
+    except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError):
+        # The checksums fit: what is wrong was written so.
+        archive.refuse(path, "its content contradicts itself, so that it was not written by export_dae")
+    compiled.seconds["load"] = clock.perf_counter() - begun
+    return compiled
+
+
+def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedModel, dict[str, Any]]:
+    if tuple(first["operations"]) != NAMES:
+        raise ValueError("the operations are others")
+    inside = document(members["model.json"].decode())
+    expressions = _expressions(first, members)
+
+    def decode(said: Any) -> Any:
+        return decoded(said, expressions, more)
+
+    more: dict[str, dict[str, Any]] = {"FlatEquations": {"givers": lambda row: ()}}
+    root = tree.read(inside["tree"], decode)
+    if not isinstance(root, Component):
+        raise ValueError("there is no model")
+    more["FlatModel"] = {"tree": root}
+    reduced = decode(inside["model"])
+    reduced.flat.parameters.values[:] = decode(inside["values"])
+    return reduced, {name: decode(said) for name, said in inside["settings"].items()}
+
+
+def _expressions(first: dict[str, Any], members: dict[str, bytes]) -> Reader:
+    shared = {place: SHARED[name].sx for name, place in first["shared"].items() if place is not None}
+    given = Operations(
+        np.frombuffer(members["constants"], FLOAT),
+        list(first["symbols"]),
+        np.frombuffer(members["operations"], INT).reshape(-1, 3),
+        np.frombuffer(members["places"], INT),
+        first["expressions"],
+    )
+    return Reader(given, lambda place, name: shared[place] if place in shared else ca.SX.sym(name))

@@ -1,0 +1,164 @@
+"""What a model consists of as JSON and back: by lists of fields, each class by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.errors import ExportError
+from acausal.flatten.discontinuities import Guard, Jump, Promise
+from acausal.flatten.flat_model import (
+    FlatClosure,
+    FlatDiscontinuities,
+    FlatEquations,
+    FlatLoops,
+    FlatModel,
+    FlatParameters,
+    FlatUnknowns,
+    Initial,
+    Loop,
+)
+from acausal.flatten.origin import Origin
+from acausal.language import fields as f
+from acausal.language.condition import Condition, Joined
+from acausal.language.expression import Expr
+from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.reduce import ReducedModel
+from acausal.reduce.constrain import Projections
+from acausal.structure import Plan
+from acausal.structure.block import Block
+from acausal.structure.constraints import Constrained, Constraint, Projection
+from acausal.structure.system import System
+from acausal.units import BASES, Dimension
+
+# What is left out has no meaning without the classes of a model: `givers`, which explains models that cannot be compiled;
+# `tree`, which is written by itself.
+FIELDS: dict[type, str] = {
+    Origin: "path kind where text",
+    Initial: "residual text origin",
+    FlatClosure: "row dual loop statement",
+    Loop: "a b where parts constraints dropped undetermined kind",
+    FlatUnknowns: "symbols names derivative declared preference nominal sized units start guessed eliminated",
+    FlatEquations: "residuals origins defines initial redundant",
+    FlatParameters: "symbols names values weighing limits bound structural_zeros",
+    FlatDiscontinuities: "switches guards discretes continuous promises",
+    FlatLoops: "cuts closures",
+    FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
+    Guard: "condition origin jumps at_start",
+    Jump: "target value discrete",
+    Promise: "excess step value inclusive origin",
+    Plan: "system differentiated created states blocks algebraic residuals assigned observed constrained",
+    System: "rows explicit derivative declared defines preference monic closures",
+    Block: "equations variables",
+    Constrained: "constraints projections reached following",
+    Constraint: "base rows multipliers top",
+    Projection: "coordinate rate state state_rate multipliers",
+    Projections: "constraints choice coordinates states following moves",
+    ReducedModel: "flat plan unknowns names x z ode alg definitions projections continuous residuals",
+    Condition: "excess kind",
+    Joined: "a b every",
+    Expr: "sx unit name shape",
+    Requirement: "subject problem",
+    Expectation: "part whole share text",
+    Separation: "offset rate effect text",
+    f.Parameter: "description minimum positive",
+    f.InitialValue: "value fixed",
+}
+_CLASS = {cls.__name__: cls for cls in FIELDS}
+_FILES = {Origin: "where", Loop: "where"}
+
+
+def encoded(value: Any, add: Callable[[ca.SX | ca.DM], int]) -> Any:
+    """Return what JSON can say of a value.
+
+    Parameters
+    ----------
+    value : object
+        Numbers, text, containers, arrays, expressions, units and the classes of `FIELDS`.
+    add : callable
+        From an expression to its number.
+    """
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, np.bool_ | np.integer | np.floating):
+        value = value.item()
+    if isinstance(value, int):
+        return int(value)
+    if isinstance(value, float):
+        return value if np.isfinite(value) else {"number": repr(value)}
+    if isinstance(value, ca.SX | ca.DM):  # of nothing CasADi makes a column of numbers
+        return {"expression": add(value)}
+    if isinstance(value, np.ndarray) and value.ndim == 1:
+        return {"array": value.dtype.kind, "entries": [encoded(v, add) for v in value.tolist()]}
+    if isinstance(value, tuple):
+        return [encoded(v, add) for v in value]
+    if isinstance(value, list):
+        return {"list": [encoded(v, add) for v in value]}
+    if isinstance(value, frozenset):
+        return {"set": sorted(value)}
+    if isinstance(value, Mapping):
+        return {"pairs": [[encoded(k, add), encoded(v, add)] for k, v in value.items()]}
+    if isinstance(value, Dimension):
+        return {"unit": [int(e) if e == int(e) else str(e) for e in value.exponents]}
+    if type(value) not in FIELDS:
+        raise ExportError(f"an open DAE cannot hold what the model contains here: {value!r}.")
+    found = {name: encoded(getattr(value, name), add) for name in FIELDS[type(value)].split()}
+    if type(value) in _FILES:
+        found["where"] = without_folder(found["where"])
+    return {"is": type(value).__name__, **found}
+
+
+def decoded(said: Any, expressions: Any, more: Mapping[str, dict[str, Any]]) -> Any:
+    """Return what JSON said.
+
+    Parameters
+    ----------
+    said : object
+        From `encoded`.
+    expressions : Reader
+        Expressions by their numbers.
+    more : mapping of str to dict
+        Fields by the name of their class that are not said.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError
+        If it says something else.
+    """
+
+    def again(inner: Any) -> Any:
+        return decoded(inner, expressions, more)
+
+    if isinstance(said, list):
+        return tuple([again(v) for v in said])
+    if not isinstance(said, dict):
+        return said
+    if "is" in said:
+        cls = _CLASS[said["is"]]
+        found = {name: again(said[name]) for name in FIELDS[cls].split()}
+        return cls(**found, **more.get(said["is"], {}))
+    if "expression" in said:
+        return expressions[said["expression"]]
+    if "number" in said:
+        return float(said["number"])
+    if "array" in said:
+        return np.array([again(v) for v in said["entries"]], dtype={"f": float, "b": bool, "i": int}[said["array"]])
+    if "list" in said:
+        return [again(v) for v in said["list"]]
+    if "set" in said:
+        return frozenset(said["set"])
+    if "pairs" in said:
+        return {again(k): again(v) for k, v in said["pairs"]}
+    exponents = [Fraction(e) if isinstance(e, str) else int(e) for e in said["unit"]]
+    if len(exponents) != len(BASES):
+        raise ValueError("a unit is none")
+    return Dimension(*exponents)
+
+
+def without_folder(where: str) -> str:
+    """Return a place in a file without the folders of the machine on which it was written."""
+    return where.replace("\\", "/").rpartition("/")[2]
