@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from acausal.compiler import CompiledModel, compile, ready
 from acausal.core.model_file import framed
