@@ -19,6 +19,7 @@ from acausal.result.files import whole
 TIME = (1980, 1, 1, 0, 0, 0)
 READABLE = 0o644 << 16
 UNIX = 3
+LICENSED = "The library and its sources; the model has its own author.\n\n"
 
 
 def source_names() -> tuple[str, ...]:
@@ -78,6 +79,7 @@ def _contents(description: Description, model: bytes, fmi_version: int, librarie
         "modelDescription.xml": (fmi2 if fmi_version == 2 else fmi3).describe(description),
         "resources/model.bin": model,
         "documentation/index.html": page(description, fmi_version, list(libraries)),
+        "documentation/licenses/license.txt": LICENSED.encode() + (SOURCE / "LICENSE").read_bytes(),
     }
     for folder, name in libraries.items():
         library = file_of(name)

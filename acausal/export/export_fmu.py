@@ -22,8 +22,9 @@ from acausal.export.content import VERSION, Content
 from acausal.export.description import Description, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
-from acausal.export.table import Table
+from acausal.export.table import TIME, Table
 from acausal.language.component import Component
+from acausal.language.functions import time
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.settings import settled
@@ -140,11 +141,11 @@ def _expressions(content: Content, table: Table, references: Sequence[int]) -> d
 def _dependencies(
     content: Content, table: Table, outputs: Sequence[int], indicators: Sequence[int]
 ) -> dict[int, tuple[int, ...]]:
-    """On which states and inputs rates, outputs and indicators depend."""
+    """On which states and inputs, and whether on the time, rates, outputs and indicators depend."""
     r = content.problem.compiled.reduced
     inputs = [k for k, _ in content.given.inputs]
-    knowns = ca.vertcat(r.x, picked(content.given.symbols, inputs))
-    references = [*table.states, *(table.parameters + k for k in inputs)]
+    knowns = ca.vertcat(time.sx, r.x, picked(content.given.symbols, inputs))
+    references = [TIME, *table.states, *(table.parameters + k for k in inputs)]
     reach = Reach(content.running[1], r.z, knowns)
     found = _expressions(content, table, [*outputs, *table.rates, *indicators])
     return {k: tuple(references[j] for j in reach(e)) for k, e in found.items()}

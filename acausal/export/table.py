@@ -23,6 +23,7 @@ SETTINGS = (
 )
 # Of `solver.most_steps`, as in the library.
 MOST_STEPS = 1e6
+TIME = 0  # its reference
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,7 @@ class Table:
         return tuple(found)
 
     def _of_clock(self) -> Iterator[Variable]:
-        yield Variable("time", 0, "independent", "continuous", None, "s", None, "time")
+        yield Variable("time", TIME, "independent", "continuous", None, "s", None, "time")
 
     def _of_given(self, seen: list[Seen]) -> Iterator[Variable]:
         own = self.compiled.reduced.flat.parameters

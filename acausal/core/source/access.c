@@ -42,20 +42,20 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
 /* Whether a setting may have a value. */
 static int fits(int32_t place, double value) { return place == TOLERANCE ? value > 0 && value < 1 : value >= 1; }
 
-/* Entry of p behind a reference that may be set now, -1 for a setting; -2 where it may not, and why. */
+/* Entry of p behind a reference that may be set now, -1 for a setting, the time or a state itself; -2 where it may not, and why. */
 static int32_t entry_of(ac_instance *i, uint32_t reference) {
     const ac_unit *u = i->of;
-    const int starting = i->now.phase <= AC_INITIALISING;
+    const int starting = i->now.phase <= AC_INITIALISING, exchanges = i->now.phase == AC_RUNNING && !i->now.simulates;
     int32_t place;
     const int32_t kind = kind_of(i, reference, &place);
-    if (kind == SETTING && starting) return -1;
+    if ((kind == SETTING && starting) || ((kind == TIME || kind == STATE) && exchanges)) return -1;
     const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
     const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
-    const int open = role == AC_INPUT || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting)
-        || (role == AC_TUNABLE && (i->now.phase != AC_RUNNING || i->now.simulates));
+    const int open = role == AC_INPUT || role == AC_TUNABLE
+        || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
     if (open) return entry;
     ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
-        : role == AC_TUNABLE ? "a tunable parameter is set at events." : "this variable cannot be set, or not now.");
+        : "this variable cannot be set, or not now.");
     return -2;
 }
 
@@ -74,7 +74,11 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
     if (size) memcpy(i->other, i->p, size);
     for (size_t k = 0; k < count; k++) {
         const int32_t entry = entry_of(i, reference[k]);
-        if (kind_of(i, reference[k], &place) == SETTING) {
+        const int32_t kind = kind_of(i, reference[k], &place);
+        if (entry < 0 && kind != SETTING) {
+            *(kind == TIME ? &i->now.time : i->x + place) = value[k];
+            ac_moved(i);
+        } else if (kind == SETTING) {
             *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value[k];
         } else if (i->p[entry] != value[k]) {
             i->p[entry] = value[k];
@@ -204,11 +208,11 @@ int32_t ac_get_indicators(ac_instance *i, double *value) {
     return read_all(i, (uint32_t)first, u->watched, value);
 }
 
-/* Columns of the derivatives: the states, or entries of p that a caller may change. */
-static double *known_of(ac_instance *i, uint32_t reference, double *dx, double *dp) {
+/* Columns of the derivatives: the time, the states, or entries of p that a caller may change. */
+static double *known_of(ac_instance *i, uint32_t reference, double *dt, double *dx, double *dp) {
     int32_t place;
     const int32_t kind = kind_of(i, reference, &place);
-    return kind == STATE ? dx + place : kind == GIVEN ? dp + place : NULL;
+    return kind == TIME ? dt : kind == STATE ? dx + place : kind == GIVEN ? dp + place : NULL;
 }
 
 /* Rows: where the derivative of an unknown stands. */
@@ -218,10 +222,11 @@ static double *unknown_of(ac_instance *i, uint32_t reference, double *of[3]) {
     return kind == RATE ? of[0] + place : kind == VARIABLE ? of[1] + place : kind == INDICATOR ? of[2] + place : NULL;
 }
 
-int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dx, double *dp, const double *seed, double *found) {
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
+                double *found) {
     for (size_t k = 0; k < count; k++) {
-        double *at = known_of(i, known[k], dx, dp);
-        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are by states, inputs and parameters.");
+        double *at = known_of(i, known[k], dt, dx, dp);
+        if (!at) return ac_fail(i, AC_REFUSED, "derivatives are by the time, states, inputs and parameters.");
         if (seed) *at += seed[k];
         if (found) found[k] = *at;
     }

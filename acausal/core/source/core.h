@@ -5,6 +5,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* A product and a sum are rounded each, whatever the options of whoever compiles: results are the same everywhere. */
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+
 #if defined(_WIN32)
 #define AC_PUBLIC __declspec(dllexport)
 #else

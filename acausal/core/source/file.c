@@ -41,7 +41,7 @@ int32_t ac_file_outside(const unsigned char *bytes, size_t length, uint32_t vers
 }
 
 /* Find the sections: each known, none twice, zeros up to the next multiple of 8, nothing after the last one. */
-int ac_file_split(const unsigned char *at, size_t length, const char (*tag)[8], int tags, ac_section *found) {
+int ac_file_split(const unsigned char *at, size_t length, const char (*tag)[AC_TAG + 1], int tags, ac_section *found) {
     uint32_t count;
     memcpy(&count, at + 12, sizeof count);
     size_t left = length - HEADER - TRAILER;
@@ -52,7 +52,7 @@ int ac_file_split(const unsigned char *at, size_t length, const char (*tag)[8], 
         int k = 0;
         if (left < TITLE) return 0;
         memcpy(&size, at + 8, sizeof size);
-        while (k < tags && memcmp(at, tag[k], sizeof tag[k]) != 0) k++;
+        while (k < tags && memcmp(at, tag[k], AC_TAG) != 0) k++;
         if (k == tags || found[k].at || size > left - TITLE) return 0;
         found[k] = (ac_section){at + TITLE, (size_t)size};
         const size_t used = TITLE + (((size_t)size + 7) & ~(size_t)7);

@@ -4,6 +4,8 @@
 
 #include "core.h"
 
+#define AC_TAG 8 /* letters that name a section */
+
 /* What is left of a section. */
 typedef struct {
     const unsigned char *at;
@@ -20,7 +22,7 @@ typedef struct {
 } ac_model_parts;
 
 int32_t ac_file_outside(const unsigned char *bytes, size_t length, uint32_t version);
-int ac_file_split(const unsigned char *at, size_t length, const char (*tag)[8], int tags, ac_section *found);
+int ac_file_split(const unsigned char *at, size_t length, const char (*tag)[AC_TAG + 1], int tags, ac_section *found);
 const void *ac_take(ac_section *s, int64_t count, size_t size);
 int ac_within(const int32_t *number, int32_t count, int64_t limit);
 int ac_all_finite(const double *number, int32_t count);

@@ -6,7 +6,7 @@
 
 #define VERSION 1
 
-static const char TAG[AC_SECTIONS][8] = {"numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names"};
+static const char TAG[AC_SECTIONS][AC_TAG + 1] = {"numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names"};
 
 /* A model in one piece of memory, with the file that its arrays stand in. */
 typedef struct {

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dx, double *dp, const double *seed, double *found);
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
+                double *found);
 int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 
 static void put(double *to, const double *from, int32_t count) {
@@ -95,23 +96,23 @@ static double *make(const ac_instance *i, double **dx, double **dp, double **dz,
 
 int32_t ac_forward(ac_instance *i, const uint32_t *unknown, size_t unknowns, const uint32_t *known, size_t knowns,
                    const double *seed, double *sensitivity) {
-    double *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
+    double dt = 0, *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
     int32_t failed = all ? ac_know(i, AC_RATE | AC_SHOW | AC_GUARD) : ac_fail(i, AC_FAILED, "there is not enough memory.");
-    if (!failed) failed = ac_seed(i, known, knowns, dx, dp, seed, NULL);
-    if (!failed) failed = ac_slopes(i, dx, 0, dp, dz);
+    if (!failed) failed = ac_seed(i, known, knowns, &dt, dx, dp, seed, NULL);
+    if (!failed) failed = ac_slopes(i, dx, dt, dp, dz);
     for (int32_t kind = 0; kind < 3 && !failed; kind++) {
         const double *w;
         const ac_tape *tape = tape_of(i, kind, &w);
-        ac_along(i, tape, w, dx, dz, 0, dp, of[kind]);
+        ac_along(i, tape, w, dx, dz, dt, dp, of[kind]);
     }
     if (!failed) failed = ac_pick(i, unknown, unknowns, of, NULL, sensitivity);
     free(all);
     return failed;
 }
 
-/* Weights of the outputs of a tape, taken back to x, z and p. */
-static void back(ac_instance *i, const ac_tape *t, const double *w, const double *weight, int32_t count, double *dx, double *dz,
-                 double *dp) {
+/* Weights of the outputs of a tape, taken back to t, x, z and p. */
+static void back(ac_instance *i, const ac_tape *t, const double *w, const double *weight, int32_t count, double *dt, double *dx,
+                 double *dz, double *dp) {
     const ac_equations *e = &i->of->parts.model.equations;
     memset(i->dw, 0, ((size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1) * sizeof *i->dw);
     for (int32_t k = 0; k < count; k++) i->dw[t->output[k]] += weight[k];
@@ -119,6 +120,7 @@ static void back(ac_instance *i, const ac_tape *t, const double *w, const double
     const double *input = i->dw + t->constants;
     for (int32_t k = 0; k < e->nx; k++) dx[k] += input[k];
     for (int32_t k = 0; k < e->nz; k++) dz[k] += input[e->nx + k];
+    *dt += input[e->nx + e->nz];
     for (int32_t k = 0; k < e->np; k++) dp[k] += input[e->nx + e->nz + 1 + k];
 }
 
@@ -126,7 +128,7 @@ int32_t ac_backward(ac_instance *i, const uint32_t *unknown, size_t unknowns, co
                     const double *seed, double *sensitivity) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
-    double *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
+    double dt = 0, *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
     int32_t failed = all ? ac_know(i, AC_RATE | AC_SHOW | AC_GUARD) : ac_fail(i, AC_FAILED, "there is not enough memory.");
     if (!failed) failed = ac_pick(i, unknown, unknowns, of, seed, NULL);
     if (!failed) failed = linearise(i);
@@ -135,7 +137,7 @@ int32_t ac_backward(ac_instance *i, const uint32_t *unknown, size_t unknowns, co
         for (int32_t kind = 0; kind < 3; kind++) {
             const double *w;
             const ac_tape *tape = tape_of(i, kind, &w);
-            back(i, tape, w, of[kind], count[kind], dx, dz, dp);
+            back(i, tape, w, of[kind], count[kind], &dt, dx, dz, dp);
         }
         ac_settler *s = i->settler[AC_ALGEBRAIC];
         const ac_tape *t = s->of.tape;
@@ -146,7 +148,8 @@ int32_t ac_backward(ac_instance *i, const uint32_t *unknown, size_t unknowns, co
         const double *input = i->dw + t->constants;
         for (int32_t k = 0; k < e->np; k++) dp[k] += input[k];
         for (int32_t k = 0; k < e->nx; k++) dx[k] += input[e->np + e->nc + k];
-        failed = ac_seed(i, known, knowns, dx, dp, NULL, sensitivity);
+        dt += input[e->np + e->nc + e->nx + e->nz];
+        failed = ac_seed(i, known, knowns, &dt, dx, dp, NULL, sensitivity);
     }
     free(all);
     return failed;

@@ -11,7 +11,7 @@ enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
     RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, BOUNDS, LIMITED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
-static const char TAG[SECTIONS][8] = {
+static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits",
     "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "bounds", "limited", "nominal", "natural", "token",

@@ -30,8 +30,8 @@ double ac_time(const ac_instance *i);
 int32_t ac_states(const ac_instance *i);           /* how many */
 int32_t ac_indicators(const ac_instance *i);
 int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *value);
-/* Settable are: before the end of the initialisation all parameters, starts, settings and inputs; at events and between them
-   in Co-Simulation tunable parameters and inputs; between events in Model Exchange inputs. */
+/* Settable are: before the end of the initialisation all parameters, starts, settings and inputs; then tunable parameters and
+   inputs; between events in Model Exchange the time and states, too, as CasADi evaluates at any point through this alone. */
 int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const double *value);
 int32_t ac_set_slopes(ac_instance *i, const uint32_t *reference, size_t count, const double *slope); /* of inputs, by time */
 
@@ -61,7 +61,7 @@ int32_t ac_completed(ac_instance *i);              /* the present ends a step th
 /* Co-Simulation: from the present time towards another; with `early`, back at the first event, at *reached. */
 int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event);
 
-/* Directional derivatives: of unknowns (rates, variables, indicators) along a seed of knowns (states, inputs, parameters), and
+/* Directional derivatives: of unknowns (rates, variables, indicators) along a seed of knowns (time, states, inputs, parameters), and
    the transpose. */
 int32_t ac_forward(ac_instance *i, const uint32_t *unknown, size_t unknowns, const uint32_t *known, size_t knowns,
                    const double *seed, double *sensitivity);

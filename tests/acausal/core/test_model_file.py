@@ -105,6 +105,27 @@ def test_damaged_files_are_refused_and_never_believed(name, changes, made, tmp_p
     assert 0 < int(done.stdout) < 0.9 * changes
 
 
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("simple-pendulum", 5_000),
+        pytest.param("simple-pendulum", 500_000, marks=pytest.mark.slow),
+        pytest.param("ball", 200_000, marks=pytest.mark.slow),
+        pytest.param("hybrid", 200_000, marks=pytest.mark.slow),
+        pytest.param("car-axis", 5_000, marks=pytest.mark.slow),
+    ],
+)
+def test_damaged_files_of_exported_models_are_refused_and_never_believed(name, changes, made, tmp_path):
+    pytest.importorskip("fmpy")
+    from tests.acausal.export.importing import unit
+
+    file = unit(name, 3, tmp_path).resources / "model.bin"
+    command = [str(made("damage.c", sanitized=True)), str(file), str(changes)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert 0 < int(done.stdout) < 0.9 * changes
+
+
 def test_what_is_no_whole_file_is_told():
     content = scene("simple-pendulum").content
     assert why(content) == READ

@@ -1,4 +1,4 @@
-"""Files of all scenes, replayed for other machines by emulators, against the library of this one."""
+"""Files of all scenes, replayed and imported for other machines by emulators, against this one."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acausal.core.build.compiling import PLATFORMS, ziglang
+from acausal.core.build.compiling import PLATFORMS, own_compiler, ziglang
 from models import SCENES
 from tests.acausal.core.stored import SPANS, driver, integrated, replayed, scene, written
+from tests.acausal.export.importing import RUNS, SIMULATION, imported
 
 pytestmark = pytest.mark.slow
 WINE = "/usr/lib/wine"  # where Debian puts it
@@ -29,22 +30,19 @@ MACHINES = {
 
 @pytest.fixture(scope="session")
 def command(tmp_path_factory):
-    """Compile the driver for a machine once, and say how it runs."""
+    """Compile a driver for a machine once, and say how it runs."""
     folder = tmp_path_factory.mktemp("machines")
 
     @cache
-    def make(machine: str) -> list[str]:
+    def make(machine: str, source: str = "replay.c") -> list[str]:
         compiler, options, emulator = MACHINES[machine]
         runs = shutil.which(emulator, path=f"{os.environ['PATH']}{os.pathsep}{WINE}")
         if not compiler or not shutil.which(compiler[0]) or not runs:
             pytest.skip(f"there is no compiler for {machine}, or no {emulator}")
         # Without a folder of its own wine writes to that of the user.
         quiet = ["env", f"WINEPREFIX={folder / 'wine'}", "WINEDEBUG=-all"] if emulator == "wine64" else []
-        return [
-            *quiet,
-            runs,
-            str(driver("replay.c", folder / f"{list(MACHINES).index(machine)}.exe", compiler, *options)),
-        ]
+        made = folder / f"{Path(source).stem}{list(MACHINES).index(machine)}.exe"
+        return [*quiet, runs, str(driver(source, made, compiler, *options))]
 
     return make
 
@@ -76,3 +74,20 @@ def test_a_scene_elsewhere(machine: str, name: str, command, tmp_path: Path):
     different = apart(own.states, found.states)
     if np.any(different >= WANTED):
         assert np.all(different < np.maximum(WANTED, 2 * by_last_bits(name, request)))
+
+
+@pytest.fixture(scope="session")
+def own(tmp_path_factory) -> list[str]:
+    """The importer for this machine."""
+    return [str(driver("importer.c", tmp_path_factory.mktemp("own") / "importer", own_compiler()))]
+
+
+@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("machine", MACHINES)
+def test_an_exported_model_elsewhere(machine: str, name: str, command, own: list[str], tmp_path: Path) -> None:
+    elsewhere = command(machine, "importer.c")
+    for version in (2, 3):
+        here, there = (imported(c, name, SIMULATION, version, tmp_path, part=0.1)[:, 1:] for c in (own, elsewhere))
+        different = apart(here, there)
+        if np.any(different >= WANTED):
+            assert np.all(different < np.maximum(WANTED, 2 * by_last_bits(name, (SPANS[name] / 10, 200, 1e-6))))

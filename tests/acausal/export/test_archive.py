@@ -6,6 +6,7 @@ import os
 import re
 import zipfile
 from dataclasses import replace
+from pathlib import Path
 from xml.etree.ElementTree import fromstring
 
 import pytest
@@ -15,6 +16,7 @@ from acausal.errors import ExportError
 from acausal.export import Variable, archive, check_fmu, platforms, source_names, write_fmu
 from tests.acausal.export.made import EMPTY, SPRING, altered
 
+ROOT = Path(__file__).parents[3]
 MODEL = b"model" * 100
 ALL = {
     2: ["aarch64-linux", "darwin64", "linux64", "win64"],
@@ -53,6 +55,7 @@ def test_what_is_inside(built, tmp_path, fmi_version, folder):
         [
             f"binaries/{folder}/Spring_mass.so",
             "documentation/index.html",
+            "documentation/licenses/license.txt",
             "modelDescription.xml",
             "resources/model.bin",
             *sources,
@@ -60,6 +63,7 @@ def test_what_is_inside(built, tmp_path, fmi_version, folder):
         ]
     )
     assert files["resources/model.bin"] == MODEL
+    assert files["documentation/licenses/license.txt"].endswith((ROOT / "LICENSE").read_bytes())
     assert files[f"binaries/{folder}/Spring_mass.so"].startswith(b"linux-x86_64\0")
     assert all(files[name] == (SOURCE / name.partition("/")[2]).read_bytes() for name in sources)
     assert fromstring(files["modelDescription.xml"]).get("fmiVersion") == f"{fmi_version}.0"
