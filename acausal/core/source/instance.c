@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SHORTEST 0.004 /* part of the way to a point: nearer, two solutions meet */
 #define MOST_STEPS 1e6 /* of one call, unless the setting says otherwise */
 
 static size_t length(const ac_tape *t) { return (size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1; }
@@ -31,7 +32,7 @@ static size_t lay_out(ac_instance *i, double *at) {
         size_t size;
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
-        {&i->crossed, watched}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->crossed, watched}, {&i->sure, n}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, length(e->values)},
         {&i->step_y, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->order, 3 * n + 1},
     };
@@ -122,7 +123,7 @@ void ac_moved(ac_instance *i) { i->now.known = 0; }
 
 /* Parameters or constants changed. */
 void ac_changed(ac_instance *i) {
-    i->now.known = 0, i->now.integrates = 0, i->now.curved = 0;
+    i->now.known = 0, i->now.integrates = 0, i->now.curved = 0, i->now.sure = 0;
     i->prepared = 0;
 }
 
@@ -167,13 +168,40 @@ int32_t ac_solve(ac_instance *i, int32_t square) {
     return AC_OK;
 }
 
+/* Solve for the algebraic unknowns along the way from the last point where that was done: importers may jump far. */
+static int32_t follow(ac_instance *i) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const double time = i->now.time, *x = i->sure;
+    double *to = i->order, *z = to + e->nx, s = 0;
+    if (!i->now.sure) return AC_RETRY;
+    put(to, i->x, e->nx);
+    put(i->z, i->sure + e->nx, e->nz);
+    int32_t failed = AC_OK;
+    for (double step = 0.5; s < 1 && step >= SHORTEST;) {
+        const double next = fmin(s + step, 1);
+        put(z, i->z, e->nz);
+        for (int32_t k = 0; k < e->nx; k++) i->x[k] = next < 1 ? x[k] + next * (to[k] - x[k]) : to[k];
+        i->now.time = next < 1 ? i->now.sure_time + next * (time - i->now.sure_time) : time;
+        failed = ac_solve(i, AC_ALGEBRAIC);
+        if (failed) put(i->z, z, e->nz);
+        s = failed ? s : next;
+        step *= failed ? 0.5 : 2;
+    }
+    put(i->x, to, e->nx);
+    i->now.time = time;
+    return failed;
+}
+
 /* Find what is asked for. */
 int32_t ac_know(ac_instance *i, int32_t what) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     if (!(i->now.known & AC_Z)) {
-        if (ac_solve(i, AC_ALGEBRAIC)) return ac_fail(i, AC_RETRY, "the equations have no solution here.");
+        if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, "the equations have no solution here.");
         i->now.known |= AC_Z;
+        put(i->sure, i->x, e->nx);
+        put(i->sure + e->nx, i->z, e->nz);
+        i->now.sure = 1, i->now.sure_time = i->now.time;
     }
     if (what & ~i->now.known & AC_RATE) {
         evaluate(i, e->values, i->values, 1 << AC_TAPES);

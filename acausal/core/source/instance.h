@@ -59,10 +59,12 @@ typedef struct {
     double time, stop, tolerance, most;    /* stop: nan where none is known; most: steps of one call */
     double from, to, first_step, end;      /* the last step of the integration, the next one to try, where it ends */
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
+    double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
     double crowd;                          /* since when events follow one another closely */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     int32_t refused, unsolved, crowded;    /* as in the integrator; events of the crowd */
+    int32_t sure;                          /* whether there is such a point, with these parameters */
 } ac_now;
 
 /* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start. */
@@ -75,6 +77,7 @@ struct ac_instance {
     size_t kept;                            /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
     double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
+    double *sure;                           /* x and z of the last point at which z was solved for */
     double *rate, *shown, *guards, *work, *other, *flips; /* work, other: as long as any of x, z, p, c together and more */
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
@@ -82,7 +85,7 @@ struct ac_instance {
     double *step_y, step_time, *looks;      /* a step as the integrator writes it; conditions and rates while events are looked for */
     double ends[2];                         /* of the integration */
     int32_t going;                          /* whether the integrator is where the last step ended */
-    double *order;                          /* of pivots, while they are copied */
+    double *order;                          /* of pivots, while they are copied; x and z on the way to a point */
     int32_t prepared;                       /* tapes whose early runs are done */
     double *block;
     char message[256];

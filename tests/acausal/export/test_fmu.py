@@ -266,3 +266,19 @@ def test_limits_of_parameters(version: int, tmp_path: Path) -> None:
             path, "CoSimulation", 0.1, start_values={"damper.d": -1.0}, logger=lambda *a: lines.append(str(a[-1]))
         )
     assert any("`damper.d` is -1; it must be at least 0" in line for line in map(str, lines)), lines
+
+
+def test_importers_may_jump_far(tmp_path: Path) -> None:
+    compiled = ac.compile(models.FourBar())
+    path = exported(compiled, tmp_path / "a.fmu", 3)
+    result = ac.simulate(compiled, tolerance=1e-9, stop_time=3.0, intervals=15)
+    with started(path, "ModelExchange") as (fmu, description):
+        fmu.updateDiscreteStates()
+        fmu.enterContinuousTimeMode()
+        states = [d.variable.derivative.name for d in description.derivatives]
+        outputs = [o.variable.valueReference for o in description.outputs]
+        for k in (0, 7, 15, 4, 11):
+            x = np.ascontiguousarray([result[name.removeprefix("integrated.")][k] for name in states])
+            fmu.setTime(float(result.time[k]))
+            fmu.setContinuousStates(np.ctypeslib.as_ctypes(x), len(x))
+            assert fmu.getFloat64(outputs)[0] == pytest.approx(result["j1_phi"][k], abs=1e-12)
