@@ -31,7 +31,9 @@ from tests.shared import compiled
         ("another", "is of model {"),
     ],
 )
-def test_no_instance_of_a_damaged_model(damage: str, why: str, kind: str, version: int, tmp_path: Path) -> None:
+def test_no_instance_of_a_damaged_model(
+    damage: str, why: str, kind: str, version: int, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     folder = Path(fmpy.extract(str(exported(compiled(models.SimplePendulum), tmp_path / "a.fmu", version))))
     other = Path(fmpy.extract(str(exported(Ball(), tmp_path / "b.fmu", version))))
     file = folder / "resources/model.bin"
@@ -45,15 +47,9 @@ def test_no_instance_of_a_damaged_model(damage: str, why: str, kind: str, versio
         file.write_bytes(
             {"empty": b"", "text": b"text", "cut": content[:-8], "changed": changed, "another": foreign}[damage]
         )
-    told: list[str] = []
     description = fmpy.read_model_description(str(folder))
     with pytest.raises(Exception, match=r"[Ii]nstantiate"):
-        instantiate_fmu(
-            str(folder),
-            description,
-            fmi_type=kind,
-            logger=lambda *given: told.append(" ".join(str(g) for g in given)),
-        )
-    assert why in " ".join(told)
+        instantiate_fmu(str(folder), description, fmi_type=kind)
+    assert why in capfd.readouterr().out
     shutil.rmtree(folder)
     shutil.rmtree(other)
