@@ -52,6 +52,7 @@ class RequestData(Structure):
         ("size", c_void_p),
         ("rate", c_void_p),
         ("smooth", c_int32),
+        ("largest", c_int32),
         ("most", c_int64),
         ("outputs", c_int32),
         *((name, c_void_p) for name in ("time", "x", "z", "integral")),

@@ -168,6 +168,7 @@ class Rodas:
         first_step: float = 0.0,
         rate: np.ndarray | None = None,
         smooth: bool = False,
+        largest: bool = False,
         most: int = 2**62,
         room: int = 0,
         curves: bool = False,
@@ -190,6 +191,8 @@ class Rodas:
             Whether a state is the rate of another one; the first step resolves how these change.
         smooth : bool, optional
             Whether the error of rates leaves out vibrations that a step does not resolve.
+        largest : bool, optional
+            Whether the largest error of a state counts, not their root mean square.
         most : int, optional
             Steps between two outputs.
         room : int, optional
@@ -211,7 +214,8 @@ class Rodas:
         places = map(_address, (times, *written))
         kept = map(_address, self._steps)
         request = RequestData(
-            tolerance, first_step, _address(size), _address(chosen), smooth, most, n, *places, room, *kept
+            *(tolerance, first_step, _address(size), _address(chosen), smooth, largest, most, n),
+            *(*places, room, *kept),
         )
         # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)

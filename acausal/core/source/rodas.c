@@ -98,14 +98,16 @@ void ac_rodas_move(ac_rodas *r, const double *x, const double *z) {
     r->stale = 1;
 }
 
-/* Root mean square of changes of the states over tolerance (size + |x|). */
+/* Changes of the states over tolerance (size + |x|): their root mean square, or the largest. */
 static double norm(const ac_rodas *r, const double *change) {
-    double sum = 0;
+    double sum = 0, largest = 0;
     for (int32_t k = 0; k < r->of.nx; k++) {
         const double most = fmax(fabs(r->y[k]), fabs(r->next[k]));
-        const double part = change[k] / (r->request.tolerance * (r->request.size[k] + most));
+        const double part = fabs(change[k]) / (r->request.tolerance * (r->request.size[k] + most));
         sum += part * part;
+        if (!(part <= largest)) largest = part;
     }
+    if (r->request.largest) return largest;
     return r->of.nx ? sqrt(sum / r->of.nx) : 0;
 }
 

@@ -44,6 +44,7 @@ class ByCore(Integration):
             first_step=min(request.first_step, request.span) or first_step(request) * request.span,
             rate=are_rates(problem),
             smooth=not damps,
+            largest=damps,
             room=POLICY.calls.steps if self._keeps else 0,
             curves=request.curves,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,

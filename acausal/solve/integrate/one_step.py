@@ -2,7 +2,7 @@
 
 Where it damps, it sees rates only as far as they change coordinates: their size in the error test is that of the
 coordinate times the fastest eigenvalue that oscillates. Vibrations too small to be seen in the coordinates are then
-damped instead of followed.
+damped instead of followed. The largest error of any state counts there: so few of them move that a mean hides it.
 """
 
 from __future__ import annotations

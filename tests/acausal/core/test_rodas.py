@@ -190,6 +190,23 @@ def test_errors_of_rates_leave_out_what_steps_do_not_resolve():
     assert large[1].x[-1, 2] == pytest.approx(0.1 * np.cos(1e3), abs=1e-2)
 
 
+@pytest.mark.parametrize("largest", [False, True])
+def test_the_largest_error_counts_whatever_rests_beside_it(largest):
+    def found(resting: int) -> Found:
+        e = equations(lambda x, z, t, p: ca.vertcat(x[1], -x[0], ca.SX.zeros(resting)), nx=2 + resting)
+        x, size = np.zeros(2 + resting), np.ones(2 + resting)
+        x[0] = 1.0
+        given = x, np.zeros(0), np.zeros(1), np.zeros(0)
+        options = {"size": size, "tolerance": 1e-6, "first_step": 1e-2, "largest": largest}
+        return integrated(Rodas(e), np.array([0, 20.0]), *given, **options)
+
+    alone, beside = found(0), found(200)
+    if largest:
+        np.testing.assert_array_equal(beside.x[:, :2], alone.x)
+    else:
+        assert beside.progress.steps < 0.8 * alone.progress.steps
+
+
 def test_steps_between_two_outputs_are_limited():
     whole = vibration(1e-4)
     found = vibration(1e-4, most=20)
