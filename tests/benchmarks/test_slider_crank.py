@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+import acausal as ac
+import models
 from tests.benchmarks import loop_closing, slider_crank, slider_crank_sizes
+from tests.benchmarks.slider_crank_by_hand import build
+from tests.benchmarks.slider_crank_methods import INTERVALS, STOP, Method, simulate
 
 
 @pytest.fixture(scope="module")
@@ -19,6 +24,17 @@ def test_compiled_agrees_with_the_hand(own):
     assert cost.own[1] < 1e-2
     assert abs(cost.dissipated) < 2e-3
     assert slider_crank.accuracy_table([cost]).row_count == 1
+
+
+@pytest.mark.slow
+def test_what_follows_vibrations_converges_to_the_motion_derived_by_hand():
+    result = ac.simulate(models.SliderCrank(), stop_time=STOP, intervals=INTERVALS, tolerance=1e-9)
+    assert not result.stats["damped"]
+    ours = np.array([result[name] for name in result.outputs])
+    hand = (simulate(build(), Method("rosenbrock", tolerance, velocities=1.0)).outputs for tolerance in (1e-5, 1e-6))
+    errors = [np.max(np.abs(other - ours).max(axis=1) / np.ptp(ours, axis=1)) for other in hand]
+    assert errors[1] < 1e-4
+    assert errors[1] < errors[0] / 5
 
 
 def test_sizes():
