@@ -146,12 +146,16 @@ def summary(result: Result) -> str:
 
 
 def _small(stats: Statistics, series: list[Series]) -> list[str]:
-    """Name the outputs that are so small that mostly the absolute part of the tolerance applies."""
+    """Name the outputs that are so small that mostly the absolute part of the tolerance applies.
+
+    What is a rounding error of another output of the same unit is 0, as the rate of a direction in which nothing moves.
+    """
     lines = []
     for s in series[:FINAL_VALUES]:
         size = stats.sizes.get(str(parse(s.unit or "1")), 0.0)
         usual = float(np.median(np.abs(s.values)))
-        if 0 < usual < SMALL * size:
+        largest = max(float(np.max(np.abs(other.values))) for other in series if other.unit == s.unit)
+        if np.finfo(float).eps * largest < usual < SMALL * size:
             lines.append(
                 f"  {s.name} is about {usual:.2g}, but the tolerance is absolute below {size:g} {s.unit}: for more digits take a "
                 "smaller tolerance, or give its states a nominal value"

@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from acausal.cli.output import modes_table, plain, write_json
+import acausal as ac
+from acausal import Model, Scalar, der, output, parameter, variable
+from acausal.cli.output import modes_table, plain, summary, write_json
 from acausal.cli.values import read_settings
 from acausal.errors import DeclarationError
 
@@ -75,3 +77,19 @@ def test_json_on_standard_output():
 def test_modes_table():
     table = modes_table(np.array([-0.5, -1 - 10j, -1 + 10j]))
     assert [line.split() for line in table.splitlines()[1:]] == [["-0.5"], ["-1", "±", "10i", "1.59155", "0.0995"]]
+
+
+def test_small_outputs_are_named_but_not_rounding_errors():
+    class Decay(Model):
+        rate: Scalar = parameter("rate", unit="1/s", default=1)
+        s = variable("lengths", shape=(3,), unit="m", start=(1, 1e-7, 1e-18), fixed=True)
+        x, y, z = (output(f"length {k}", unit="m") for k in range(3))
+
+        def equations(self):
+            yield der(self.s) == -self.rate * self.s
+            yield self.s == (self.x, self.y, self.z)
+
+    text = summary(ac.simulate(Decay(), stop_time=1.0))
+    assert "y is about" in text
+    assert "x is about" not in text
+    assert "z is about" not in text
