@@ -86,5 +86,8 @@ class Call:
 
     @property
     def stats(self) -> dict:
-        """Return the statistics of the last evaluation."""
-        return self.buffer.stats()
+        """Return the statistics of the last evaluation, none where it was interrupted before it began."""
+        try:
+            return self.buffer.stats()
+        except RuntimeError:
+            return {}
