@@ -52,7 +52,7 @@ static int32_t entry_of(ac_instance *i, uint32_t reference) {
     const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
     const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
     const int open = role == AC_INPUT || role == AC_TUNABLE
-        || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
+        || ((role == AC_FIXED || (role == AC_STARTS && kind == STATE)) && starting);
     if (open) return entry;
     ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
         : "this variable cannot be set, or not now.");

@@ -13,7 +13,7 @@ enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING
 /* Square systems; their inputs are p, c, x, z, t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
 /* What an entry of p is. */
-enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTING, AC_INNER };
+enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTS, AC_INNER };
 
 /* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on. */
 typedef struct {
@@ -99,6 +99,7 @@ typedef struct {
 
 #define AC_FLAT_TEXT "closed loops pass a flat position: two ways lead on from there, and rounding would choose one."
 
+void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: nothing */
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
 void ac_restart(ac_instance *i);
 void ac_moved(ac_instance *i);
@@ -106,15 +107,19 @@ void ac_changed(ac_instance *i);
 const double *ac_run(ac_instance *i, int32_t tape);             /* evaluate at the present; its array */
 int32_t ac_solve(ac_instance *i, int32_t square);               /* from the present values on */
 int32_t ac_know(ac_instance *i, int32_t what);
-int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp, double *dz);
-void ac_along(ac_instance *i, const ac_tape *tape, const double *w, const double *dx, const double *dz, double dt,
-              const double *dp, double *found);
-int32_t ac_indicator_rates(ac_instance *i, double *rate);       /* conditions have to be known */
+int32_t ac_indicator_rates(ac_instance *i);                     /* conditions and their rates, all in `guards` */
+/* Add seeds to changes, and read changes, by references: of what is known, dt, dx and dp; of unknowns, those in `of`. */
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
+                double *found);
+int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 int32_t ac_close(ac_instance *i, const double *held);
+int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
+const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);
 int32_t ac_initial(ac_instance *i);
 int32_t ac_within_limits(ac_instance *i);                       /* of parameters */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
 void ac_renew_inputs(ac_instance *i);
+double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);

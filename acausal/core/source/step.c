@@ -10,9 +10,6 @@
 #define AHEAD 100       /* spans of a run: where no stop time is known */
 #define CROWDED 1e-9    /* of a run: within that time ... */
 #define MOST_CROWDED 100 /* ... so many events are chattering */
-#define NEAR 1e-12      /* of the time: no room for an integration */
-
-static double near(const ac_instance *i) { return NEAR * fmax(fabs(i->now.time), i->of->span); }
 
 /* States and guesses of algebraic unknowns at a time within the last step; see `outputs.c`. */
 static void stand(ac_instance *i, double time) {
@@ -85,7 +82,7 @@ static int32_t advance(ac_instance *i, double *left) {
 static int32_t look(ac_instance *i, double time, double *value, double *rate) {
     const int32_t n = i->of->watched;
     stand(i, time);
-    const int32_t failed = ac_indicator_rates(i, i->guards + 2 * n);
+    const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
     memcpy(value, i->guards, (size_t)n * sizeof *value);
     memcpy(rate, i->guards + 2 * n, (size_t)n * sizeof *rate);
@@ -97,7 +94,7 @@ static double beyond(const ac_instance *i, int32_t k, double value) { return i->
 
 /* First time in a part of the step at which a condition has changed, given that it has at its end. */
 static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double level) {
-    for (int tries = 0; tries < HALVINGS && *to - from > near(i) / 4; tries++) {
+    for (int tries = 0; tries < HALVINGS && *to - from > ac_near(i) / 4; tries++) {
         const double middle = from + (*to - from) / 2;
         stand(i, middle);
         const int32_t failed = ac_know(i, AC_GUARD);
@@ -112,7 +109,7 @@ static int32_t dip(ac_instance *i, int32_t k, double from, double to, double *at
     for (int tries = 0; tries < HALVINGS / 3; tries++) {
         *at = from + (to - from) / 2;
         stand(i, *at);
-        const int32_t failed = ac_indicator_rates(i, i->guards + 2 * i->of->watched);
+        const int32_t failed = ac_indicator_rates(i);
         if (failed) return failed;
         if (beyond(i, k, i->guards[k]) > LEVEL * ac_width(i, k)) return AC_OK;
         *(beyond(i, k, i->guards[2 * i->of->watched + k]) > 0 ? &from : &to) = *at;
@@ -193,7 +190,7 @@ static int32_t refuse_flat(ac_instance *i) {
 static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
     double left = i->now.most;
     int32_t failed = AC_OK;
-    while (!failed && !*event && i->now.time < to - near(i)) {
+    while (!failed && !*event && i->now.time < to - ac_near(i)) {
         const double ahead = i->now.curved ? fmin(i->now.to, i->now.event) : i->now.time;
         if (i->now.time < ahead) {
             if (i->now.event <= to && i->now.event <= i->now.to) {
@@ -203,7 +200,7 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             } else {
                 stand(i, fmin(to, ahead));
             }
-        } else if (i->now.next <= i->now.time + near(i)) {
+        } else if (i->now.next <= i->now.time + ac_near(i)) {
             i->now.time = i->now.next;
             ac_moved(i);
             i->now.integrates = i->now.curved = 0;
@@ -223,7 +220,7 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
     }
     if (!failed && !*event) {
         i->now.time = to;
-        if (i->now.next <= to + near(i)) {
+        if (i->now.next <= to + ac_near(i)) {
             if (early) *event = 1;
             else failed = act(i);
         }
