@@ -30,9 +30,9 @@ static size_t lay_out(ac_instance *i, double *at) {
         size_t size;
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
-        {&i->crossed, watched}, {&i->sure, n}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
-        {&i->step_y, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->order, 3 * n + 1},
+        {&i->step_y, n}, {&i->order, 3 * n + 1},
     };
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         if (at) *part[k].to = at + used;

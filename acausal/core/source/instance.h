@@ -65,10 +65,11 @@ typedef struct {
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     int32_t refused, unsolved, crowded;    /* as in the integrator; events of the crowd */
     int32_t sure;                          /* whether there is such a point, with these parameters */
+    int32_t looked;                        /* whether conditions and rates at the end of the last step stand in `looks` */
 } ac_now;
 
-/* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start. */
-enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16 };
+/* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start, factors of g_z. */
+enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTORS = 32 };
 #define SETTLED 1e-7 /* change over the size after which the next one would be rounding, as in `Consistent` */
 
 struct ac_instance {
@@ -82,7 +83,8 @@ struct ac_instance {
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
-    double *step_y, step_time, *looks;      /* a step as the integrator writes it; conditions and rates while events are looked for */
+    double *looks;                          /* conditions and their rates at the ends of a part of a step, rates at those of the step */
+    double *step_y, step_time;              /* a step as the integrator writes it */
     double ends[2];                         /* of the integration */
     int32_t going;                          /* whether the integrator is where the last step ended */
     double *order;                          /* of pivots, while they are copied; x and z on the way to a point */

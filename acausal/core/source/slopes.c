@@ -8,6 +8,7 @@
 
 /* Factors of g_z and all values of its tape, at the present; the algebraic unknowns have to be known. */
 static int32_t linearise(ac_instance *i) {
+    if (i->now.known & AC_FACTORS) return AC_OK;
     const ac_equations *e = &i->of->parts.model.equations;
     ac_settler *s = i->settler[AC_ALGEBRAIC];
     const ac_tape *t = s->of.tape;
@@ -19,7 +20,9 @@ static int32_t linearise(ac_instance *i) {
     *input = i->now.time;
     ac_tape_run(t, s->w, 0, t->runs);
     for (int32_t k = e->nz; k < t->outputs; k++) s->step[k] = s->w[t->output[k]];
-    return e->nz && ac_lu_factor(s->lu, s->entries) ? ac_fail(i, AC_RETRY, "the equations have no unique solution here.") : AC_OK;
+    if (e->nz && ac_lu_factor(s->lu, s->entries)) return ac_fail(i, AC_RETRY, "the equations have no unique solution here.");
+    i->now.known |= AC_FACTORS;
+    return AC_OK;
 }
 
 /* Changes of the algebraic unknowns with those of states, time and p; NULL stands for 0. */

@@ -51,6 +51,7 @@ static int32_t begin(ac_instance *i, double to) {
         i->rodas->h = kept;
         i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
     }
+    if (!goes_on) i->now.looked = 0;
     i->now.integrates = 1, i->going = 1;
     i->now.to = i->ends[0];
     return AC_OK;
@@ -79,13 +80,13 @@ static int32_t advance(ac_instance *i, double *left) {
 }
 
 /* Values of the conditions, and their rates, at a time within the step. */
-static int32_t look(ac_instance *i, double time, double *value, double *rate) {
+static int32_t look(ac_instance *i, double time, double *found) {
     const int32_t n = i->of->watched;
     stand(i, time);
     const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
-    memcpy(value, i->guards, (size_t)n * sizeof *value);
-    memcpy(rate, i->guards + 2 * n, (size_t)n * sizeof *rate);
+    ac_put(found, i->guards, n);
+    ac_put(found + n, i->guards + 2 * n, n);
     return AC_OK;
 }
 
@@ -141,12 +142,12 @@ static int32_t locate(ac_instance *i) {
     const int32_t n = i->of->watched;
     double *before = i->looks, *after = i->looks + 2 * n, from = i->now.from;
     if (!n) return AC_OK;
-    int32_t failed = look(i, from, before, before + n);
+    int32_t failed = i->now.looked ? AC_OK : look(i, from, before);
     for (int k = 1; k <= LOOKS && !failed && !isfinite(i->now.event); k++) {
         const double to = k < LOOKS ? i->now.from + k * (i->now.to - i->now.from) / LOOKS : i->now.to;
-        failed = look(i, to, after, after + n);
+        failed = look(i, to, after);
         if (!failed) failed = search(i, from, to, before, after, &i->now.event);
-        memcpy(before, after, 2 * (size_t)n * sizeof *before);
+        ac_put(before, after, 2 * n);
         from = to;
     }
     return failed;
@@ -176,7 +177,8 @@ static int32_t refuse_flat(ac_instance *i) {
     const int32_t nx = ac_states(i);
     double *rates = i->looks + 4 * i->of->watched;
     int32_t failed = AC_OK;
-    for (int end = 0; end < 2 && !failed; end++) {
+    if (i->now.looked) ac_put(rates, rates + nx, nx);
+    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
         stand(i, end ? i->now.to : i->now.from);
         failed = ac_know(i, AC_RATE);
         if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
@@ -215,6 +217,7 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             if (!failed) failed = advance(i, &left);
             if (!failed) failed = refuse_flat(i);
             if (!failed) failed = locate(i);
+            i->now.looked = !failed;
             if (!failed) stand(i, time);
         }
     }
