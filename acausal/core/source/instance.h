@@ -15,6 +15,9 @@ enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
 /* What an entry of p is. */
 enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTS, AC_INNER };
 
+/* What a limit is, and so when it is looked at: of a parameter; required of parameters; of variables at the start. */
+enum { AC_LIMITED, AC_REQUIRED, AC_REQUIRED_AT_START };
+
 /* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on. */
 typedef struct {
     int32_t on, inclusive, at_start, jump, jumps;
@@ -28,6 +31,7 @@ typedef struct {
 
 #define AC_LEVELS 8 /* derivatives of a constraint that hold besides it are fewer */
 #define AC_NUMBERED 11
+#define AC_MESSAGE 1024 /* bytes of a message */
 
 struct ac_unit {
     ac_model_parts parts; /* first */
@@ -46,9 +50,10 @@ struct ac_unit {
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
+    const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
-    const double *bound;                    /* (limits, 2): least value of each, and 1 where it has to be above that */
-    const char *limited;                    /* their names, each with a 0 at its end */
+    const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
+    const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
     double span, tolerance;
     const char *token;
     double file[];
@@ -56,7 +61,8 @@ struct ac_unit {
 
 /* What an instance goes on from, beside its arrays. */
 typedef struct {
-    double time, stop, tolerance, most;    /* stop: nan where none is known; most: steps of one call */
+    double time, stop;                     /* stop: nan where none is known */
+    double tolerance, damping, most;       /* settings; damping: 1 where vibrations are damped; most: steps of one call */
     double from, to, first_step, end;      /* the last step of the integration, the next one to try, where it ends */
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
     double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
@@ -90,7 +96,7 @@ struct ac_instance {
     double *order;                          /* of pivots, while they are copied; x and z on the way to a point */
     int32_t prepared;                       /* tapes whose early runs are done */
     double *block;
-    char message[256];
+    char message[AC_MESSAGE];
 };
 
 /* States and their rates at a time. */
@@ -118,7 +124,7 @@ int32_t ac_close(ac_instance *i, const double *held);
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
 const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);
 int32_t ac_initial(ac_instance *i);
-int32_t ac_within_limits(ac_instance *i);                       /* of parameters */
+int32_t ac_limits(ac_instance *i, int at_start);                /* what is broken: of parameters, or of variables at the start */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
 void ac_renew_inputs(ac_instance *i);
 double ac_near(const ac_instance *i);                           /* times that near are one */

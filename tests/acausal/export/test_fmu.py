@@ -258,6 +258,22 @@ def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("version", [2, 3])
+def test_vibrations_are_damped_where_that_is_set(version: int, tmp_path: Path) -> None:
+    compiled = ac.compile(models.SliderCrank(crank_elements=2, rod_elements=2))
+    path = exported(compiled, tmp_path / "a.fmu", version)
+    given = {"stop_time": 0.9, "intervals": 40}
+    exact = columns(ac.simulate(compiled, tolerance=1e-7, method="resolve", **given))
+    own = error(columns(ac.simulate(compiled, tolerance=1e-4, method="rosenbrock", **given)), exact)
+    few = {"relative_tolerance": 1e-4, "output": list(exact)}
+    steps = {"solver.most_steps": 50}
+    damped = simulated(path, "CoSimulation", 0.9, start_values={"solver.damping": 1, **steps}, **few)
+    assert error(damped, exact) < 2 * own
+    with pytest.raises(Exception, match=r"[Dd]iscard|[Ee]rror"):
+        simulated(path, "CoSimulation", 0.9, start_values=steps, **few)
+    assert error(simulated(path, "CoSimulation", 0.9, **few), exact) < 0.1 * own
+
+
+@pytest.mark.parametrize("version", [2, 3])
 def test_limits_of_parameters(version: int, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = exported(ac.compile(models.FourBar()), tmp_path / "a.fmu", version)
     with pytest.raises(Exception, match=r"[Ee]rror"):
