@@ -216,10 +216,13 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             }
             const double time = i->now.time;
             if (!failed) failed = advance(i, &left);
-            if (!failed) failed = refuse_flat(i);
+            if (failed) continue;
+            failed = refuse_flat(i);
             if (!failed) failed = locate(i);
+            stand(i, time);
             i->now.looked = !failed;
-            if (!failed) stand(i, time);
+            /* A step in which nothing could be looked at is not taken. */
+            if (failed) i->now.integrates = i->now.curved = 0;
         }
     }
     if (!failed && !*event) {
