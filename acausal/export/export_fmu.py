@@ -23,6 +23,7 @@ from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.language.functions import time
 from acausal.locks import alone
@@ -32,6 +33,7 @@ from acausal.solve.problem import Problem
 from acausal.symbols import picked, scalars, stacked
 
 
+@fitting
 @alone
 def export_fmu(
     model: Component | CompiledModel,
@@ -65,7 +67,7 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
-    compiled, p = _freed(model, parameters, tuple(free)) if free else ready(model, parameters)
+    compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
     settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
     span = float(settings["stop_time"] or 1.0)
     tolerance = float(settings["tolerance"] or POLICY.defaults.tolerance)
@@ -114,7 +116,7 @@ def _described(content: Content, table: Table, variables: tuple[Variable, ...], 
 
 
 def _freed(
-    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: tuple[str, ...]
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: Sequence[str]
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model with some parameters in its equations although they are 0."""
     if isinstance(model, Component):
