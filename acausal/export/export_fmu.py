@@ -25,6 +25,7 @@ from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
+from acausal.language.docstring import first_line
 from acausal.language.functions import time
 from acausal.locks import alone
 from acausal.policy import POLICY
@@ -97,7 +98,7 @@ def _described(content: Content, table: Table, variables: tuple[Variable, ...], 
         name=name,
         identifier=re.sub(r"\W", "_", name, flags=re.ASCII),
         token=token,
-        description=(type(compiled.tree).__doc__ or "").strip().partition("\n")[0],
+        description=first_line(type(compiled.tree)),
         version=version("acausal"),
         variables=variables,
         states=table.states,
