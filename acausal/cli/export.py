@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from acausal.cli.app import app
-from acausal.cli.common import Applied, Scene, Set, compile_scene, running
+from acausal.cli.common import Applied, Quiet, Scene, Set, compile_scene, running
 from acausal.cli.output import check_outputs
 from acausal.cli.scenes import file_of, find_scene
 from acausal.errors import DeclarationError
@@ -28,24 +28,27 @@ def export(
     ] = None,
     platforms: Annotated[
         str | None,
-        typer.Option(metavar="all|NAME,...", help="Where it runs; on platforms like this one if not given."),
+        typer.Option(
+            metavar="all|NAME,...",
+            help="Where it runs, such as windows-x86_64; on platforms like this one if not given.",
+        ),
     ] = None,
     free: Annotated[
         list[str] | None,
         typer.Option(metavar="NAME", help="Keep a parameter in the equations although it is 0; may be repeated."),
     ] = None,
     dae: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Write the equations, for `acausal.load_dae` and CasADi.")
+        str | None, typer.Option(metavar="FILE", help="Write the equations, for `acausal.load_dae` and other programs.")
     ] = None,
+    quiet: Quiet = False,
 ) -> None:
     """Write a scene as a file that other tools simulate."""
-    with running():
+    with running(quiet=quiet):
         from acausal.export import check_fmu
 
         version, names = _asked(fmu, dae, fmi_version, platforms, free)
         check_outputs((file_of(scene), effects), fmu=fmu, dae=dae)
-        if fmu is not None:
-            check_fmu(fmu, version, names)
+        enclosed = check_fmu(fmu, version, names) if fmu is not None else {}
         compiled = compile_scene(scene, find_scene(scene), settings, effects)
         if fmu is not None:
             from acausal.export import export_fmu
@@ -55,6 +58,9 @@ def export(
             from acausal.export import export_dae
 
             export_dae(compiled, dae)
+        if not quiet:
+            about = f": FMI {version}.0, for {', '.join(enclosed.values())}" if enclosed else ""
+            typer.echo(f"wrote {shown_name(fmu or dae)}{about}")
 
 
 def _asked(

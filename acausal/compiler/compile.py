@@ -62,6 +62,7 @@ def compile(
         started = now
 
     model, parameters = model_of(model), values_of(parameters)
+    free = (free,) if isinstance(free, str) else tuple(free)
     flat = flatten(model, parameters, free)
     Settable(flat).values(None)  # a length of 0 also breaks the structure: report the cause first
     lap("flatten")
@@ -75,7 +76,7 @@ def compile(
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
     compiled = CompiledModel(
-        reduced, seconds, Source(partial(compile, free=tuple(free)) if free else compile, model, parameters)
+        reduced, seconds, Source(partial(compile, free=free) if free else compile, model, parameters)
     )
     compiled.parameter_values(None)
     _ = (

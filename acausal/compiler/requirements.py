@@ -49,19 +49,24 @@ class Requirements:
         return of_parameters, of_variables
 
     @property
+    def of_parameters(self) -> list[Stated]:
+        """Requirements on parameters alone."""
+        return self._split[0]
+
+    @property
     def at_start(self) -> list[Stated]:
         """Requirements on variables."""
         return self._split[1]
 
     @cached_property
     def _call(self) -> Call:
-        column = stacked([r.sx for r, _ in self._split[0]])
+        column = stacked([r.sx for r, _ in self.of_parameters])
         return Call(ca.Function("requirements", [self.parameters], [ca.densify(column)]))
 
     def check(self, values: np.ndarray) -> None:
         """Raise DeclarationError if parameters break a requirement."""
-        if self._split[0]:
-            refuse(self._split[0], self._call(values)[0], DeclarationError)
+        if self.of_parameters:
+            refuse(self.of_parameters, self._call(values)[0], DeclarationError)
 
 
 def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> list[Stated]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from acausal.core.build.compiling import SOURCE, file_of
@@ -66,11 +66,16 @@ def write_fmu(
     """
     libraries = check_fmu(path, fmi_version, platforms)
     files = _contents(description, model, fmi_version, libraries)
-    with whole(path, "wb") as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name in sorted(files):
+    write_archive(path, dict(sorted(files.items())))
+
+
+def write_archive(path: str | Path, files: Mapping[str, bytes]) -> None:
+    """Write an archive of files by their names, whole or not at all; of the same files it is the same."""
+    with whole(path, "wb") as file, zipfile.ZipFile(file, "w") as archive:
+        for name, content in files.items():
             entry = zipfile.ZipInfo(name, TIME)
             entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, READABLE, UNIX
-            archive.writestr(entry, files[name])
+            archive.writestr(entry, content)
 
 
 def _contents(description: Description, model: bytes, fmi_version: int, libraries: dict[str, str]) -> dict[str, bytes]:

@@ -10,6 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
+from acausal.solve.integrate.order import eigenvalues_of, sizes_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import initial_system
@@ -31,11 +32,14 @@ class Beginning:
         As many as states and algebraic unknowns, in these, parameters, starts, time and constants.
     starts : dict of int to casadi.SX
         States that start at a number that can be changed, and its symbol.
+    vibration : float
+        Size of the largest eigenvalue that oscillates there, in 1/s.
     """
 
     at: Point
     residuals: ca.SX
     starts: dict[int, ca.SX]
+    vibration: float
 
 
 def begin(problem: Problem, time: float, later: float, initial: str) -> Beginning:
@@ -64,7 +68,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
         )
     system = initial_system(problem, at, initial)
     residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
-    return Beginning(_moving(problem, at), residuals, starts)
+    return Beginning(_moving(problem, at), residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
 
 
 def _moving(problem: Problem, at: Point) -> Point:

@@ -13,13 +13,26 @@ from acausal.core import StoredModel, make_equations, make_square, make_tape
 from acausal.core.model_file import floats, ints, tape_bytes
 from acausal.export.beginning import Beginning
 from acausal.export.given import Given
+from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
-from acausal.solve.integrate.one_step import are_rates
+from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
-from acausal.symbols import dense, picked, scalars, stacked, vec
+from acausal.symbols import dense, picked, scalars, stacked
 
-VERSION = 2
+VERSION = 3
+
+
+def watched(compiled: CompiledModel, given: Given) -> list[int]:
+    """Return the guards that are watched: all but those whose instants functions of parameters and constants tell."""
+    guards, symbols = compiled.guards, scalars(given.symbols)
+    inputs = {symbols[k].element_hash() for k, _ in given.inputs}
+    seen = {*guards.watched, *guards.bent}
+    return [
+        k
+        for k in range(len(guards.guards))
+        if k in seen or any(s.element_hash() in inputs for s in ca.symvar(guards.excess[k]))
+    ]
 
 
 @dataclass(frozen=True)
@@ -34,6 +47,8 @@ class Content:
         Where it starts.
     given : Given
         What it is given.
+    watched : list of int
+        Its guards that are event indicators.
     shown : casadi.SX
         Variables that importers read, in x, z, parameters, time and constants.
     span, tolerance : float
@@ -43,6 +58,7 @@ class Content:
     problem: Problem
     beginning: Beginning
     given: Given
+    watched: list[int]
     shown: ca.SX
     span: float
     tolerance: float
@@ -77,25 +93,12 @@ class Content:
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
-            "bounds": floats([k for least, strict in self._bounds[1] for k in (least, strict)]),
-            "limited": b"".join(name.encode() + b"\0" for name in self._bounds[2]),
+            "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
+            "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
+            "damped": floats(sizes(self.problem, self.compiled.nominal, self.beginning.vibration)),
             "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
             "natural": floats(self.compiled.nominal[self.compiled.nx :]),
         }
-
-    @cached_property
-    def watched(self) -> list[int]:
-        """Guards that are watched: all but those whose instants functions of parameters and constants tell."""
-        guards = self.compiled.guards
-        inputs = {scalars(self.given.symbols)[k].element_hash() for k, _ in self.given.inputs}
-        bent = set(guards.bent)
-        return [
-            k
-            for k in range(len(guards.guards))
-            if k in set(guards.watched)
-            or k in bent
-            or any(s.element_hash() in inputs for s in ca.symvar(guards.excess[k]))
-        ]
 
     @property
     def _timed(self) -> list[int]:
@@ -158,21 +161,12 @@ class Content:
             "jumps": self._jumps[0],
             "closing": ca.vertcat(residuals, stacked(J.nz[:].elements()) if J.nnz() else ca.SX(0, 1)),
             "coords": self._coordinates[0],
-            "limits": self._bounds[0],
+            "limits": stacked([limit.value for limit in self._limits]),
         }
 
     @cached_property
-    def _bounds(self) -> tuple[ca.SX, list[tuple[float, float]], list[str]]:
-        """Values that are limited, the least of each and whether it has to be above that, and their names."""
-        values, bounds, names = list[ca.SX](), list[tuple[float, float]](), list[str]()
-        for path, sx, declared in self.compiled.reduced.flat.parameters.limits:
-            column = dense(vec(sx))
-            if not column.is_constant():
-                least = 0.0 if declared.minimum is None else float(declared.minimum)
-                values.append(column)
-                bounds += [(least, float(declared.positive and least <= 0))] * column.numel()
-                names += [path] * column.numel()
-        return stacked(values), bounds, names
+    def _limits(self) -> list[Limit]:
+        return limits(self.compiled)
 
     @property
     def _scale(self) -> ca.SX:

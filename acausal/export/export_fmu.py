@@ -18,12 +18,14 @@ from acausal.core.model_file import framed
 from acausal.errors import ExportError
 from acausal.export.archive import check_fmu, source_names, write_fmu
 from acausal.export.beginning import begin
-from acausal.export.content import VERSION, Content
-from acausal.export.description import Description, is_solved
+from acausal.export.content import VERSION, Content, watched
+from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
+from acausal.language.arguments import fitting
 from acausal.language.component import Component
+from acausal.language.docstring import first_line
 from acausal.language.functions import time
 from acausal.locks import alone
 from acausal.policy import POLICY
@@ -32,6 +34,7 @@ from acausal.solve.problem import Problem
 from acausal.symbols import picked, scalars, stacked
 
 
+@fitting
 @alone
 def export_fmu(
     model: Component | CompiledModel,
@@ -65,7 +68,7 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
-    compiled, p = _freed(model, parameters, tuple(free)) if free else ready(model, parameters)
+    compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
     settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
     span = float(settings["stop_time"] or 1.0)
     tolerance = float(settings["tolerance"] or POLICY.defaults.tolerance)
@@ -73,23 +76,29 @@ def export_fmu(
     breaks = [b for b in compiled.guards.breaks(p)[0].tolist() if 0 < b < span]
     beginning = begin(problem, 0.0, min(breaks, default=span) / 2, settings["initial"])
     known = given(compiled, p, beginning)
-    content = Content(problem, beginning, known, ca.SX(0, 1), span, tolerance)
-    table = Table(compiled, known, beginning, tolerance, content.watched)
+    guards = watched(compiled, known)
+    table = Table(compiled, known, beginning, tolerance, guards)
     variables = table.variables()
-    content = Content(problem, beginning, known, stacked(table.shown), span, tolerance)
+    content = Content(problem, beginning, known, guards, stacked(table.shown), span, tolerance)
     sections = content.sections
     token = _token(framed(VERSION, sections))
+    whole = framed(VERSION, {**sections, "token": token.encode() + b"\0"})
+    write_fmu(path, _described(content, table, variables, token), whole, fmi_version, platforms)
+
+
+def _described(content: Content, table: Table, variables: tuple[Variable, ...], token: str) -> Description:
+    """What importers see of a model."""
+    compiled = content.compiled
     name = type(compiled.tree).__name__
-    exact = {v.reference for v in variables if not is_solved(v)}
-    solved = [v.reference for v in variables if v.reference not in exact]
+    solved = {v.reference for v in variables} - {v.reference for v in variables if not is_solved(v)}
     outputs = tuple(v.reference for v in variables if v.causality == "output")
     first = table.first_shown + len(table.shown)
     indicators = tuple(range(first, first + len(content.watched)))
-    description = Description(
+    return Description(
         name=name,
         identifier=re.sub(r"\W", "_", name, flags=re.ASCII),
         token=token,
-        description=(type(compiled.tree).__doc__ or "").strip().partition("\n")[0],
+        description=first_line(type(compiled.tree)),
         version=version("acausal"),
         variables=variables,
         states=table.states,
@@ -97,20 +106,18 @@ def export_fmu(
         outputs=outputs,
         indicators=indicators,
         dependencies=_dependencies(content, table, outputs, indicators),
-        initial_unknowns=_initial(content, table, solved, set(outputs)),
+        initial_unknowns=_initial(content, table, solved, outputs),
         start_time=0.0,
-        stop_time=span,
-        tolerance=tolerance,
-        step_size=span / POLICY.defaults.intervals,
+        stop_time=content.span,
+        tolerance=content.tolerance,
+        step_size=content.span / POLICY.defaults.intervals,
         completes=bool(compiled.constraints.size),
         sources=source_names(),
     )
-    whole = framed(VERSION, {**sections, "token": token.encode() + b"\0"})
-    write_fmu(path, description, whole, fmi_version, platforms)
 
 
 def _freed(
-    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: tuple[str, ...]
+    model: Component | CompiledModel, parameters: Mapping[str, Any] | None, free: Sequence[str]
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model with some parameters in its equations although they are 0."""
     if isinstance(model, Component):
@@ -151,7 +158,7 @@ def _dependencies(
     return {k: tuple(references[j] for j in reach(e)) for k, e in found.items()}
 
 
-def _initial(content: Content, table: Table, solved: Sequence[int], outputs: set[int]) -> dict[int, tuple[int, ...]]:
+def _initial(content: Content, table: Table, solved: set[int], outputs: Sequence[int]) -> dict[int, tuple[int, ...]]:
     """On what those depend that are solved for at the start."""
     r, own = content.problem.compiled.reduced, content.given
     settable = [k for k, role in enumerate(own.roles) if role is not Role.INNER]
@@ -159,7 +166,7 @@ def _initial(content: Content, table: Table, solved: Sequence[int], outputs: set
     references = [table.states[state_of[k]] if k in state_of else table.parameters + k for k in settable]
     y = ca.vertcat(r.x, r.z)
     reach = Reach(content.moving(content.beginning.residuals), y, picked(own.symbols, settable))
-    wanted = [k for k in solved if k in outputs or k in set(table.rates) or k in set(table.states)]
+    wanted = sorted(solved & {*outputs, *table.rates, *table.states})
     expressions = _expressions(content, table, wanted)
     expressions |= dict(zip(table.states, scalars(r.x), strict=True))
     return {k: tuple(sorted(references[j] for j in reach(expressions[k]))) for k in wanted}

@@ -17,12 +17,16 @@ from acausal.language.functions import time
 from acausal.result.lookup import find, names
 from acausal.symbols import dense, scalars, stacked
 
+# Name, value but for the tolerance, as in the library, and description.
 SETTINGS = (
-    ("solver.tolerance", "relative tolerance of the method inside, in Co-Simulation"),
-    ("solver.most_steps", "most steps of the method inside between two communication points"),
+    ("solver.tolerance", None, "relative tolerance of the method inside, in Co-Simulation"),
+    (
+        "solver.damping",
+        0.0,
+        "1 where the method inside damps vibrations that coordinates do not show, 0 where it follows them",
+    ),
+    ("solver.most_steps", 1e6, "most steps of the method inside between two communication points"),
 )
-# Of `solver.most_steps`, as in the library.
-MOST_STEPS = 1e6
 TIME = 0  # its reference
 
 
@@ -97,9 +101,9 @@ class Table:
             for k in range(len(self.watched))
         ]
         first += len(self.watched)
-        values = (self.tolerance, MOST_STEPS)
-        for k, ((name, text), value) in enumerate(zip(SETTINGS, values, strict=True)):
-            found.append(Variable(name, first + k, "parameter", "fixed", "exact", "", value, text))
+        for k, (name, value, text) in enumerate(SETTINGS):
+            start = self.tolerance if value is None else value
+            found.append(Variable(name, first + k, "parameter", "fixed", "exact", "", start, text))
         return tuple(found)
 
     def _of_clock(self) -> Iterator[Variable]:

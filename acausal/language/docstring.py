@@ -32,6 +32,11 @@ def with_parameters(cls: Any) -> str | None:
     return "\n\n".join([summary, "\n".join(["Parameters", "----------", *given]), *sections])
 
 
+def first_line(cls: type) -> str:
+    """Return the first line of the docstring of a class, "" where it has none."""
+    return (cls.__doc__ or "").strip().partition("\n")[0]
+
+
 def _is_parameter(field: f.Field) -> bool:
     return isinstance(field, f.Structural | f.Parameter) or (
         isinstance(field, f.Variable) and field.causality == "input"

@@ -27,7 +27,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
-from acausal.solve.integrate.order import order_limit
+from acausal.solve.integrate.order import order_limit, sizes_of
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
@@ -138,7 +138,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
     """Integrate, again where states turn out to be much smaller than they were taken for."""
     at, rates, span = beginning.at, beginning.eigenvalues, task.stop_time - task.start_time
     max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
-    fastest, vibration = (float(np.max(np.abs(some), initial=0.0)) for some in (rates, rates[np.imag(rates) != 0]))
+    fastest, vibration = sizes_of(rates)
     settings = Settings(
         nominal=problem.nominal,
         tolerance=task.tolerance,

@@ -81,16 +81,18 @@ def test_what_is_asked_for(run, asked, monkeypatch):
     compiled = []
     monkeypatch.setattr(export, "compile_scene", lambda *words: compiled.append(words[2]) or object())
     monkeypatch.setattr(platforms, "own_platform", lambda: "linux-x86_64")
-    assert run("--fmu", "a.fmu").exit_code == 0
+    assert run("--fmu", "a.fmu").stdout == "wrote a.fmu: FMI 3.0, for linux-x86_64\n"
     words = ["--fmi-version", "2", "--platforms", "macos-arm64, own", "--free", "x", "--free", "rate"]
-    assert run("--set", "rate=3", "--fmu", "b.fmu", *words).exit_code == 0
-    assert run("--dae", "c.dae").exit_code == 0
+    done = run("--set", "rate=3", "--fmu", "b.fmu", *words)
+    assert (done.exit_code, done.stdout) == (0, "wrote b.fmu: FMI 2.0, for linux-x86_64, macos-arm64\n")
+    assert run("--dae", "c.dae").stdout == "wrote c.dae\n"
+    assert run("--dae", "c.dae", "--quiet").stdout == ""
     assert asked == [
         ("a.fmu", {"fmi_version": 3, "platforms": ("own",), "free": ()}),
         ("b.fmu", {"fmi_version": 2, "platforms": ("macos-arm64", "own"), "free": ("x", "rate")}),
-        ("c.dae", {}),
+        *[("c.dae", {})] * 2,
     ]
-    assert compiled == [None, ["rate=3"], None]
+    assert compiled == [None, ["rate=3"], None, None]
 
 
 def test_the_compiled_scene_is_exported(run, monkeypatch):

@@ -6,14 +6,14 @@
 
 /* Kinds of references, in their order. */
 enum { TIME, STATE, RATE, GIVEN, VARIABLE, INDICATOR, SETTING, NONE };
-enum { TOLERANCE, MOST };
+enum { TOLERANCE, DAMPING, MOST, SETTINGS };
 
 #define HYSTERESIS 1e-3 /* of what a condition may be off: beyond it an indicator changes its sign, so that rounding does not */
 
 static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
-    const int32_t count[] = {1, e->nx, e->nx, e->np, u->shown, u->watched, 2};
+    const int32_t count[] = {1, e->nx, e->nx, e->np, u->shown, u->watched, SETTINGS};
     int64_t left = reference;
     for (int32_t kind = 0; kind < NONE; kind++) {
         *place = (int32_t)left;
@@ -21,6 +21,10 @@ static int32_t kind_of(const ac_instance *i, uint32_t reference, int32_t *place)
         left -= count[kind];
     }
     return NONE;
+}
+
+static double *setting(ac_instance *i, int32_t place) {
+    return place == TOLERANCE ? &i->now.tolerance : place == DAMPING ? &i->now.damping : &i->now.most;
 }
 
 int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *value) {
@@ -32,15 +36,18 @@ int32_t ac_get(ac_instance *i, const uint32_t *reference, size_t count, double *
         if (kind != GIVEN && kind != SETTING && i->now.phase == AC_INITIALISING) failed = ac_initial(i);
         if (!failed && needs[kind]) failed = ac_know(i, needs[kind]);
         if (failed) return failed;
-        const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards, NULL};
-        value[k] = kind != SETTING ? from[kind][place] : place == TOLERANCE ? i->now.tolerance : i->now.most;
+        const double *from[] = {&i->now.time, i->x, i->rate, i->p, i->shown, i->guards};
+        value[k] = kind != SETTING ? from[kind][place] : *setting(i, place);
         if (kind == INDICATOR) value[k] += (i->truth[place] > 0 ? -HYSTERESIS : HYSTERESIS) * ac_width(i, place);
     }
     return AC_OK;
 }
 
 /* Whether a setting may have a value. */
-static int fits(int32_t place, double value) { return place == TOLERANCE ? value > 0 && value < 1 : value >= 1; }
+static int fits(int32_t place, double value) {
+    if (place == TOLERANCE) return value > 0 && value < 1;
+    return place == DAMPING ? value == 0 || value == 1 : value >= 1;
+}
 
 /* Entry of p behind a reference that may be set now, -1 for a setting, the time or a state itself; -2 where it may not, and why. */
 static int32_t entry_of(ac_instance *i, uint32_t reference) {
@@ -52,7 +59,7 @@ static int32_t entry_of(ac_instance *i, uint32_t reference) {
     const int32_t entry = kind == GIVEN ? place : kind == STATE && starting ? u->start_of[place] : -1;
     const int32_t role = entry >= 0 ? u->role[entry] : AC_INNER;
     const int open = role == AC_INPUT || role == AC_TUNABLE
-        || ((role == AC_FIXED || (role == AC_STARTING && kind == STATE)) && starting);
+        || ((role == AC_FIXED || (role == AC_STARTS && kind == STATE)) && starting);
     if (open) return entry;
     ac_fail(i, AC_REFUSED, role == AC_FIXED ? "a fixed parameter is set before the end of the initialisation."
         : "this variable cannot be set, or not now.");
@@ -67,7 +74,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
         if (!isfinite(value[k])) return ac_fail(i, AC_REFUSED, "a value is no finite number.");
         if (entry_of(i, reference[k]) == -2) return AC_REFUSED;
         if (kind_of(i, reference[k], &place) == SETTING && !fits(place, value[k])) {
-            return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, a number of steps is at least 1.");
+            return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, damping is 0 or 1, a number of steps is at least 1.");
         }
     }
     int changed = 0;
@@ -79,7 +86,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
             *(kind == TIME ? &i->now.time : i->x + place) = value[k];
             ac_moved(i);
         } else if (kind == SETTING) {
-            *(place == TOLERANCE ? &i->now.tolerance : &i->now.most) = value[k];
+            *setting(i, place) = value[k];
         } else if (i->p[entry] != value[k]) {
             i->p[entry] = value[k];
             changed = 1;
@@ -87,7 +94,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
     }
     if (!changed) return AC_OK;
     ac_changed(i);
-    if (i->now.phase <= AC_INITIALISING || !ac_within_limits(i)) return AC_OK;
+    if (i->now.phase <= AC_INITIALISING || !ac_limits(i, 0)) return AC_OK;
     memcpy(i->p, i->other, size);
     ac_changed(i);
     return AC_REFUSED;

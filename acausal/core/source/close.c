@@ -16,20 +16,37 @@ typedef struct {
     double *A, *r, *y, *Q; /* (m, n), (m), (m), (m, n) */
 } closing;
 
-static void fill(ac_instance *i, closing *c) {
+/* Rows of a level that count: redundant ones do not. Returns how many. */
+int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row) {
+    const ac_unit *u = i->of;
+    const double *on = i->c + u->switches + u->discretes;
+    int32_t m = 0;
+    for (int32_t k = 0; k < l->rows; k++) {
+        if (u->closure[l->row[k]] < 0 || on[u->closure[l->row[k]]] > 0) row[m++] = l->row[k];
+    }
+    return m;
+}
+
+/* Derivatives of m rows by n states over nominal values, at the present; returns the values of the tape. */
+const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A) {
     const ac_unit *u = i->of;
     const double *w = ac_run(i, AC_CLOSING);
     const int32_t *output = u->tape[AC_CLOSING].output;
-    for (int32_t a = 0; a < c->m; a++) c->r[a] = w[output[c->row[a]]];
-    memset(c->A, 0, (size_t)c->m * (size_t)c->n * sizeof *c->A);
-    for (int32_t b = 0; b < c->n; b++) {
-        const int32_t j = c->column[b];
+    memset(A, 0, (size_t)m * (size_t)n * sizeof *A);
+    for (int32_t b = 0; b < n; b++) {
+        const int32_t j = column[b];
         for (int32_t k = u->close_start[j]; k < u->close_start[j + 1]; k++) {
-            for (int32_t a = 0; a < c->m; a++) {
-                if (c->row[a] == u->close_row[k]) c->A[a * c->n + b] = w[output[u->constraints + k]] * u->nominal[j];
+            for (int32_t a = 0; a < m; a++) {
+                if (row[a] == u->close_row[k]) A[a * n + b] = w[output[u->constraints + k]] * u->nominal[j];
             }
         }
     }
+    return w;
+}
+
+static void fill(ac_instance *i, closing *c) {
+    const double *w = ac_constraints(i, c->row, c->m, c->column, c->n, c->A);
+    for (int32_t a = 0; a < c->m; a++) c->r[a] = w[i->of->tape[AC_CLOSING].output[c->row[a]]];
 }
 
 static double dot(const double *a, const double *b, int32_t n) {
@@ -90,7 +107,6 @@ static int32_t close_level(ac_instance *i, closing *c, double *step) {
 /* Close all loops; states that are held stay. */
 int32_t ac_close(ac_instance *i, const double *held) {
     const ac_unit *u = i->of;
-    const double *on = i->c + u->switches + u->discretes;
     int32_t failed = AC_OK;
     for (int32_t level = 0; level < u->levels && !failed; level++) {
         const ac_level *l = &u->level[level];
@@ -101,9 +117,7 @@ int32_t ac_close(ac_instance *i, const double *held) {
         if (memory && places) {
             c.row = places, c.column = places + l->rows;
             c.A = memory, c.Q = c.A + size, c.r = c.Q + size, c.y = c.r + l->rows;
-            for (int32_t k = 0; k < l->rows; k++) {
-                if (u->closure[l->row[k]] < 0 || on[u->closure[l->row[k]]] > 0) c.row[c.m++] = l->row[k];
-            }
+            c.m = ac_counting(i, l, c.row);
             for (int32_t k = 0; k < l->columns; k++) {
                 if (!held[l->column[k]]) c.column[c.n++] = l->column[k];
             }

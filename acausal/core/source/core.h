@@ -41,6 +41,7 @@ typedef struct {
     const int32_t *output;                      /* (outputs) places in w */
 } ac_tape;
 
+size_t ac_tape_length(const ac_tape *tape); /* of w, and one more: never 0 */
 AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t to);
 AC_PUBLIC void ac_tape_rows(const ac_tape *tape, double *w, int32_t rows, int32_t parts, const int32_t *size,
                             const int32_t *stride, const double *const *part, double *found);

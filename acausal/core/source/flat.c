@@ -44,30 +44,22 @@ static double smallest(double *G, int32_t m) {
 static double sharpness(ac_instance *i) {
     const ac_unit *u = i->of;
     const ac_level *l = u->level;
-    const double *on = i->c + u->switches + u->discretes;
     if (!u->levels || l->rows > LARGEST) return INFINITY;
-    const double *w = ac_run(i, AC_CLOSING);
-    double *A = calloc((size_t)l->rows * ((size_t)l->columns + (size_t)l->rows + 2) + 1, sizeof *A);
-    double *G = A + (size_t)l->rows * (size_t)l->columns, *length = G + (size_t)l->rows * (size_t)l->rows, *kind = length + l->rows;
-    int32_t m = 0;
+    int32_t row[LARGEST];
+    const int32_t m = ac_counting(i, l, row);
+    double *A = calloc((size_t)m * ((size_t)l->columns + (size_t)m + 1) + 1, sizeof *A);
     if (!A) return INFINITY;
-    for (int32_t a = 0; a < l->rows; a++) {
-        if (u->closure[l->row[a]] >= 0 && !(on[u->closure[l->row[a]]] > 0)) continue;
-        double *row = A + m * l->columns, size = 0;
-        for (int32_t b = 0; b < l->columns; b++) {
-            const int32_t j = l->column[b];
-            for (int32_t k = u->close_start[j]; k < u->close_start[j + 1]; k++) {
-                if (u->close_row[k] == l->row[a]) row[b] = w[u->tape[AC_CLOSING].output[u->constraints + k]] * u->nominal[j];
-            }
-            size += row[b] * row[b];
-        }
-        length[m] = sqrt(size);
-        kind[m++] = u->kind[l->row[a]];
+    double *G = A + (size_t)m * (size_t)l->columns, *length = G + (size_t)m * (size_t)m;
+    ac_constraints(i, row, m, l->column, l->columns, A);
+    for (int32_t a = 0; a < m; a++) {
+        double size = 0;
+        for (int32_t b = 0; b < l->columns; b++) size += A[a * l->columns + b] * A[a * l->columns + b];
+        length[a] = sqrt(size);
     }
     /* Rows of one equation have one size: in a flat position one of them may vanish by itself. */
     for (int32_t a = 0; a < m; a++) {
         double most = 0;
-        for (int32_t b = 0; b < m; b++) most = kind[a] == kind[b] ? fmax(most, length[b]) : most;
+        for (int32_t b = 0; b < m; b++) most = u->kind[row[a]] == u->kind[row[b]] ? fmax(most, length[b]) : most;
         for (int32_t k = 0; k < l->columns && most > 0; k++) A[a * l->columns + k] /= most;
     }
     for (int32_t a = 0; a < m; a++) {

@@ -7,12 +7,14 @@
 #define ROUNDS 20      /* until switches fit each other */
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
-#define NEAR 1e-12     /* of the time: instants that near are one */
+#define NEAR 1e-12     /* of the time: instants that near are one, and leave no room for an integration */
+
+double ac_near(const ac_instance *i) { return NEAR * fmax(fabs(i->now.time), i->of->span); }
 
 /* The next instant that is known, and a time between the present and that. */
 double ac_next_instant(ac_instance *i, double *between) {
     const ac_unit *u = i->of;
-    const double now = i->now.time, near = NEAR * fmax(fabs(now), u->span);
+    const double now = i->now.time, near = ac_near(i);
     double next = INFINITY;
     if (u->instants) {
         const double *w = ac_run(i, AC_INSTANTS);
@@ -81,8 +83,8 @@ static void look_at_clock(ac_instance *i, round_of *r) {
 
 static int32_t look_at_conditions(ac_instance *i, round_of *r) {
     const ac_unit *u = i->of;
-    double *rate = i->guards + 2 * u->watched;
-    const int32_t failed = ac_indicator_rates(i, rate);
+    const double *rate = i->guards + 2 * u->watched;
+    const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
     for (int32_t k = 0; k < u->watched; k++) {
         const int now = holds(i, k, rate[k]);

@@ -99,27 +99,27 @@ static int fitting(ac_instance *i) {
     return same;
 }
 
-/* Whether parameters are within their limits. */
-int32_t ac_within_limits(ac_instance *i) {
+/* Refuse parameters beyond their limits and what the model requires of them, or what it requires of variables at the start. */
+int32_t ac_limits(ac_instance *i, int at_start) {
     const ac_tape *t = &i->of->tape[AC_LIMITS];
     const double *w = ac_run(i, AC_LIMITS), *bound = i->of->bound;
-    const char *name = i->of->limited;
-    for (int32_t k = 0; k < t->outputs; k++, bound += 2) {
+    const char *said = i->of->limited;
+    for (int32_t k = 0; k < t->outputs; k++, bound += 3, said += strlen(said) + 1) {
         const double value = w[t->output[k]];
-        if (bound[1] > 0 ? !(value > bound[0]) : !(value >= bound[0])) {
-            char text[200];
-            const char *how = bound[1] > 0 ? "greater than" : "at least";
-            snprintf(text, sizeof text, "`%.120s` is %g; it must be %s %g.", name, value, how, bound[0]);
-            return ac_fail(i, AC_REFUSED, text);
-        }
-        while (*name++) {}
+        const int above = bound[1] > 0, right = above ? value > bound[0] : value >= bound[0];
+        if (right || (bound[2] > AC_REQUIRED) != at_start) continue;
+        char text[AC_MESSAGE];
+        const char *how = above ? "greater than" : "at least";
+        if (bound[2] > AC_LIMITED) snprintf(text, sizeof text, "%s", said);
+        else snprintf(text, sizeof text, "`%s` is %g; it must be %s %g.", said, value, how, bound[0]);
+        return ac_fail(i, AC_REFUSED, text);
     }
     return AC_OK;
 }
 
 int32_t ac_initial(ac_instance *i) {
     if (i->now.known & AC_FIRST) return AC_OK;
-    if (ac_within_limits(i)) return AC_REFUSED;
+    if (ac_limits(i, 0)) return AC_REFUSED;
     const ac_unit *u = i->of;
     double *p = i->dw; /* the wanted ones, while i->p is on the way */
     const double time = i->now.time;
@@ -137,6 +137,7 @@ int32_t ac_initial(ac_instance *i) {
     }
     if (!failed && !fits) failed = ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
     if (failed) return AC_FAILED;
+    if (ac_limits(i, 1)) return AC_REFUSED;
     i->now.known = AC_FIRST;
     failed = ac_know(i, AC_RATE | AC_GUARD);
     if (failed) return AC_FAILED;

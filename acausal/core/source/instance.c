@@ -9,8 +9,6 @@
 #define SHORTEST 0.004 /* part of the way to a point: nearer, two solutions meet */
 #define MOST_STEPS 1e6 /* of one call, unless the setting says otherwise */
 
-static size_t length(const ac_tape *t) { return (size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1; }
-
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text) {
     snprintf(i->message, sizeof i->message, "t = %.9g s: %s", i->now.time, text);
     return status;
@@ -24,17 +22,17 @@ static size_t lay_out(ac_instance *i, double *at) {
     const ac_equations *e = &u->parts.model.equations;
     const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, np = (size_t)e->np, nc = (size_t)e->nc;
     const size_t watched = (size_t)u->watched, all = n + np + nc + (size_t)u->jumps + 3 * watched + 2;
-    size_t longest = length(e->values), used = 0;
-    for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, length(&u->tape[k]));
-    for (int k = 0; k < AC_SQUARES; k++) longest = most_of(longest, length(&u->squared[k]));
+    size_t longest = ac_tape_length(e->values), used = 0;
+    for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, ac_tape_length(&u->tape[k]));
+    for (int k = 0; k < AC_SQUARES; k++) longest = most_of(longest, ac_tape_length(&u->squared[k]));
     struct {
         double **to;
         size_t size;
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
-        {&i->crossed, watched}, {&i->sure, n}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
-        {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, length(e->values)},
-        {&i->step_y, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->order, 3 * n + 1},
+        {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
+        {&i->step_y, n}, {&i->order, 3 * n + 1},
     };
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         if (at) *part[k].to = at + used;
@@ -43,7 +41,7 @@ static size_t lay_out(ac_instance *i, double *at) {
     }
     for (int k = 0; k < AC_TAPES; k++) {
         if (at) i->w[k] = at + used;
-        used += length(&u->tape[k]);
+        used += ac_tape_length(&u->tape[k]);
     }
     return used;
 }
@@ -82,16 +80,16 @@ void ac_instance_free(ac_instance *i) {
     free(i);
 }
 
-static void put(double *to, const double *from, int32_t count) {
-    if (count) memcpy(to, from, (size_t)count * sizeof *to);
+void ac_put(double *to, const double *from, int32_t count) {
+    if (count && from) memcpy(to, from, (size_t)count * sizeof *to);
 }
 
 /* As the file has it. */
 void ac_restart(ac_instance *i) {
     const ac_model *m = &i->of->parts.model;
-    put(i->x, m->x, m->equations.nx);
-    put(i->z, m->z, m->equations.nz);
-    put(i->c, m->c, m->equations.nc);
+    ac_put(i->x, m->x, m->equations.nx);
+    ac_put(i->z, m->z, m->equations.nz);
+    ac_put(i->c, m->c, m->equations.nc);
 }
 
 /* As it was made. */
@@ -101,7 +99,7 @@ int32_t ac_reset(ac_instance *i) {
     memset(i->x, 0, i->kept * sizeof *i->x);
     memset(&i->now, 0, sizeof i->now);
     ac_restart(i);
-    put(i->p, m->p, m->equations.np);
+    ac_put(i->p, m->p, m->equations.np);
     i->now.time = m->time, i->now.stop = NAN, i->now.next = i->now.event = i->now.end = INFINITY;
     i->now.tolerance = u->tolerance, i->now.most = MOST_STEPS;
     i->now.phase = AC_SET_UP;
@@ -131,13 +129,13 @@ void ac_changed(ac_instance *i) {
 static void evaluate(ac_instance *i, const ac_tape *t, double *w, int32_t bit) {
     const ac_equations *e = &i->of->parts.model.equations;
     double *input = w + t->constants;
-    put(input, i->x, e->nx);
-    put(input + e->nx, i->z, e->nz);
+    ac_put(input, i->x, e->nx);
+    ac_put(input + e->nx, i->z, e->nz);
     input += e->nx + e->nz;
     *input++ = i->now.time;
     if (!(i->prepared & bit)) {
-        put(input, i->p, e->np);
-        put(input + e->np, i->c, e->nc);
+        ac_put(input, i->p, e->np);
+        ac_put(input + e->np, i->c, e->nc);
         ac_tape_run(t, w, 0, t->early);
         i->prepared |= bit;
     }
@@ -163,8 +161,8 @@ int32_t ac_solve(ac_instance *i, int32_t square) {
     for (int32_t k = 0; k < e->nz; k++) size[nx + k] = fmax(fabs(i->z[k]), u->size[k]);
     ac_settle_rows(i->settler[square], 1, 5, 2, lengths, stride, part, size, SETTLED, i->work, &settled);
     if (!settled) return AC_RETRY;
-    put(i->x, i->work, nx);
-    put(i->z, i->work + nx, e->nz);
+    ac_put(i->x, i->work, nx);
+    ac_put(i->z, i->work + nx, e->nz);
     return AC_OK;
 }
 
@@ -174,20 +172,20 @@ static int32_t follow(ac_instance *i) {
     const double time = i->now.time, *x = i->sure;
     double *to = i->order, *z = to + e->nx, s = 0;
     if (!i->now.sure) return AC_RETRY;
-    put(to, i->x, e->nx);
-    put(i->z, i->sure + e->nx, e->nz);
+    ac_put(to, i->x, e->nx);
+    ac_put(i->z, i->sure + e->nx, e->nz);
     int32_t failed = AC_OK;
     for (double step = 0.5; s < 1 && step >= SHORTEST;) {
         const double next = fmin(s + step, 1);
-        put(z, i->z, e->nz);
+        ac_put(z, i->z, e->nz);
         for (int32_t k = 0; k < e->nx; k++) i->x[k] = next < 1 ? x[k] + next * (to[k] - x[k]) : to[k];
         i->now.time = next < 1 ? i->now.sure_time + next * (time - i->now.sure_time) : time;
         failed = ac_solve(i, AC_ALGEBRAIC);
-        if (failed) put(i->z, z, e->nz);
+        if (failed) ac_put(i->z, z, e->nz);
         s = failed ? s : next;
         step *= failed ? 0.5 : 2;
     }
-    put(i->x, to, e->nx);
+    ac_put(i->x, to, e->nx);
     i->now.time = time;
     return failed;
 }
@@ -199,8 +197,8 @@ int32_t ac_know(ac_instance *i, int32_t what) {
     if (!(i->now.known & AC_Z)) {
         if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, "the equations have no solution here.");
         i->now.known |= AC_Z;
-        put(i->sure, i->x, e->nx);
-        put(i->sure + e->nx, i->z, e->nz);
+        ac_put(i->sure, i->x, e->nx);
+        ac_put(i->sure + e->nx, i->z, e->nz);
         i->now.sure = 1, i->now.sure_time = i->now.time;
     }
     if (what & ~i->now.known & AC_RATE) {

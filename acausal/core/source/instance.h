@@ -13,7 +13,10 @@ enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING
 /* Square systems; their inputs are p, c, x, z, t. */
 enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
 /* What an entry of p is. */
-enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTING, AC_INNER };
+enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTS, AC_INNER };
+
+/* What a limit is, and so when it is looked at: of a parameter; required of parameters; of variables at the start. */
+enum { AC_LIMITED, AC_REQUIRED, AC_REQUIRED_AT_START };
 
 /* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on. */
 typedef struct {
@@ -28,6 +31,7 @@ typedef struct {
 
 #define AC_LEVELS 8 /* derivatives of a constraint that hold besides it are fewer */
 #define AC_NUMBERED 11
+#define AC_MESSAGE 1024 /* bytes of a message */
 
 struct ac_unit {
     ac_model_parts parts; /* first */
@@ -46,9 +50,10 @@ struct ac_unit {
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
+    const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
-    const double *bound;                    /* (limits, 2): least value of each, and 1 where it has to be above that */
-    const char *limited;                    /* their names, each with a 0 at its end */
+    const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
+    const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
     double span, tolerance;
     const char *token;
     double file[];
@@ -56,7 +61,8 @@ struct ac_unit {
 
 /* What an instance goes on from, beside its arrays. */
 typedef struct {
-    double time, stop, tolerance, most;    /* stop: nan where none is known; most: steps of one call */
+    double time, stop;                     /* stop: nan where none is known */
+    double tolerance, damping, most;       /* settings; damping: 1 where vibrations are damped; most: steps of one call */
     double from, to, first_step, end;      /* the last step of the integration, the next one to try, where it ends */
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
     double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
@@ -65,10 +71,11 @@ typedef struct {
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     int32_t refused, unsolved, crowded;    /* as in the integrator; events of the crowd */
     int32_t sure;                          /* whether there is such a point, with these parameters */
+    int32_t looked;                        /* whether conditions and rates at the end of the last step stand in `looks` */
 } ac_now;
 
-/* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start. */
-enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16 };
+/* What is known at present: algebraic unknowns, rates, variables, conditions, values at the start, factors of g_z. */
+enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTORS = 32 };
 #define SETTLED 1e-7 /* change over the size after which the next one would be rounding, as in `Consistent` */
 
 struct ac_instance {
@@ -82,13 +89,14 @@ struct ac_instance {
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
-    double *step_y, step_time, *looks;      /* a step as the integrator writes it; conditions and rates while events are looked for */
+    double *looks;                          /* conditions and their rates at the ends of a part of a step, rates at those of the step */
+    double *step_y, step_time;              /* a step as the integrator writes it */
     double ends[2];                         /* of the integration */
     int32_t going;                          /* whether the integrator is where the last step ended */
     double *order;                          /* of pivots, while they are copied; x and z on the way to a point */
     int32_t prepared;                       /* tapes whose early runs are done */
     double *block;
-    char message[256];
+    char message[AC_MESSAGE];
 };
 
 /* States and their rates at a time. */
@@ -99,6 +107,7 @@ typedef struct {
 
 #define AC_FLAT_TEXT "closed loops pass a flat position: two ways lead on from there, and rounding would choose one."
 
+void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: nothing */
 int32_t ac_fail(ac_instance *i, int32_t status, const char *text);
 void ac_restart(ac_instance *i);
 void ac_moved(ac_instance *i);
@@ -106,15 +115,19 @@ void ac_changed(ac_instance *i);
 const double *ac_run(ac_instance *i, int32_t tape);             /* evaluate at the present; its array */
 int32_t ac_solve(ac_instance *i, int32_t square);               /* from the present values on */
 int32_t ac_know(ac_instance *i, int32_t what);
-int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp, double *dz);
-void ac_along(ac_instance *i, const ac_tape *tape, const double *w, const double *dx, const double *dz, double dt,
-              const double *dp, double *found);
-int32_t ac_indicator_rates(ac_instance *i, double *rate);       /* conditions have to be known */
+int32_t ac_indicator_rates(ac_instance *i);                     /* conditions and their rates, all in `guards` */
+/* Add seeds to changes, and read changes, by references: of what is known, dt, dx and dp; of unknowns, those in `of`. */
+int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
+                double *found);
+int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 int32_t ac_close(ac_instance *i, const double *held);
+int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
+const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);
 int32_t ac_initial(ac_instance *i);
-int32_t ac_within_limits(ac_instance *i);                       /* of parameters */
+int32_t ac_limits(ac_instance *i, int at_start);                /* what is broken: of parameters, or of variables at the start */
 int32_t ac_happen(ac_instance *i, ac_happened *found);
 void ac_renew_inputs(ac_instance *i);
+double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);

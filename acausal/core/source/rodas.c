@@ -3,6 +3,7 @@
      (M/(h gamma) - J) u_i = F(t + alpha_i h, y + sum a_ij u_j) + M sum (c_ij/h) u_j + h gamma_i F_t,  M = diag(1, 0). */
 #include "rodas5p.h"
 
+#include "file.h"
 #include "rodas.h"
 
 #include <float.h>
@@ -19,10 +20,6 @@
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
-static size_t length(const ac_tape *tape) {
-    return tape ? (size_t)tape->constants + (size_t)tape->inputs + (size_t)tape->results + 1 : 0;
-}
-
 ac_rodas *ac_rodas_make(const ac_equations *equations) {
     ac_rodas *r = calloc(1, sizeof *r);
     if (!r) return NULL;
@@ -30,17 +27,19 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     r->of = *equations;
     r->n = e->nx + e->nz;
     const size_t n = (size_t)r->n + 1, entries = (size_t)e->start[r->n] + 1;
+    const size_t values = ac_tape_length(e->values), slopes = ac_tape_length(e->slopes);
+    const size_t powers = e->powers ? ac_tape_length(e->powers) : 0;
     r->timely = e->slopes->outputs > e->start[r->n];
     r->lu = ac_lu_make(r->n, e->start, e->row);
-    r->block = calloc(length(e->values) + length(e->slopes) + length(e->powers) + (STAGES + 7) * n + entries, sizeof(double));
+    r->block = calloc(values + slopes + powers + (STAGES + 7) * n + entries, sizeof(double));
     if (!r->lu || !r->block) {
         ac_rodas_free(r);
         return NULL;
     }
     r->values = r->block;
-    r->slopes = r->values + length(e->values);
-    r->powers = r->slopes + length(e->slopes);
-    r->y = r->powers + length(e->powers);
+    r->slopes = r->values + values;
+    r->powers = r->slopes + slopes;
+    r->y = r->powers + powers;
     r->next = r->y + n, r->stage = r->next + n, r->b = r->stage + n, r->u = r->b + n;
     r->dense = r->u + STAGES * n, r->matrix = r->dense + 3 * n;
     const ac_tape *tapes[] = {e->values, e->slopes, e->powers};
@@ -229,13 +228,6 @@ static void keep(ac_rodas *r) {
     r->progress.kept++;
 }
 
-static int all_finite(const double *y, int32_t n) {
-    for (int32_t k = 0; k < n; k++) {
-        if (!isfinite(y[k])) return 0;
-    }
-    return 1;
-}
-
 /* Go on for some steps at most; AC_MORE where there is more to do. */
 int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
     const double end = r->request.time[r->request.outputs];
@@ -267,7 +259,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         double error = INFINITY;
         if (!failed) {
             stages(r, h);
-            if (all_finite(r->next, r->n)) error = norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
+            if (ac_all_finite(r->next, r->n)) error = norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
         }
         r->unsolved = !isfinite(error);
         const double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;

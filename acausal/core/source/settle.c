@@ -14,7 +14,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     if (!s) return NULL;
     s->of = *square;
     const ac_tape *tape = square->tape;
-    const size_t length = (size_t)tape->constants + (size_t)tape->inputs + (size_t)tape->results + 1;
+    const size_t length = ac_tape_length(tape);
     s->lu = ac_lu_make(square->n, square->start, square->row);
     s->w = calloc(length + (size_t)tape->outputs + 1, sizeof *s->w);
     if (!s->lu || !s->w) {

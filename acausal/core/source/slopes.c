@@ -6,32 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
-                double *found);
-int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
-
-static void put(double *to, const double *from, int32_t count) {
-    if (count && from) memcpy(to, from, (size_t)count * sizeof *to);
-}
-
 /* Factors of g_z and all values of its tape, at the present; the algebraic unknowns have to be known. */
 static int32_t linearise(ac_instance *i) {
+    if (i->now.known & AC_FACTORS) return AC_OK;
     const ac_equations *e = &i->of->parts.model.equations;
     ac_settler *s = i->settler[AC_ALGEBRAIC];
     const ac_tape *t = s->of.tape;
     double *input = s->w + t->constants;
-    put(input, i->p, e->np), input += e->np;
-    put(input, i->c, e->nc), input += e->nc;
-    put(input, i->x, e->nx), input += e->nx;
-    put(input, i->z, e->nz), input += e->nz;
+    ac_put(input, i->p, e->np), input += e->np;
+    ac_put(input, i->c, e->nc), input += e->nc;
+    ac_put(input, i->x, e->nx), input += e->nx;
+    ac_put(input, i->z, e->nz), input += e->nz;
     *input = i->now.time;
     ac_tape_run(t, s->w, 0, t->runs);
     for (int32_t k = e->nz; k < t->outputs; k++) s->step[k] = s->w[t->output[k]];
-    return e->nz && ac_lu_factor(s->lu, s->entries) ? ac_fail(i, AC_RETRY, "the equations have no unique solution here.") : AC_OK;
+    if (e->nz && ac_lu_factor(s->lu, s->entries)) return ac_fail(i, AC_RETRY, "the equations have no unique solution here.");
+    i->now.known |= AC_FACTORS;
+    return AC_OK;
 }
 
 /* Changes of the algebraic unknowns with those of states, time and p; NULL stands for 0. */
-int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp, double *dz) {
+static int32_t slopes(ac_instance *i, const double *dx, double dt, const double *dp, double *dz) {
     const ac_equations *e = &i->of->parts.model.equations;
     ac_settler *s = i->settler[AC_ALGEBRAIC];
     const ac_tape *t = s->of.tape;
@@ -39,8 +34,8 @@ int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp,
     if (failed) return failed;
     memset(i->dw, 0, (size_t)(t->constants + t->inputs) * sizeof *i->dw);
     double *input = i->dw + t->constants;
-    put(input, dp, e->np);
-    put(input + e->np + e->nc, dx, e->nx);
+    ac_put(input, dp, e->np);
+    ac_put(input + e->np + e->nc, dx, e->nx);
     input[e->np + e->nc + e->nx + e->nz] = dt;
     ac_sweep_forward(t, s->w, i->dw);
     for (int32_t k = 0; k < e->nz; k++) dz[k] = -i->dw[t->output[k]];
@@ -49,29 +44,29 @@ int32_t ac_slopes(ac_instance *i, const double *dx, double dt, const double *dp,
 }
 
 /* Changes of the outputs of a tape whose values stand in w. */
-void ac_along(ac_instance *i, const ac_tape *tape, const double *w, const double *dx, const double *dz, double dt,
-              const double *dp, double *found) {
+static void along(ac_instance *i, const ac_tape *tape, const double *w, const double *dx, const double *dz, double dt,
+                  const double *dp, double *found) {
     const ac_equations *e = &i->of->parts.model.equations;
     memset(i->dw, 0, (size_t)(tape->constants + tape->inputs) * sizeof *i->dw);
     double *input = i->dw + tape->constants;
-    put(input, dx, e->nx);
-    put(input + e->nx, dz, e->nz);
+    ac_put(input, dx, e->nx);
+    ac_put(input + e->nx, dz, e->nz);
     input[e->nx + e->nz] = dt;
-    put(input + e->nx + e->nz + 1, dp, e->np);
+    ac_put(input + e->nx + e->nz + 1, dp, e->np);
     ac_sweep_forward(tape, w, i->dw);
     for (int32_t k = 0; k < tape->outputs; k++) found[k] = i->dw[tape->output[k]];
 }
 
-/* Rates of the watched conditions along the motion, in the last third of `guards`; conditions have to be known. */
-int32_t ac_indicator_rates(ac_instance *i, double *rate) {
+/* Find the watched conditions, and their rates along the motion, in the last third of `guards`. */
+int32_t ac_indicator_rates(ac_instance *i) {
     const ac_unit *u = i->of;
     const ac_tape *t = &u->tape[AC_GUARDS];
     if (!u->watched) return AC_OK;
     int32_t failed = ac_know(i, AC_RATE | AC_GUARD);
-    if (!failed) failed = ac_slopes(i, i->rate, 1, NULL, i->work);
+    if (!failed) failed = slopes(i, i->rate, 1, NULL, i->work);
     if (failed) return failed;
-    memset(i->dw, 0, (size_t)(t->constants + t->inputs) * sizeof *i->dw);
-    ac_along(i, t, i->w[AC_GUARDS], i->rate, i->work, 1, NULL, i->other);
+    along(i, t, i->w[AC_GUARDS], i->rate, i->work, 1, NULL, i->other);
+    double *rate = i->guards + 2 * u->watched;
     for (int32_t k = 0; k < u->watched; k++) rate[k] = isfinite(i->other[k]) ? i->other[k] : 0;
     return AC_OK;
 }
@@ -99,11 +94,11 @@ int32_t ac_forward(ac_instance *i, const uint32_t *unknown, size_t unknowns, con
     double dt = 0, *dx, *dp, *dz, *of[3], *all = make(i, &dx, &dp, &dz, of);
     int32_t failed = all ? ac_know(i, AC_RATE | AC_SHOW | AC_GUARD) : ac_fail(i, AC_FAILED, "there is not enough memory.");
     if (!failed) failed = ac_seed(i, known, knowns, &dt, dx, dp, seed, NULL);
-    if (!failed) failed = ac_slopes(i, dx, dt, dp, dz);
+    if (!failed) failed = slopes(i, dx, dt, dp, dz);
     for (int32_t kind = 0; kind < 3 && !failed; kind++) {
         const double *w;
         const ac_tape *tape = tape_of(i, kind, &w);
-        ac_along(i, tape, w, dx, dz, dt, dp, of[kind]);
+        along(i, tape, w, dx, dz, dt, dp, of[kind]);
     }
     if (!failed) failed = ac_pick(i, unknown, unknowns, of, NULL, sensitivity);
     free(all);
@@ -114,7 +109,7 @@ int32_t ac_forward(ac_instance *i, const uint32_t *unknown, size_t unknowns, con
 static void back(ac_instance *i, const ac_tape *t, const double *w, const double *weight, int32_t count, double *dt, double *dx,
                  double *dz, double *dp) {
     const ac_equations *e = &i->of->parts.model.equations;
-    memset(i->dw, 0, ((size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1) * sizeof *i->dw);
+    memset(i->dw, 0, ac_tape_length(t) * sizeof *i->dw);
     for (int32_t k = 0; k < count; k++) i->dw[t->output[k]] += weight[k];
     ac_sweep_backward(t, w, i->dw);
     const double *input = i->dw + t->constants;
@@ -142,7 +137,7 @@ int32_t ac_backward(ac_instance *i, const uint32_t *unknown, size_t unknowns, co
         ac_settler *s = i->settler[AC_ALGEBRAIC];
         const ac_tape *t = s->of.tape;
         if (e->nz) ac_lu_solve_transposed(s->lu, dz);
-        memset(i->dw, 0, ((size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1) * sizeof *i->dw);
+        memset(i->dw, 0, ac_tape_length(t) * sizeof *i->dw);
         for (int32_t k = 0; k < e->nz; k++) i->dw[t->output[k]] -= dz[k];
         ac_sweep_backward(t, s->w, i->dw);
         const double *input = i->dw + t->constants;

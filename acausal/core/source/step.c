@@ -10,9 +10,6 @@
 #define AHEAD 100       /* spans of a run: where no stop time is known */
 #define CROWDED 1e-9    /* of a run: within that time ... */
 #define MOST_CROWDED 100 /* ... so many events are chattering */
-#define NEAR 1e-12      /* of the time: no room for an integration */
-
-static double near(const ac_instance *i) { return NEAR * fmax(fabs(i->now.time), i->of->span); }
 
 /* States and guesses of algebraic unknowns at a time within the last step; see `outputs.c`. */
 static void stand(ac_instance *i, double time) {
@@ -38,7 +35,8 @@ static int32_t begin(ac_instance *i, double to) {
     if (!goes_on) i->now.end = fmin(horizon, i->now.next);
     i->ends[1] = i->now.end;
     const ac_request request = {
-        .tolerance = i->now.tolerance, .first_step = kept, .size = m->size, .rate = m->rate, .smooth = 1,
+        .tolerance = i->now.tolerance, .first_step = kept, .rate = m->rate,
+        .size = i->now.damping > 0 ? u->damped : m->size, .smooth = !(i->now.damping > 0),
         .most = INT64_MAX / 4, .outputs = 1, .time = i->ends, .room = 1,
         .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
     };
@@ -54,6 +52,7 @@ static int32_t begin(ac_instance *i, double to) {
         i->rodas->h = kept;
         i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
     }
+    if (!goes_on) i->now.looked = 0;
     i->now.integrates = 1, i->going = 1;
     i->now.to = i->ends[0];
     return AC_OK;
@@ -82,13 +81,13 @@ static int32_t advance(ac_instance *i, double *left) {
 }
 
 /* Values of the conditions, and their rates, at a time within the step. */
-static int32_t look(ac_instance *i, double time, double *value, double *rate) {
+static int32_t look(ac_instance *i, double time, double *found) {
     const int32_t n = i->of->watched;
     stand(i, time);
-    const int32_t failed = ac_indicator_rates(i, i->guards + 2 * n);
+    const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
-    memcpy(value, i->guards, (size_t)n * sizeof *value);
-    memcpy(rate, i->guards + 2 * n, (size_t)n * sizeof *rate);
+    ac_put(found, i->guards, n);
+    ac_put(found + n, i->guards + 2 * n, n);
     return AC_OK;
 }
 
@@ -97,7 +96,7 @@ static double beyond(const ac_instance *i, int32_t k, double value) { return i->
 
 /* First time in a part of the step at which a condition has changed, given that it has at its end. */
 static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double level) {
-    for (int tries = 0; tries < HALVINGS && *to - from > near(i) / 4; tries++) {
+    for (int tries = 0; tries < HALVINGS && *to - from > ac_near(i) / 4; tries++) {
         const double middle = from + (*to - from) / 2;
         stand(i, middle);
         const int32_t failed = ac_know(i, AC_GUARD);
@@ -112,7 +111,7 @@ static int32_t dip(ac_instance *i, int32_t k, double from, double to, double *at
     for (int tries = 0; tries < HALVINGS / 3; tries++) {
         *at = from + (to - from) / 2;
         stand(i, *at);
-        const int32_t failed = ac_indicator_rates(i, i->guards + 2 * i->of->watched);
+        const int32_t failed = ac_indicator_rates(i);
         if (failed) return failed;
         if (beyond(i, k, i->guards[k]) > LEVEL * ac_width(i, k)) return AC_OK;
         *(beyond(i, k, i->guards[2 * i->of->watched + k]) > 0 ? &from : &to) = *at;
@@ -144,12 +143,12 @@ static int32_t locate(ac_instance *i) {
     const int32_t n = i->of->watched;
     double *before = i->looks, *after = i->looks + 2 * n, from = i->now.from;
     if (!n) return AC_OK;
-    int32_t failed = look(i, from, before, before + n);
+    int32_t failed = i->now.looked ? AC_OK : look(i, from, before);
     for (int k = 1; k <= LOOKS && !failed && !isfinite(i->now.event); k++) {
         const double to = k < LOOKS ? i->now.from + k * (i->now.to - i->now.from) / LOOKS : i->now.to;
-        failed = look(i, to, after, after + n);
+        failed = look(i, to, after);
         if (!failed) failed = search(i, from, to, before, after, &i->now.event);
-        memcpy(before, after, 2 * (size_t)n * sizeof *before);
+        ac_put(before, after, 2 * n);
         from = to;
     }
     return failed;
@@ -179,7 +178,8 @@ static int32_t refuse_flat(ac_instance *i) {
     const int32_t nx = ac_states(i);
     double *rates = i->looks + 4 * i->of->watched;
     int32_t failed = AC_OK;
-    for (int end = 0; end < 2 && !failed; end++) {
+    if (i->now.looked) ac_put(rates, rates + nx, nx);
+    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
         stand(i, end ? i->now.to : i->now.from);
         failed = ac_know(i, AC_RATE);
         if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
@@ -193,7 +193,7 @@ static int32_t refuse_flat(ac_instance *i) {
 static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
     double left = i->now.most;
     int32_t failed = AC_OK;
-    while (!failed && !*event && i->now.time < to - near(i)) {
+    while (!failed && !*event && i->now.time < to - ac_near(i)) {
         const double ahead = i->now.curved ? fmin(i->now.to, i->now.event) : i->now.time;
         if (i->now.time < ahead) {
             if (i->now.event <= to && i->now.event <= i->now.to) {
@@ -203,7 +203,7 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             } else {
                 stand(i, fmin(to, ahead));
             }
-        } else if (i->now.next <= i->now.time + near(i)) {
+        } else if (i->now.next <= i->now.time + ac_near(i)) {
             i->now.time = i->now.next;
             ac_moved(i);
             i->now.integrates = i->now.curved = 0;
@@ -216,14 +216,18 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             }
             const double time = i->now.time;
             if (!failed) failed = advance(i, &left);
-            if (!failed) failed = refuse_flat(i);
+            if (failed) continue;
+            failed = refuse_flat(i);
             if (!failed) failed = locate(i);
-            if (!failed) stand(i, time);
+            stand(i, time);
+            i->now.looked = !failed;
+            /* A step in which nothing could be looked at is not taken. */
+            if (failed) i->now.integrates = i->now.curved = 0;
         }
     }
     if (!failed && !*event) {
         i->now.time = to;
-        if (i->now.next <= to + near(i)) {
+        if (i->now.next <= to + ac_near(i)) {
             if (early) *event = 1;
             else failed = act(i);
         }

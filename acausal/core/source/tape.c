@@ -72,6 +72,8 @@ static void run(int32_t kind, int32_t n, const double *w, const int32_t *a, cons
     }
 }
 
+size_t ac_tape_length(const ac_tape *t) { return (size_t)t->constants + (size_t)t->inputs + (size_t)t->results + 1; }
+
 /* Evaluate the runs from one to another; constants and inputs stand in w. */
 void ac_tape_run(const ac_tape *t, double *w, int32_t from, int32_t to) {
     int32_t done = 0;

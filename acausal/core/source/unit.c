@@ -5,16 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 2
+#define VERSION 3
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
-    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, BOUNDS, LIMITED, NOMINAL, NATURAL, TOKEN, SECTIONS
+    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, BOUNDS, LIMITED,
+    DAMPED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits",
-    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "bounds", "limited", "nominal", "natural", "token",
+    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "bounds", "limited", "damped", "nominal", "natural",
+    "token",
 };
 
 const char *ac_unit_why(int32_t why) {
@@ -129,12 +131,12 @@ static int read_closing(const ac_section *found, ac_unit *u) {
     return !level.left && ac_within(u->coordinate, u->tape[AC_COORDINATES].outputs, nx);
 }
 
-/* Bounds of what follows from parameters, with a name for each. */
+/* Bounds of what is limited, with a text for each. */
 static int read_limits(const ac_section *found, ac_unit *u) {
     ac_section bound = found[BOUNDS], names = found[LIMITED];
     const int32_t count = u->tape[AC_LIMITS].outputs;
     size_t ends = 0;
-    u->bound = ac_take(&bound, 2 * (int64_t)count, sizeof *u->bound);
+    u->bound = ac_take(&bound, 3 * (int64_t)count, sizeof *u->bound);
     u->limited = (const char *)names.at;
     for (size_t k = 0; k < names.left; k++) ends += !names.at[k];
     return u->bound && !bound.left && names.at && ends == (size_t)count && (count ? !names.at[names.left - 1] : !names.left);
@@ -142,13 +144,14 @@ static int read_limits(const ac_section *found, ac_unit *u) {
 
 static int read_numbers(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
-    ac_section nominal = found[NOMINAL], natural = found[NATURAL], token = found[TOKEN];
+    ac_section damped = found[DAMPED], nominal = found[NOMINAL], natural = found[NATURAL], token = found[TOKEN];
+    u->damped = ac_take(&damped, e->nx, sizeof *u->damped);
     const double *span = ac_take(&nominal, 2, sizeof *span);
     u->nominal = ac_take(&nominal, (int64_t)e->nx + e->nz, sizeof *u->nominal);
     u->size = ac_take(&natural, e->nz, sizeof *u->size);
-    if (!span || !u->nominal || !u->size || nominal.left || natural.left) return 0;
+    if (!u->damped || !span || !u->nominal || !u->size || damped.left || nominal.left || natural.left) return 0;
     u->span = span[0], u->tolerance = span[1], u->token = (const char *)token.at;
-    return positive(span, 2) && positive(u->nominal, e->nx + e->nz) && positive(u->size, e->nz)
+    return positive(span, 2) && positive(u->damped, e->nx) && positive(u->nominal, e->nx + e->nz) && positive(u->size, e->nz)
         && token.at && token.left && !token.at[token.left - 1];
 }
 

@@ -1,6 +1,6 @@
 /* A model that other tools run: what is stored of it, and its instances. The faces of FMI 2 and 3 are thin layers on this.
 
-   Values are read and written by references: time; states x; their rates; p; variables; indicators; the two settings. */
+   Values are read and written by references: time; states x; their rates; p; variables; indicators; the settings. */
 #ifndef ACAUSAL_UNIT_H
 #define ACAUSAL_UNIT_H
 

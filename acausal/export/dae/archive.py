@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from acausal.errors import DeclarationError
-from acausal.export.archive import READABLE, TIME, UNIX
+from acausal.export.archive import write_archive
 from acausal.result import document, shown_name
-from acausal.result.files import whole
 
 FORMAT, VERSION = "acausal open DAE", 1
 FIRST = "dae.json"
@@ -41,11 +40,7 @@ def write(path: str | Path, first: Mapping[str, Any], members: Mapping[str, byte
     }
     files = {FIRST: as_json({**head, "sha256_of_this": "", **first}), **members}
     files[FIRST] = as_json({**head, "sha256_of_this": _own(files[FIRST]), **first})
-    with whole(path, "wb") as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in files.items():
-            entry = zipfile.ZipInfo(name, TIME)
-            entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, READABLE, UNIX
-            archive.writestr(entry, content)
+    write_archive(path, files)
 
 
 def read(path: str | Path) -> tuple[dict[str, Any], dict[str, bytes]]:

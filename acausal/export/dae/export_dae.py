@@ -20,6 +20,7 @@ from acausal.export.dae.plain import encoded
 from acausal.export.dae.shown import shown
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
+from acausal.language.docstring import first_line
 from acausal.language.functions import feedback, initial, time
 from acausal.language.validity import Expectation, Separation
 from acausal.locks import alone
@@ -72,7 +73,7 @@ def export_dae(
     first = {
         "acausal": version("acausal"),
         "model": type(compiled.tree).__name__,
-        "description": (type(compiled.tree).__doc__ or "").strip().partition("\n")[0],
+        "description": first_line(type(compiled.tree)),
         **described,
         "unchecked": unchecked,
         "operations": list(NAMES),

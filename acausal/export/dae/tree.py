@@ -18,6 +18,7 @@ from acausal.export.dae.plain import encoded, without_folder
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Model, Record
+from acausal.language.docstring import first_line
 from acausal.language.expression import Expr
 from acausal.language.validity import Requirement
 from acausal.result.lookup import READABLE
@@ -94,7 +95,7 @@ def _class(cls: type[Component]) -> dict[str, Any]:
     return {
         "name": cls.__name__,
         "base": next(base for base in BASES if issubclass(cls, base)).__name__,
-        "description": (cls.__doc__ or "").strip().partition("\n")[0],
+        "description": first_line(cls),
         "start_words": dict(cls.start_words),
         "fields": [_field(name, declared) for name, declared in cls.fields.items()],
     }

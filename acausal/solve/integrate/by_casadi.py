@@ -121,5 +121,8 @@ def by_rosenbrock(request: Request) -> ByCasadi:
     }
     if first := first_step(request):
         options["step0"] = first
-    seen = sizes(request), UNSEEN * problem.nominal[problem.nx :]
+    seen = (
+        sizes(request.problem, request.settings.nominal, request.settings.vibration),
+        UNSEEN * problem.nominal[problem.nx :],
+    )
     return ByCasadi(request, "rosenbrock", options, ("n_steps", "n_jac", "n_rhs"), seen)

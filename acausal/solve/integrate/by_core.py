@@ -31,6 +31,7 @@ class ByCore(Integration):
     def __init__(self, request: Request, damps: bool) -> None:
         self.request = request
         problem, way, at = request.problem, request.way, request.at
+        nominal = request.settings.nominal
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
         loops = bool(problem.compiled.constraints.size)
@@ -39,7 +40,7 @@ class ByCore(Integration):
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
-            size=sizes(request) if damps else request.settings.nominal[: problem.nx],
+            size=sizes(problem, nominal, request.settings.vibration) if damps else nominal[: problem.nx],
             tolerance=way.tolerance,
             first_step=min(request.first_step, request.span) or first_step(request) * request.span,
             rate=are_rates(problem),

@@ -16,7 +16,8 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
     """Return whether loops may have passed a position in which their constraints are not independent.
 
     There the smallest singular value of their Jacobian is 0. It falls linearly on the way, so it may have been 0 between two
-    steps where it is less at one of them than it changes from one to the other.
+    steps where it is less at one of them than it changes from one to the other. Another method goes on then, so that a false
+    alarm costs time alone; `flat.c` ends the run of an exported model, and first looks for the least value within the step.
 
     Parameters
     ----------

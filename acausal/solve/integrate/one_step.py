@@ -16,12 +16,21 @@ from acausal.solve.problem import Problem
 CALLS = POLICY.calls
 
 
-def sizes(request: Request) -> np.ndarray:
-    """Return the sizes of the states in the error test."""
-    problem = request.problem
-    size = request.settings.nominal[: problem.nx].copy()
+def sizes(problem: Problem, nominal: np.ndarray, vibration: float) -> np.ndarray:
+    """Return the sizes of the states in the error test of a method that damps.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    nominal : array
+        Sizes of states, and maybe others after them.
+    vibration : float
+        Size of the largest eigenvalue that oscillates, in 1/s.
+    """
+    size = nominal[: problem.nx].copy()
     for coordinate, rate in problem.rates:
-        size[rate] = max(size[rate], size[coordinate] * request.settings.vibration)
+        size[rate] = max(size[rate], size[coordinate] * vibration)
     return size
 
 

@@ -31,6 +31,12 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
         return np.zeros(0, complex)
 
 
+def sizes_of(values: np.ndarray) -> tuple[float, float]:
+    """Return the size of the largest eigenvalue, and of the largest that oscillates; 0 where there is none."""
+    fastest, vibration = (float(np.max(np.abs(some), initial=0.0)) for some in (values, values[np.imag(values) != 0]))
+    return fastest, vibration
+
+
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:
     nx, nz = problem.nx, problem.nz
     local = problem.local(at)

@@ -88,6 +88,14 @@ def test_a_scene_reads_no_memory_that_is_not_its_own(name, made, tmp_path):
     same(written(name, tmp_path), name, watched, SPANS[name] / 10)
 
 
+def damaged(made, file: Path, changes: int) -> None:
+    """Damage a file in every way, and so many times at random: some is refused, some is not, and nothing else happens."""
+    command = [str(made("damage.c", sanitized=True)), str(file), str(changes)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert 0 < int(done.stdout) < 0.9 * changes
+
+
 @pytest.mark.parametrize(
     ("name", "changes"),
     [
@@ -99,10 +107,7 @@ def test_a_scene_reads_no_memory_that_is_not_its_own(name, made, tmp_path):
     ],
 )
 def test_damaged_files_are_refused_and_never_believed(name, changes, made, tmp_path):
-    command = [str(made("damage.c", sanitized=True)), str(written(name, tmp_path)), str(changes)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert 0 < int(done.stdout) < 0.9 * changes
+    damaged(made, written(name, tmp_path), changes)
 
 
 @pytest.mark.parametrize(
@@ -119,11 +124,7 @@ def test_damaged_files_of_exported_models_are_refused_and_never_believed(name, c
     pytest.importorskip("fmpy")
     from tests.acausal.export.importing import unit
 
-    file = unit(name, 3, tmp_path).resources / "model.bin"
-    command = [str(made("damage.c", sanitized=True)), str(file), str(changes)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert 0 < int(done.stdout) < 0.9 * changes
+    damaged(made, unit(name, 3, tmp_path).resources / "model.bin", changes)
 
 
 def test_what_is_no_whole_file_is_told():

@@ -15,6 +15,7 @@ from hypothesis import given
 from acausal.errors import ExportError
 from acausal.export import Description, Variable, fmi2, fmi3
 from tests.acausal.export.made import ALIASED, EMPTY, SPRING, TIME, altered, descriptions
+from tests.fuzz.settings import effort
 
 DESCRIBE = {2: fmi2.describe, 3: fmi3.describe}
 MADE = [EMPTY, SPRING, ALIASED]
@@ -109,6 +110,7 @@ def says(read: Read, made: Description) -> None:
     assert solved.keys() <= {unknown for unknown, _ in read.initial}
 
 
+@effort(100)
 @given(descriptions())
 def test_any_description_says_what_is_meant(made):
     says(read2(fmi2.describe(made)), made)
@@ -117,6 +119,7 @@ def test_any_description_says_what_is_meant(made):
     assert {unknown for unknown, _ in read.initial} == made.initial_unknowns.keys()
 
 
+@effort(100)
 @given(descriptions())
 def test_any_description_keeps_to_the_schema(made):
     etree = pytest.importorskip("lxml.etree")

@@ -133,6 +133,19 @@ def test_a_changed_parameter_equals_a_run_with_that_value(
     assert error(found, exact) < 2e-5
 
 
+def test_a_parameter_that_is_0_can_be_kept(tmp_path: Path) -> None:
+    model = models.FlexiblePendulum(elements=2)
+    path = exported(model, tmp_path / "a.fmu", 3, free="beam.beta")
+    for beta in (0.0, 1e-3):
+        compiled = ac.compile(model, parameters={"beam.beta": beta})
+        exact = columns(ac.simulate(compiled, tolerance=1e-8, method="idas", stop_time=0.1, intervals=40))
+        found = simulated(path, "CoSimulation", 0.1, relative_tolerance=1e-7, start_values={"beam.beta": beta})
+        assert error(found, exact) < 1e-5
+    exported(model, path, 3)
+    with pytest.raises(Exception, match=r"beam\.beta"):
+        simulated(path, "CoSimulation", 0.1, start_values={"beam.beta": 1e-3})
+
+
 def test_start_values_of_states_can_be_set(tmp_path: Path) -> None:
     path = exported(ac.compile(Ball()), tmp_path / "a.fmu", 3)
     found = simulated(path, "CoSimulation", 0.5, start_values={"h": 3.0, "v": 1.0})
@@ -255,6 +268,22 @@ def test_the_flat_position_is_an_error(version: int, tmp_path: Path) -> None:
             simulated(path, kind, 10.0, 400)
         before = simulated(path, kind, 0.7, 28)
         assert before["b0_y"][-1] < 0.15
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_vibrations_are_damped_where_that_is_set(version: int, tmp_path: Path) -> None:
+    compiled = ac.compile(models.SliderCrank(crank_elements=2, rod_elements=2))
+    path = exported(compiled, tmp_path / "a.fmu", version)
+    given = {"stop_time": 0.9, "intervals": 40}
+    exact = columns(ac.simulate(compiled, tolerance=1e-7, method="resolve", **given))
+    own = error(columns(ac.simulate(compiled, tolerance=1e-4, method="rosenbrock", **given)), exact)
+    few = {"relative_tolerance": 1e-4, "output": list(exact)}
+    steps = {"solver.most_steps": 50}
+    damped = simulated(path, "CoSimulation", 0.9, start_values={"solver.damping": 1, **steps}, **few)
+    assert error(damped, exact) < 2 * own
+    with pytest.raises(Exception, match=r"[Dd]iscard|[Ee]rror"):
+        simulated(path, "CoSimulation", 0.9, start_values=steps, **few)
+    assert error(simulated(path, "CoSimulation", 0.9, **few), exact) < 0.1 * own
 
 
 @pytest.mark.parametrize("version", [2, 3])
