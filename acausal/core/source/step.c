@@ -34,9 +34,10 @@ static int32_t begin(ac_instance *i, double to) {
     i->ends[0] = goes_on ? i->now.to : i->now.time;
     if (!goes_on) i->now.end = fmin(horizon, i->now.next);
     i->ends[1] = i->now.end;
+    const int damps = i->now.damping > 0;
     const ac_request request = {
         .tolerance = i->now.tolerance, .first_step = kept, .rate = m->rate,
-        .size = i->now.damping > 0 ? u->damped : m->size, .smooth = !(i->now.damping > 0),
+        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps,
         .most = INT64_MAX / 4, .outputs = 1, .time = i->ends, .room = 1,
         .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
     };
