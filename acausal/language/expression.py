@@ -12,7 +12,6 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
-from acausal.language.arguments import told
 from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
 from acausal.language.no_expression import no_expression, number_of, ragged
@@ -20,7 +19,7 @@ from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.language.written import kind_of, short, written
 from acausal.symbols import combined, picked, vec
-from acausal.units import Dimension, parse
+from acausal.units import Dimension
 
 
 class Expr(Symbolic):
@@ -201,29 +200,6 @@ def as_expr(value: Any) -> Expr:
 @lru_cache(maxsize=1024)
 def _number(value: float) -> Expr:
     return Expr(ca.SX(value) if value else ca.SX(1, 1))
-
-
-@told
-def quantity(value: Any, unit: str) -> Expr:
-    """Return a constant with a unit, where a number alone would be a pure number.
-
-    Parameters
-    ----------
-    value : float or array
-        The value in SI.
-    unit : str
-        SI unit of every entry.
-
-    Examples
-    --------
-    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
-    """
-    if isinstance(value, str) or not isinstance(unit, str):
-        raise DeclarationError(
-            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
-        )
-    number = as_expr(value)
-    return Expr(number.sx, parse(unit), shape=number.shape)
 
 
 def equation(lhs: Any, rhs: Any) -> Any:

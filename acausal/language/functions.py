@@ -199,6 +199,29 @@ def cross(a: Any, b: Any) -> Any:
 
 
 @told
+def quantity(value: Any, unit: str) -> Expr:
+    """Return a constant with a unit, where a number alone would be a pure number.
+
+    Parameters
+    ----------
+    value : float or array
+        The value in SI.
+    unit : str
+        SI unit of every entry.
+
+    Examples
+    --------
+    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
+    """
+    if isinstance(value, str) or not isinstance(unit, str):
+        raise DeclarationError(
+            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
+        )
+    number = as_expr(value)
+    return Expr(number.sx, parse(unit), shape=number.shape)
+
+
+@told
 def der(x: Any) -> Any:
     """Time derivative of an expression.
 
