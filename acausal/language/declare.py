@@ -254,11 +254,7 @@ def port(connector: Any, description: str = "") -> Any:
 
 @told
 def ports(make: Callable[[Any], Any]) -> Any:
-    """Decorate a method that makes ports by their names from structural values: a dict of connectors.
-
-    Each is a port of the component, `body.tip` for the name "tip"; all of them are read by the name of the method, as a
-    dict.
-    """
+    """Decorate a method that makes ports from structural values, a dict of connectors by name: `body.tip` for "tip"."""
     return Family(_described(make, "ports"), make=make, is_port=True)
 
 
