@@ -20,9 +20,17 @@ def same(a: Any, b: Any) -> bool:
     """Return whether two values are one, arrays and what holds arrays entry by entry."""
     if a is b:
         return True
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b)
+    if _is_listed(a) and _is_listed(b):
+        return len(a) == len(b) and all(map(same, a, b))
     with suppress(ValueError, TypeError):  # Python cannot decide on arrays
         return bool(a == b)
     return plain(a) == plain(b)
+
+
+def _is_listed(value: Any) -> bool:
+    return isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
 def plain(value: Any) -> Any:
