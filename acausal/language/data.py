@@ -39,12 +39,13 @@ def plain(value: Any) -> Any:
     Data that write themselves in a few letters, as those with a digest do, are their text; others have the digest of
     what a pickle of them holds.
     """
+    if isinstance(value, np.ndarray | np.generic):  # among these are kinds of float that compare as arrays do
+        found = value.tolist()
+        return repr(found) if isinstance(found, np.generic) else plain(found)
     if value is None or isinstance(value, bool | int | float | str):
         return value
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
     if isinstance(value, list | tuple):
         return [plain(v) for v in value]
     if text := in_code(repr(value), ""):
