@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
 from typing import Any
@@ -143,7 +144,7 @@ class Alike:
                 if isinstance(declared, f.Part | f.Outer):
                     key.append(id(value) if isinstance(declared, f.Outer) else _count(value))
                 elif not isinstance(value, Expr):
-                    key.append(_plain(value))
+                    key.append(_datum(value) if isinstance(declared, f.Structural) else _plain(value))
                 elif not isinstance(declared, f.Variable):
                     key.append((value.unit, value.shape, _entries(value.sx, entries)))
                 elif declared.causality == "discrete":
@@ -186,6 +187,15 @@ def _plain(value: Any) -> Hashable:
     return type(value), id(value)
 
 
+def _datum(value: Any) -> Hashable:
+    """What is equal for equal structural values: by their own word where they are compared by more than their identity."""
+    if type(value).__hash__ not in (None, object.__hash__) and not isinstance(value, tuple):
+        with suppress(TypeError):  # a frozen record of arrays cannot be hashed
+            hash(value)
+            return type(value), value
+    return _plain(value)
+
+
 def _entries(sx: ca.SX, found: _Entries) -> Hashable:
     """Numbers in a parameter, and the places of its other entries among those that were found before."""
     key: list[Hashable] = [sx.nnz()]
@@ -226,7 +236,7 @@ def _template(component: Component, look: _Look, kind: type, hear: Hear) -> _Tem
 
 
 def _anew(variable: Expr) -> Expr:
-    return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name)
+    return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name, variable.shape)
 
 
 def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
@@ -235,7 +245,7 @@ def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
     for k, entry in enumerate(nonzeros):
         if not entry.is_constant():
             sx.nz[k] = entries[entry.element_hash()]
-    return Expr(sx, parameter.unit, parameter.name)
+    return Expr(sx, parameter.unit, parameter.name, parameter.shape)
 
 
 def _function(stated: list[Stated], kind: type, own: _Look, pending: Pending) -> _Template | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.arguments import refused
@@ -141,6 +143,11 @@ def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
 
 
 def _check_part(where: str, value: Any, field: f.Part) -> Any:
+    if isinstance(field, f.Family):
+        raise DeclarationError(
+            f"{where} makes ports from structural values; they are connected by their names, and it takes no value, not "
+            f"{shown(value)}."
+        )
     if isinstance(value, list | tuple):
         return instances(value, where)
     value = instance(value)
@@ -174,4 +181,5 @@ def shown(value: Any, otherwise: str = "...") -> str:
 
 def shown_or_kind(value: Any) -> str:
     """Return a value as it is written in code, its kind where that is long."""
-    return shown(value, f"a {type(value).__name__}")
+    kind = f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
+    return shown(value, kind)
