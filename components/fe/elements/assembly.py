@@ -12,6 +12,8 @@ from components.fe.elements import brick, quadratic
 from components.fe.elements.material import Material
 
 NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10}
+# Bricks that are integrated at once: 9 kB each.
+BATCH = 20_000
 # Kinds of a mesh that are no solids: its surfaces, lines and points.
 FLAT = ("vertex", "line", "triangle", "quad")
 
@@ -94,7 +96,8 @@ def _solids(cells: Any, count: int) -> list[tuple[str, np.ndarray]]:
 def _bricks(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[Any, np.ndarray]:
     from scipy.sparse import csr_array
 
-    mass, stiffness = brick.matrices(points, cells, material)
+    parts = [brick.matrices(points, some, material) for some in np.array_split(cells, len(cells) // BATCH + 1)]
+    mass, stiffness = (np.concatenate(both) for both in zip(*parts, strict=True))
     rows, columns = np.repeat(cells, 8, axis=1).ravel(), np.tile(cells, 8).ravel()
 
     def sparse(values: np.ndarray) -> Any:

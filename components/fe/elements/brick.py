@@ -59,7 +59,7 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
         weight = np.linalg.det(jacobian)
         if (weight <= 0).any():
             wrong = int(np.flatnonzero(weight <= 0)[0])
-            raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
+            raise DeclarationError(f"the brick of nodes {cells[wrong].tolist()} is turned inside out or folded")
         mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
         own = np.einsum("ix,exa->eia", slopes(at), np.linalg.inv(jacobian))
         bubbles = -2 * at[None, :, None] * size * (volume / weight)[:, None, None]

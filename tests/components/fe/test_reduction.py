@@ -410,3 +410,19 @@ def test_frames_may_share_nodes(hold, basis):
         assert not found["inner"].rotation.any()
     u = body.nodal.modes.reshape(-1, 16)
     np.testing.assert_allclose(u.T @ (M @ u), np.eye(16), atol=1e-10)
+
+
+def test_a_slender_rod_is_no_mechanism():
+    """Aspect 2000: clamped and free, against Euler and Bernoulli, to what the last digit of the stiffness leaves.
+
+    omega^2 is 6e-15 of the largest eigenvalue.
+    """
+    from components.fe import box
+
+    E, rho, h = 7e10, 2700.0, 0.004
+    M, K, nodes = box((8.0, h, h), (100, 1, 1), "hex20", E=E, nu=0.0, rho=rho)
+    unit = np.sqrt(E * h**2 / 12 / (rho * 8.0**4)) / (2 * np.pi)
+    frames = {"root": face(nodes, 0, 0)}
+    for hold, root in (("root", 1.8751040687), ("mean-axis", 4.7300407449)):
+        body = reduce_body(M, K, nodes, frames=frames, hold=hold, modes=4)
+        np.testing.assert_allclose(body.frequencies[:2], root**2 * unit, rtol=1e-2)
