@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,6 +11,15 @@ import numpy as np
 from components.fe.formats.text import number, text_of, wrong
 
 DEEPEST = 20  # files that include one another
+# Solid elements: their name in the deck begins so, name in meshio, nodes; the orders of nodes are the same.
+SOLIDS = (
+    ("C3D4", "tetra", 4),
+    ("C3D10", "tetra10", 10),
+    ("C3D6", "wedge", 6),
+    ("C3D15", "wedge15", 15),
+    ("C3D8", "hexahedron", 8),
+    ("C3D20", "hexahedron20", 20),
+)
 # Cards that make nodes, or move them, or turn their equations.
 GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "SYSTEM", "TRANSFORM")
 
@@ -48,7 +57,7 @@ def blocks(path: str | Path, depth: int = 0) -> Iterator[Block]:
     """
     if depth > DEEPEST:
         raise wrong(path, f"files include one another more than {DEEPEST} times")
-    block, begun = None, False
+    begun = False
     for block in _of_one_file(Path(path)):
         begun = True
         if block.keyword == "INCLUDE":
@@ -94,11 +103,30 @@ def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
         if block.keyword != "ELEMENT":
             continue
         kind, entries = block.options.get("TYPE", "").upper(), []
+        _, needed = solid(kind)
         for path, line, more in _data(block):
-            entries += more
-            if more[-1]:  # a comma at the end of a line continues it
-                yield kind, _integers(path, line, entries)[1:]
+            entries += _integers(path, line, more)
+            if more[-1] and len(entries) > needed:  # else it continues on the next line
+                yield kind, entries[1:]
                 entries = []
+        if entries:
+            raise wrong(block.path, f"the last element has {len(entries) - 1} nodes, fewer than a {kind}", block.line)
+
+
+def solid(kind: str) -> tuple[str, int]:
+    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for anything else."""
+    family = next((kind[: len(start)] for start, _, _ in SOLIDS[::-1] if kind.startswith(start)), "")
+    return next(((name, count) for start, name, count in SOLIDS if start == family), ("", 0))
+
+
+def cells_of(found: Iterable[tuple[str, list[int]]], rows: Mapping[int, int]) -> dict[str, list[list[int]]]:
+    """Return the solid elements of a deck by meshio's names, with rows instead of numbers of nodes."""
+    cells: dict[str, list[list[int]]] = {}
+    for kind, names in found:
+        name, count = solid(kind)
+        if name and len(names) == count and all(node in rows for node in names):
+            cells.setdefault(name, []).append([rows[node] for node in names])
+    return cells
 
 
 def _of_one_file(path: Path) -> Iterator[Block]:

@@ -76,7 +76,8 @@ def condensed(stiffness: Any, inner: np.ndarray) -> Any:
     """
     outer = ~inner
     K_ii, K_ib = (stiffness[inner][:, part].tocsr() for part in (inner, outer))
-    return (stiffness[outer][:, outer] - K_ib.T @ _inverse(K_ii) @ K_ib).tocsr()
+    rest = stiffness[outer][:, outer] - K_ib.T @ _inverse(K_ii) @ K_ib
+    return ((rest + rest.T) / 2).tocsr()  # symmetric to the last digit, whatever the order of the sums
 
 
 def _inverse(matrix: Any) -> Any:
