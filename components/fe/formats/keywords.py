@@ -98,7 +98,13 @@ def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
 
 
 def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
-    """Yield type and node numbers of each element of a deck; the type in capitals."""
+    """Yield type and node numbers of each element of a deck; the type in capitals.
+
+    Raises
+    ------
+    DeclarationError
+        If a line is wrong, or an element lacks nodes.
+    """
     for block in deck:
         if block.keyword != "ELEMENT":
             continue

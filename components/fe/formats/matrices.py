@@ -14,7 +14,9 @@ from components.fe.formats.text import wrong
 Matrices = tuple[Any, Any, np.ndarray]
 
 
-def from_entries(path: str | Path, rows: np.ndarray, columns: np.ndarray, values: np.ndarray, n: int) -> Any:
+def from_entries(
+    path: str | Path, rows: np.ndarray, columns: np.ndarray, values: np.ndarray, n: int, *, full: bool = True
+) -> Any:
     """Return a square matrix from its entries, the other triangle included where the file holds one of them.
 
     Parameters
@@ -27,11 +29,13 @@ def from_entries(path: str | Path, rows: np.ndarray, columns: np.ndarray, values
         The entries.
     n : int
         Number of equations.
+    full : bool
+        Whether every equation has an entry on the diagonal.
 
     Raises
     ------
     DeclarationError
-        If an entry lies outside or stands twice, or if an equation has no entry on the diagonal: the file was cut off.
+        If an entry lies outside or stands twice, or if an equation that should has no entry on the diagonal: the file was cut off.
     """
     for index in (rows, columns):
         if index.size and (index.min() < 0 or index.max() >= n):
@@ -44,7 +48,7 @@ def from_entries(path: str | Path, rows: np.ndarray, columns: np.ndarray, values
         twice = order[1:][(np.diff(rows[order]) == 0) & (np.diff(columns[order]) == 0)][0]
         raise wrong(path, f"the entry ({rows[twice] + 1}, {columns[twice] + 1}) stands twice")
     missing = np.setdiff1d(np.arange(n), rows[rows == columns])
-    if missing.size:
+    if full and missing.size:
         raise wrong(path, f"equation {missing[0] + 1} of {n} has no entry on the diagonal; the file may be cut off")
     return mirrored(matrix)
 
@@ -94,3 +98,12 @@ def _inverse(matrix: Any) -> Any:
         found.append((np.linalg.inv(blocks).ravel(), rows.ravel(), columns.ravel()))
     data, rows, columns = (np.concatenate(part) for part in zip(*found, strict=True))
     return sp.csr_array((data, (rows, columns)), matrix.shape)
+
+
+def rigid_forces(stiffness: Any, nodes: np.ndarray) -> float:
+    """Return the largest force that a stiffness opposes to rigid motions of its nodes, as a part of its terms' sizes."""
+    r = nodes - nodes.mean(axis=0)
+    motions = [np.tile(e, (len(r), 1)) for e in np.eye(3)] + [np.cross(e, r) for e in np.eye(3)]
+    R = np.stack([motion.ravel() for motion in motions], axis=1)
+    sizes = (abs(stiffness) @ abs(R)).max(axis=0)
+    return float((abs(stiffness @ R).max(axis=0) / np.where(sizes > 0, sizes, 1.0)).max())
