@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,22 +16,37 @@ from components.fe.formats.text import wrong
 Read = TypeVar("Read")
 
 
-def package(name: str, extra: str, what: str) -> Any:
-    """Return a module of a package that is not always installed.
+def installed(name: str, extra: str, what: str) -> None:
+    """Refuse what needs a package that is not installed.
+
+    Parameters
+    ----------
+    name : str
+        A module.
+    extra : str
+        Optional dependencies of acausal that hold it.
+    what : str
+        What needs it, for the message.
 
     Raises
     ------
     DeclarationError
-        If it is not, with what installs it.
+        With what installs it.
     """
     try:
-        return import_module(name)
-    except ImportError as error:
-        top = name.partition(".")[0]
-        why = "" if error.name and error.name.startswith(top) else f" ({error})"
+        found = find_spec(name) is not None
+    except ImportError:
+        found = False
+    if not found:
         raise DeclarationError(
-            f"{what} needs a package that is not installed{why}: python -m pip install 'acausal[{extra}]'."
-        ) from None
+            f"{what} needs the module {name}, which is not installed: python -m pip install 'acausal[{extra}]'."
+        )
+
+
+def package(name: str, extra: str, what: str) -> Any:
+    """Return a module of a package that is not always installed, or refuse as `installed` does."""
+    installed(name, extra, what)
+    return import_module(name)
 
 
 def existing(path: str | Path, what: str) -> Path:
