@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr, cross, dot
+from acausal import as_expr, cross, dot, quantity
 from components.fe.reduced_body import ReducedBody
 
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))  # entries of a symmetric matrix
-AXES = ((1, 2), (2, 0), (0, 1))  # those of an antisymmetric one, by the axis that it turns about
+# A symmetric matrix is kept as two entries of its diagonal, those beside it, and its trace: the trace of B is M, which has
+# few entries where modes are orthogonal, so that five and not six products of full matrices are left.
+PAIRS = ((0, 0), (1, 1), (0, 1), (0, 2), (1, 2))
+AXES = ((1, 2), (2, 0), (0, 1))  # entries of an antisymmetric one, by the axis that it turns about
 
 
 @dataclass(frozen=True)
@@ -69,28 +71,27 @@ class ModalInertia:
         modal : Expr, shape (n,)
             In N, conjugate to q.
         """
-        body, H, S = self.body, self._modal_moments, self.body.modal_first
+        body, S = self.body, self.body.modal_first
         s, turned, J = self.first(), self._turned_first, self._turned_tensor
         force = self.mass * a + cross(z, s) + cross(w, cross(w, turned)) + S @ self.qdd
-        moment = cross(s, a) + self._tensor @ z + cross(w, J @ w) + _contracted(H, self.qdd)
-        modal = S.T @ a + sum((z[k] * H[k] for k in range(3)), self._centrifugal(w)) + body.M @ self.qdd
+        moment = cross(s, a) + self._tensor @ z + cross(w, J @ w) + self._spin(self.qdd)
+        modal = S.T @ a + self._along(self._modal_moments, z) + self._centrifugal(w) + body.M @ self.qdd
         if self.coriolis:
-            relative = S @ self.qd
-            force += 2 * cross(w, relative)
-            moment += cross(w, _contracted(H, self.qd))
+            force += 2 * cross(w, S @ self.qd)
+            moment += cross(w, self._spin(self.qd))
             if self.order != "constant":
-                moment += _tensor([2 * dot(self.qd, g) for g in self._slopes]) @ w
-                modal += 2 * sum((w[k] * (C @ self.qd) for k, C in enumerate(self._gyroscopic)), 0 * modal)
+                moment += _tensor([dot(g, self.qd) for g in self._slopes]) @ (2 * w)
+                modal += self._along([C @ self.qd for C in self._gyroscopic], 2 * w)
         return force, moment, modal
 
     @property
-    def mass(self) -> float:
+    def mass(self) -> Any:
         """Mass in kg."""
-        return self.body.mass
+        return quantity(self.body.mass, "kg")
 
     def first(self) -> Any:
         """First moment s of the mass in kg.m, shape (3,), resolved in the frame."""
-        rest = as_expr(np.asarray(self.body.first_moment))
+        rest = quantity(self.body.first_moment, "kg.m")
         return rest if self.order == "constant" else rest + self.body.modal_first @ self.q
 
     def momentum(self) -> Any:
@@ -101,71 +102,79 @@ class ModalInertia:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
         relative = self.body.modal_first @ self.qd
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + relative)
-        spin = dot(w, _contracted(self._modal_moments, self.qd))
+        spin = dot(w, self._spin(self.qd))
         return (translation + dot(w, self._tensor @ w) + 2 * spin + dot(self.qd, self.momentum())) / 2
 
     def _centrifugal(self, w: Any) -> Any:
         """Forces W : g_b on the modes."""
         x, y, z = (w[k] * w[k] for k in range(3))
-        W = (-(y + z), -(x + z), -(x + y), 2 * w[0] * w[1], 2 * w[0] * w[2], 2 * w[1] * w[2])
-        slopes = self._slopes if self.centrifugal else [as_expr(A) for A in self._straight]
-        return sum((factor * g for factor, g in zip(W, slopes, strict=True)), as_expr(np.zeros(len(self.body.M))))
+        W = (x - z, y - z, 2 * (w[0] * w[1]), 2 * (w[0] * w[2]), 2 * (w[1] * w[2]), -(x + y))
+        slopes = self._slopes if self.centrifugal else self._straight
+        return sum((factor * g for factor, g in zip(W, slopes, strict=True)), self._none)
+
+    def _spin(self, rates: Any) -> Any:
+        """Sum of the moments H_b, each with a rate of its mode, shape (3,)."""
+        return as_expr([dot(H, rates) for H in self._modal_moments])
+
+    def _along(self, moments: list[Any], w: Any) -> Any:
+        """Moments of the modes about w, shape (n,)."""
+        return sum((H * w[k] for k, H in enumerate(moments)), self._none)
+
+    @property
+    def _none(self) -> Any:
+        return as_expr(np.zeros(len(self.body.M)))
 
     @cached_property
-    def _straight(self) -> list[np.ndarray]:
-        """Half the derivatives of the second moments where the body is not deformed, by pair of axes, each (n,)."""
+    def _straight(self) -> list[Any]:
+        """Half the derivatives of the second moments where the body is not deformed: PAIRS and trace, each (n,)."""
         A = self.body.modal_second
-        return [(A[:, i, j] + A[:, j, i]) / 2 for i, j in PAIRS]
+        return [as_expr(v) for v in (*((A[:, i, j] + A[:, j, i]) / 2 for i, j in PAIRS), np.trace(A, axis1=1, axis2=2))]
 
     @cached_property
     def _slopes(self) -> list[Any]:
-        """Half the derivatives g_b of the second moments, by pair of axes, each (n,), in kg.m."""
-        rest = [as_expr(A) for A in self._straight]
+        """Half the derivatives g_b of the second moments: PAIRS and trace, each (n,), in kg.m."""
         if self.order != "second_order":
-            return rest
+            return self._straight
         B = self.body.modal_products
-        return [A + (B[:, :, i, j] + B[:, :, j, i]) / 2 @ self.q for A, (i, j) in zip(rest, PAIRS, strict=True)]
+        products = [*((B[:, :, i, j] + B[:, :, j, i]) / 2 for i, j in PAIRS), self.body.M]
+        return [A + G @ self.q for A, G in zip(self._straight, products, strict=True)]
 
     @cached_property
     def _gyroscopic(self) -> list[np.ndarray]:
         """Coefficients of q in the moments H_b, by axis: antisymmetric, each (n, n), in kg."""
-        if self.order == "constant":
-            return [np.zeros_like(self.body.M)] * 3
-        B = self.body.modal_products
-        return [(B[:, :, j, i] - B[:, :, i, j]) for i, j in AXES]
+        B = self.body.modal_products * (self.order != "constant")
+        return [B[:, :, j, i] - B[:, :, i, j] for i, j in AXES]
 
     @cached_property
     def _modal_moments(self) -> list[Any]:
         """Moments H_b of the modes, the integrals of r x phi_b, by axis, each (n,), in kg.m."""
         A = self.body.modal_second
         rest = [as_expr(A[:, i, j] - A[:, j, i]) for i, j in AXES]
-        if self.order == "constant":
-            return rest
         return [H + C @ self.q for H, C in zip(rest, self._gyroscopic, strict=True)]
+
+    @cached_property
+    def _rest(self) -> list[Any]:
+        P = self.body.second_moment
+        return [quantity(value, "kg.m2") for value in (*(P[i, j] for i, j in PAIRS), np.trace(P))]
 
     @cached_property
     def _tensor(self) -> Any:
         """Inertia tensor J about the origin in kg.m2."""
-        rest = [float(self.body.second_moment[i, j]) for i, j in PAIRS]
         if self.order == "constant":
-            return _tensor(rest)
-        sums = zip(self._straight, self._slopes, strict=True)
-        return _tensor([P + dot(self.q, A + g) for P, (A, g) in zip(rest, sums, strict=True)])
+            return _tensor(self._rest)
+        sums = [A + g for A, g in zip(self._straight, self._slopes, strict=True)]
+        return _tensor([P + dot(g, self.q) for P, g in zip(self._rest, sums, strict=True)])
 
     @property
     def _turned_first(self) -> Any:
-        return self.first() if self.centrifugal else as_expr(np.asarray(self.body.first_moment))
+        return self.first() if self.centrifugal else quantity(self.body.first_moment, "kg.m")
 
     @property
     def _turned_tensor(self) -> Any:
-        return self._tensor if self.centrifugal else _tensor([self.body.second_moment[i, j] for i, j in PAIRS])
+        return self._tensor if self.centrifugal else _tensor(self._rest)
 
 
 def _tensor(P: Any) -> Any:
-    """Inertia tensor of second moments, given by pair of axes."""
-    xx, yy, zz, xy, xz, yz = P
-    return as_expr([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
-
-
-def _contracted(H: Any, q: Any) -> Any:
-    return as_expr([dot(h, q) for h in H])
+    """Inertia tensor of second moments, given as PAIRS and trace."""
+    xx, yy, xy, xz, yz, trace = P
+    return as_expr([[trace - xx, -xy, -xz], [-xy, trace - yy, -yz], [-xz, -yz, xx + yy]])
