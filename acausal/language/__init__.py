@@ -20,6 +20,7 @@ from acausal.language.declare import (
     part,
     parts,
     port,
+    ports,
     structural,
     variable,
 )
@@ -109,6 +110,7 @@ __all__ = [
     "parts",
     "piecewise",
     "port",
+    "ports",
     "potential_root",
     "quantity",
     "reinit",

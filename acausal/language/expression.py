@@ -249,7 +249,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
 
 def is_deferred(*values: Any) -> bool:
     """Return whether one of the values is a field of a class body, known only when the model is built."""
-    return any(getattr(value, "is_deferred", False) for value in values)
+    return any(getattr(value, "is_deferred", False) is True for value in values)
 
 
 def _misfit(a: Expr, symbol: str, b: Expr) -> str:

@@ -191,6 +191,19 @@ class Part(Field):
     make: Any = None
     many: bool = False
     is_port: bool = False
+    family: str = ""  # the field of the class that makes it, for a port whose name only the instance knows
+
+
+@dataclass(eq=False)
+class Family(Part):
+    """Ports whose names are known only in an instance, where these are fields in its place."""
+
+    def __get__(self, owner: Any, cls: type | None = None) -> Any:
+        """Give the ports of a built component by their names."""
+        if owner is None or self.name in owner.fields:
+            return super().__get__(owner, cls)
+        ports = {name: field for name, field in owner.fields.items() if isinstance(field, Part)}
+        return {name: vars(owner)[name] for name, field in ports.items() if field.family == self.name}
 
 
 @dataclass(eq=False)

@@ -171,7 +171,7 @@ def _walk(tree: Component, path: str) -> Quantity:
     for name, places in parents:
         owner = choose(_member(owner, name), name, places)
     value = _member(owner, last)
-    declared = type(owner).fields[last]
+    declared = owner.fields[last]
     if not isinstance(declared, READABLE):
         raise DeclarationError(not_readable(path, choose(value, last, indices)))
     quantity = quantity_of(owner, last, declared, value)
@@ -208,11 +208,11 @@ def choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
 
 
 def _member(owner: Any, name: str) -> Any:
-    if not isinstance(owner, Component) or name not in type(owner).fields:
+    if not isinstance(owner, Component) or name not in owner.fields:
         raise LookupError
-    observed = isinstance(type(owner).fields[name], f.Observed)
+    observed = isinstance(owner.fields[name], f.Observed)
     value = getattr(owner, name) if observed else vars(owner).get(name)
-    if value is None and not isinstance(type(owner).fields[name], f.Structural):
+    if value is None and not isinstance(owner.fields[name], f.Structural):
         raise LookupError
     return value
 
