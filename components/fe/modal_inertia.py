@@ -77,7 +77,7 @@ class ModalInertia:
         moment = cross(s, a) + self._tensor @ z + cross(w, J @ w) + self._spin(self.qdd)
         modal = S.T @ a + self._along(self._modal_moments, z) + self._centrifugal(w) + body.M @ self.qdd
         if self.coriolis:
-            force += 2 * cross(w, S @ self.qd)
+            force += 2 * cross(w, self.relative_momentum())
             moment += cross(w, self._spin(self.qd))
             if self.order != "constant":
                 moment += _tensor([dot(g, self.qd) for g in self._slopes]) @ (2 * w)
@@ -94,14 +94,17 @@ class ModalInertia:
         rest = quantity(self.body.first_moment, "kg.m")
         return rest if self.order == "constant" else rest + self.body.modal_first @ self.q
 
+    def relative_momentum(self) -> Any:
+        """Momentum of the rates of the modes, in kg.m/s, shape (3,), resolved in the frame."""
+        return self.body.modal_first @ self.qd
+
     def momentum(self) -> Any:
         """Momenta of the rates of the modes alone, in kg.m/s, shape (n,)."""
         return self.body.M @ self.qd
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
-        relative = self.body.modal_first @ self.qd
-        translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + relative)
+        translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self.relative_momentum())
         spin = dot(w, self._spin(self.qd))
         return (translation + dot(w, self._tensor @ w) + 2 * spin + dot(self.qd, self.momentum())) / 2
 
