@@ -83,8 +83,6 @@ class ReducedBody:
         Frames where the body is connected.
     origin : array, shape (3,)
         Place of the reference frame in the coordinates in which the nodes were given, in m; the axes are the same.
-    whole_mass : array, shape (6,)
-        What the effective masses of all modes of such a body add up to (see `effective_mass`), in kg and kg.m2.
     nodal : NodalField, optional
         Nodes and modes at nodes; left behind when the body is sent to another process.
 
@@ -105,7 +103,6 @@ class ReducedBody:
     D: Array
     interfaces: tuple[Interface, ...] = ()
     origin: Array = field(default_factory=lambda: np.zeros(3))
-    whole_mass: Array = field(default_factory=lambda: np.zeros(6))
     nodal: NodalField | None = None
 
     def __post_init__(self) -> None:
@@ -142,7 +139,7 @@ class ReducedBody:
         """Mass that each mode moves along when the reference frame is accelerated, shape (n, 6).
 
         Along x, y, z in kg and about x, y, z of the reference frame in kg.m2: (S_b)^2 / M_bb and (H_b)^2 / M_bb with
-        H_b the integral of r0 x phi_b dm. All modes together have `whole_mass`; none have any in a mean-axis frame.
+        H_b the integral of r0 x phi_b dm. Modes in a mean-axis frame have none.
         """
         A = self.modal_second
         turning = np.stack([A[:, 1, 2] - A[:, 2, 1], A[:, 2, 0] - A[:, 0, 2], A[:, 0, 1] - A[:, 1, 0]], axis=1)
@@ -150,9 +147,14 @@ class ReducedBody:
 
     @property
     def lost_mass(self) -> Array:
-        """Part of `whole_mass` that the modes left out would have, from 0 to 1, shape (6,)."""
-        whole = np.where(self.whole_mass > 0, self.whole_mass, 1.0)
-        return np.where(self.whole_mass > 0, 1 - self.effective_mass.sum(axis=0) / whole, 0.0)
+        """Part of the mass and of the moments of inertia that is in no `effective_mass`, from 0 to 1, shape (6,).
+
+        It does not follow an acceleration of the reference frame by deformation: what modes left out would carry, and
+        what is part of the held nodes themselves, which no mode moves.
+        """
+        P = self.second_moment
+        whole = np.array([*[self.mass] * 3, *(np.trace(P) - np.diag(P))])
+        return 1 - self.effective_mass.sum(axis=0) / np.where(whole > 0, whole, np.inf)
 
     def first(self, n: int) -> ReducedBody:
         """The body with the first n of its modes.
@@ -266,5 +268,4 @@ def _shapes(n: int) -> dict[str, tuple[int, ...]]:
         "K": (n, n),
         "D": (n, n),
         "origin": (3,),
-        "whole_mass": (6,),
     }

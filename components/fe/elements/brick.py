@@ -1,0 +1,71 @@
+"""Brick of eight nodes with incompatible modes, which are condensed: it bends without locking.
+
+Taylor, Beresford and Wilson, "A non-conforming element for stress analysis", Int. J. Num. Meth. Eng. 10 (1976): the
+displacement holds 1 - xi^2, 1 - eta^2, 1 - zeta^2 beside the eight shape functions; their gradients are taken with the
+Jacobian of the centre, so that a constant strain stays exact in an element of any shape. They have no mass.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal import DeclarationError
+from components.fe.elements.material import Material
+
+CORNERS = np.array(
+    [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], dtype=float
+)
+POINTS = CORNERS / np.sqrt(3)  # Gauss points of weight 1
+
+
+def shapes(at: np.ndarray) -> np.ndarray:
+    """The eight shape functions at a point of the reference cube, shape (8,)."""
+    return np.prod(1 + CORNERS * at, axis=1) / 8
+
+
+def slopes(at: np.ndarray) -> np.ndarray:
+    """Their derivatives by xi, eta, zeta, shape (8, 3)."""
+    parts = 1 + CORNERS * at
+    others = [parts[:, 1] * parts[:, 2], parts[:, 0] * parts[:, 2], parts[:, 0] * parts[:, 1]]
+    return CORNERS * np.stack(others, axis=1) / 8
+
+
+def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[np.ndarray, np.ndarray]:
+    """Masses of pairs of nodes and stiffness of each brick.
+
+    Parameters
+    ----------
+    points : array, shape (N, 3)
+        Places of the nodes in m.
+    cells : array, shape (elements, 8)
+        Nodes of each brick: one face, then the opposite one in the same order.
+    material : Material
+        The solid.
+
+    Returns
+    -------
+    mass : array, shape (elements, 8, 8)
+        In kg.
+    stiffness : array, shape (elements, 8, 3, 8, 3)
+        In N/m.
+    """
+    corners = points[cells]
+    centre = np.einsum("eia,ix->eax", corners, slopes(np.zeros(3)))
+    size, volume = np.linalg.inv(centre), np.linalg.det(centre)
+    mass = np.zeros((len(cells), 8, 8))
+    gradients = np.zeros((3, 3, len(cells), 11, 11))
+    for at in POINTS:
+        jacobian = np.einsum("eia,ix->eax", corners, slopes(at))
+        weight = np.linalg.det(jacobian)
+        if (weight <= 0).any():
+            wrong = int(np.argmin(weight))
+            raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
+        mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
+        own = np.einsum("ix,exa->eia", slopes(at), np.linalg.inv(jacobian))
+        bubbles = -2 * at[None, :, None] * size * (volume / weight)[:, None, None]
+        both = np.concatenate([own, bubbles], axis=1)
+        gradients += np.einsum("e,eia,ejb->abeij", weight, both, both)
+    full = material.stiffness(gradients).transpose(2, 3, 0, 4, 1).reshape(len(cells), 33, 33)
+    corner, cross, inner = full[:, :24, :24], full[:, :24, 24:], full[:, 24:, 24:]
+    condensed = corner - cross @ np.linalg.solve(inner, cross.transpose(0, 2, 1))
+    return mass, condensed.reshape(len(cells), 8, 3, 8, 3)

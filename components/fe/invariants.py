@@ -1,0 +1,80 @@
+"""Integrals over the mass of a body and its modes, and their older names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from components.fe.arrays import Array
+
+# An integral of two fields that is less than this part of what they could have at most is rounding: exactly 0.
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Invariants:
+    """Integrals of the places r0 and the modes phi_b over the mass of a body; see `ReducedBody`.
+
+    Parameters
+    ----------
+    mass, first_moment, second_moment, modal_first, modal_second, modal_products
+        As those of `ReducedBody`.
+    """
+
+    mass: float
+    first_moment: Array
+    second_moment: Array
+    modal_first: Array
+    modal_second: Array
+    modal_products: Array
+
+
+def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
+    """Integrate places and modes over the mass.
+
+    The mass matrix is the Kronecker product of `mass` with the unit matrix of 3: with the shape functions N of the
+    elements, mass_ij is the integral of N_i N_j dm, so a product of two fields that the elements can hold is integrated
+    by their values at nodes, a' mass b.
+
+    Rounding is cut entry by entry, in the size of the two fields that an entry joins: |a' mass b| is at most
+    sqrt(a' mass a) sqrt(b' mass b), so the thickness of a plate counts by itself beside its length.
+
+    Parameters
+    ----------
+    mass : sparse matrix, shape (N, N)
+        Mass of each pair of nodes in kg.
+    places : array, shape (N, 3)
+        In m, relative to the origin of the reference frame.
+    modes : array, shape (N, 3, n)
+        Displacements.
+    """
+    n = modes.shape[2]
+    fields = np.concatenate(
+        [np.ones((len(places), 1)), places, modes.transpose(0, 2, 1).reshape(len(places), 3 * n)], axis=1
+    )
+    products = fields.T @ (mass @ fields)
+    products = (products + products.T) / 2
+    size = np.sqrt(np.maximum(np.diag(products), 0.0))
+    # A component of a mode that is rounding beside the mode itself.
+    parts = size[4:].reshape(n, 3)
+    parts[parts <= ROUNDING * np.linalg.norm(parts, axis=1, keepdims=True)] = 0.0
+    bound = ROUNDING * np.outer(size, size)
+    products[np.abs(products) <= bound] = 0.0
+    nothing = size == 0
+    products[nothing], products[:, nothing] = 0.0, 0.0
+    second = products[1:4, 4:].reshape(3, n, 3).transpose(1, 0, 2)
+    # The same of the integral of r0 x phi_b, a difference of two.
+    limit = bound[1:4, 4:].reshape(3, n, 3).transpose(1, 0, 2)
+    turned = second.transpose(0, 2, 1)
+    equal = np.abs(second - turned) <= limit + limit.transpose(0, 2, 1)
+    second = np.where(equal, (second + turned) / 2, second)
+    return Invariants(
+        mass=float(products[0, 0]),
+        first_moment=products[0, 1:4],
+        second_moment=products[1:4, 1:4],
+        modal_first=products[0, 4:].reshape(n, 3).T,
+        modal_second=second,
+        modal_products=products[4:, 4:].reshape(n, 3, n, 3).transpose(0, 2, 1, 3),
+    )
