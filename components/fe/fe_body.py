@@ -28,7 +28,7 @@ from acausal import (
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
 from components.fe.reduced_body import Interface, ReducedBody
-from components.fe.source import body_of, critical_damping
+from components.fe.source import body_of, critical_damping, with_modes
 from components.frame import Frame, move
 from components.moving_body import MovingBody
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
@@ -193,7 +193,7 @@ class FEBody(MovingBody):
 
     @property
     def _body(self) -> ReducedBody:
-        return body_of(self.reduced).first(self.modes)
+        return with_modes(body_of(self.reduced), self.modes)
 
     @property
     def _held(self) -> Interface | None:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 
 from components.fe.reduced_body import ReducedBody
 
@@ -35,8 +34,16 @@ def _read(path: Path, changed: int, size: int) -> ReducedBody:
 
 
 @lru_cache(maxsize=64)
+def with_modes(body: ReducedBody, modes: int) -> ReducedBody:
+    """Return the body with its first modes: the same object whenever it is asked for."""
+    return body.first(modes)
+
+
+@lru_cache(maxsize=64)
 def critical_damping(body: ReducedBody) -> np.ndarray:
     """Damping matrix in N.s/m, shape (n, n), with which every mode of a held reference frame is critically damped."""
+    import scipy.linalg
+
     if not body.n:
         return np.zeros((0, 0))
     squares, V = scipy.linalg.eigh(body.K, body.M)
