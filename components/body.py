@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, outer, parameter, port, require

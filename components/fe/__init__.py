@@ -8,4 +8,15 @@ from components.fe.nodal_field import NodalField
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.reduction import reduce_body
 
-__all__ = ["FEBody", "Interface", "NodalField", "ReducedBody", "assemble", "average", "box", "read_npz", "reduce_body", "rigid"]
+__all__ = [
+    "FEBody",
+    "Interface",
+    "NodalField",
+    "ReducedBody",
+    "assemble",
+    "average",
+    "box",
+    "read_npz",
+    "reduce_body",
+    "rigid",
+]

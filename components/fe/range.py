@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Condition, dot, expect, quantity, require, sqrt
+from acausal import dot, expect, quantity, require, sqrt
 from components.fe.reduced_body import Interface, ReducedBody
 
 # Of the square of the first frequency: what w^2 may reach, which is the part of the stiffness that is missing. At half of the
@@ -64,7 +64,9 @@ class Moments:
     def stays_none(self, interface: Interface, frame: Any) -> Any:
         """State that there is none in a run."""
         f, t = frame.f, frame.t
-        return expect(sqrt(dot(t, t)), self.length * sqrt(dot(f, f)) + SMALL / SHARE * self.moment, SHARE, _refused(interface))
+        return expect(
+            sqrt(dot(t, t)), self.length * sqrt(dot(f, f)) + SMALL / SHARE * self.moment, SHARE, _refused(interface)
+        )
 
 
 def _refused(interface: Interface) -> str:
