@@ -25,7 +25,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, as_expr, quantity
+from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -40,6 +40,7 @@ from acausal.language.functions import (
     initial,
     log,
     piecewise,
+    quantity,
     sign,
     sin,
     sqrt,

@@ -224,4 +224,4 @@ class Observed(Field):
         if owner is None or not owner._is_bound:
             return super().__get__(owner, cls)
         value = as_expr(self.compute(owner))
-        return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name)
+        return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name, value.shape)

@@ -231,11 +231,9 @@ def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Q
     expr : Expr
         Its value.
     """
-    # SX knows rows and columns only: a declared shape (1,) or (n, 1) is not to be seen from it.
-    shape = declared.shape(owner) if callable(declared.shape) else declared.shape
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit
     units = _units(expr.unit if unit is None else unit, expr)
-    return Quantity(join(owner._path, name), vec(ca.densify(expr.sx)), expr.shape if shape is None else shape, units)
+    return Quantity(join(owner._path, name), vec(ca.densify(expr.sx)), expr.shape, units)
 
 
 def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
