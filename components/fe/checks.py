@@ -196,19 +196,16 @@ def _lowest_share(A: Any) -> float:
         return -1.0
     scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, np.inf))
     rng, count = np.random.default_rng(0), min(LANCZOS, A.shape[0])
-    basis, step = [], rng.normal(size=A.shape[0])
-    basis.append(step / np.linalg.norm(step))
-    for _ in range(count - 1):
-        step = scale * (A @ (scale * basis[-1]))
+    Q, images = np.zeros((count, A.shape[0])), np.zeros((count, A.shape[0]))
+    step, k = rng.normal(size=A.shape[0]), 0
+    while k < count and (length := np.linalg.norm(step)) > 1e-12:
+        Q[k] = step / length
+        images[k] = scale * (A @ (scale * Q[k]))
+        k += 1
+        step = images[k - 1]
         for _ in range(2):
-            for known in basis:
-                step = step - known * (known @ step)
-        length = np.linalg.norm(step)
-        if length < 1e-12:
-            break
-        basis.append(step / length)
-    Q = np.array(basis)
-    values = np.linalg.eigvalsh(Q @ np.array([scale * (A @ (scale * q)) for q in Q]).T)
+            step = step - Q[:k].T @ (Q[:k] @ step)
+    values = np.linalg.eigvalsh(Q[:k] @ images[:k].T)
     return float(values[0] / max(values[-1], np.finfo(float).tiny))
 
 

@@ -139,21 +139,23 @@ def _reduced(
         M=np.eye(n),
         K=np.diag(squares),
         D=np.diag(2 * ratios * np.sqrt(squares)),
-        interfaces=tuple(_interface(frame, shapes, held, modes) for frame in frames),
+        interfaces=tuple(_interface(frame, shapes, held, body) for frame in frames),
         origin=held.origin,
         nodal=NodalField(places, modes),
     )
 
 
-def _interface(frame: Frame, shapes: Array, held: Reference, modes: Array) -> Interface:
+def _interface(frame: Frame, shapes: Array, held: Reference, body: Solid) -> Interface:
     n = shapes.shape[1]
+    place = frame.place - held.origin
+    place = np.where(np.abs(place) > ROUNDING * body.size, place, 0.0)
     if frame.name in held.names:
         # Nodes on a line that are all held stand for the reference frame itself; a single node has no turn at all.
         return Interface(
             frame.name, frame.place - held.origin, np.zeros((3, n)), np.zeros((3, n)), len(frame.nodes) > 1
         )
     maps = frame.maps @ shapes[frame.equations]
-    size = ROUNDING * np.abs(modes).max(axis=(0, 1))
+    size = ROUNDING * np.abs(shapes).max(axis=0)
     displacement = np.where(np.abs(maps[:3]) > size, maps[:3], 0.0)
     rotation = np.where(np.abs(maps[3:]) > size / frame.radius, maps[3:], 0.0)
-    return Interface(frame.name, frame.place - held.origin, displacement, rotation, frame.turns)
+    return Interface(frame.name, place, displacement, rotation, frame.turns)
