@@ -54,13 +54,15 @@ def rows_of(nodes: np.ndarray, numbers: Sequence[int]) -> list[int]:
     rows = {int(name): row for row, name in enumerate(known)}
     missing = [name for name in numbers if name not in rows]
     if missing:
-        raise DeclarationError(f"there is no node {missing[0]} in the file, whose nodes are {named(nodes, [0])} to "
-                               f"{named(nodes, [len(rows) - 1])}")  # fmt: skip
+        raise DeclarationError(f"there is no node {missing[0]} in the file, whose nodes are {min(rows)} to {max(rows)}")
     return [rows[name] for name in numbers]
 
 
-def named(nodes: np.ndarray, rows: Sequence[int] | np.ndarray) -> str:
-    """Return nodes for a message: by their numbers in the file where these are known, else by rows counted from 0."""
+def named(nodes: Any, rows: Sequence[int] | np.ndarray) -> str:
+    """Return nodes for a message: rows counted from 0, and the numbers in the file where these are known."""
+    shown = ", ".join(str(row) for row in rows[:SHOWN]) + (f" and {len(rows) - SHOWN} more" if len(rows) > SHOWN else "")
     known = getattr(nodes, "numbers", None)
-    names = [str(row if known is None else known[row]) for row in rows]
-    return ", ".join(names[:SHOWN]) + (f", ... ({len(names)} in all)" if len(names) > SHOWN else "")
+    if known is None:
+        return shown
+    names = ", ".join(str(known[row]) for row in rows[:SHOWN])
+    return f"{shown} (in the file {names}{', ...' if len(rows) > SHOWN else ''})"
