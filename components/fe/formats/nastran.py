@@ -107,6 +107,8 @@ def _grid(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, list[list[int]]
     numbers = np.array([point for point, _ in index], dtype=np.int64)[::FREEDOMS]
     if len(index) != FREEDOMS * numbers.size or not np.isfinite(values).all():
         raise wrong(path, "scalar points, or places that are no numbers, are among the grid points")
+    if not numbers.size:
+        raise wrong(path, "there are no GRID cards in this file")
     turned = (values[3::6] != np.eye(3)[0]).any(axis=1) | (values[4::6] != np.eye(3)[1]).any(axis=1)
     if turned.any():
         raise wrong(path, f"grid point {numbers[turned][0]} has displacements in axes of its own (CD), which is not read")

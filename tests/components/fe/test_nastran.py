@@ -75,10 +75,11 @@ def test_coordinate_systems(tmp_path: Path) -> None:
     text = (tmp_path / "job.bdf").read_text().replace("ENDDATA", system + "\nENDDATA")
     moved = np.asarray(NODES[0]) - [1, 0, 0]  # its x is y of the basic system, and its y is -x
     line = f"GRID*   {5:16d}{9:16d}{moved[1]:16.9E}{-moved[0]:16.9E}\n*       {moved[2]:16.9E}"
-    old = next(line for line in text.split("GRID*") if line.split()[0] == "5")
-    (tmp_path / "job.bdf").write_text(text.replace("GRID*" + old, line + "\n"))
+    at = text.index(f"GRID*   {5:16d}")
+    old = text[at : text.index("\n", text.index("\n", at) + 1)]
+    (tmp_path / "job.bdf").write_text(text.replace(old, line))
     assert np.abs(read_nastran(path)[2] - NODES).max() < 1e-11
-    (tmp_path / "job.bdf").write_text(text.replace("GRID*" + old, "GRID*" + old.rstrip() + f"{9:16d}\n"))
+    (tmp_path / "job.bdf").write_text(text.replace(old, old + f"{9:16d}"))
     with pytest.raises(DeclarationError, match=r"grid point 5 has displacements in axes of its own \(CD\)"):
         read_nastran(path)
 
