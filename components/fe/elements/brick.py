@@ -94,7 +94,7 @@ def integrals(points: np.ndarray, cells: np.ndarray, material: Material) -> tupl
     for at in POINTS:
         volume = np.linalg.det(np.einsum("eia,ix->eax", corners, slopes(at)))
         if (volume <= 0).any():
-            wrong = int(np.argmin(volume))
+            wrong = int(np.flatnonzero(volume <= 0)[0])
             raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
         both, weight = gradients(corners, at)
         mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
