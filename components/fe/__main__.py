@@ -176,7 +176,9 @@ def _unused(why: str, **options: Any) -> None:
 
 
 def _summary(body: ReducedBody, out: str) -> str:
-    lines = [f"{shown_name(out)}: {body.n} modes, {body.mass:.6g} kg, frames {', '.join(i.name for i in body.interfaces)}"]
+    lines = [
+        f"{shown_name(out)}: {body.n} modes, {body.mass:.6g} kg, frames {', '.join(i.name for i in body.interfaces)}"
+    ]
     lines += [f"  mode {b + 1:3d}  {f:12.6g} Hz" for b, f in enumerate(body.frequencies[:SHOWN])]
     return "\n".join([*lines, f"  ... ({body.n} in all)"] if body.n > SHOWN else lines)
 

@@ -58,7 +58,9 @@ def solid(M: Any, K: Any, nodes: Any) -> Solid:
     _rigid(K, nodes, places, empty)
     soft = np.flatnonzero((empty & (heavy > 0)) | (~empty & (stiff == 0).any(axis=1)))
     if len(soft):
-        raise DeclarationError(f"node {named(nodes, soft[:1])} has mass or neighbours, but no stiffness in every direction")
+        raise DeclarationError(
+            f"node {named(nodes, soft[:1])} has mass or neighbours, but no stiffness in every direction"
+        )
     _one_piece(K, nodes, places, empty)
     for A, name in ((K, "stiffness"), (mass, "mass")):
         if _lowest_share(A) < -INDEFINITE:
@@ -157,12 +159,12 @@ def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     missing = np.flatnonzero(empty)
     if len(missing):
         raise DeclarationError(
-            f"rigid motions are missing: equations of nodes {named(nodes, missing)} are not in the matrices, as if they were held; "
-            "write the matrices of the free body"
+            f"rigid motions are missing: equations of nodes {named(nodes, missing)} are not in the matrices, as if "
+            "they were held; write the matrices of the free body"
         )
     raise DeclarationError(
-        f"rigid motions are missing: the stiffness matrix resists them at nodes {named(nodes, np.flatnonzero(bad))}; is something held "
-        "or grounded there, or are nodes and equations in different orders?"
+        f"rigid motions are missing: the stiffness matrix resists them at nodes {named(nodes, np.flatnonzero(bad))}; is "
+        "something held or grounded there, or are nodes and equations in different orders?"
     )
 
 

@@ -60,7 +60,9 @@ def rows_of(nodes: np.ndarray, numbers: Sequence[int]) -> list[int]:
 
 def named(nodes: Any, rows: Sequence[int] | np.ndarray) -> str:
     """Return nodes for a message: rows counted from 0, and the numbers in the file where these are known."""
-    shown = ", ".join(str(row) for row in rows[:SHOWN]) + (f" and {len(rows) - SHOWN} more" if len(rows) > SHOWN else "")
+    shown = ", ".join(str(row) for row in rows[:SHOWN]) + (
+        f" and {len(rows) - SHOWN} more" if len(rows) > SHOWN else ""
+    )
     known = getattr(nodes, "numbers", None)
     if known is None:
         return shown

@@ -56,14 +56,20 @@ class NodalResult:
         if found.nodal is None:
             raise DeclarationError("this reduced body has no nodes: save(path, nodal=True) keeps them, pickles do not")
         if f"{body}.q" not in result:
-            raise DeclarationError(f"there is no FEBody `{shown_name(body)}` in the result: it has no {shown_name(body)}.q")
+            raise DeclarationError(
+                f"there is no FEBody `{shown_name(body)}` in the result: it has no {shown_name(body)}.q"
+            )
         self.time = result.time
         n = result[f"{body}.q"].reshape(self.time.size, -1).shape[1]
         frames = [f"{body}.{name}" for name in ("ref", *(i.name for i in _held(found.first(min(n, found.n)))))]
         frame = next((name for name in frames if f"{name}.r_0" in result), None)
         if n > found.n or frame is None:
-            raise DeclarationError(f"`{shown_name(body)}` is another body than the reduced one: {n} modes, {found.n} of it")
-        self._q, self._qd, self._qdd = (result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd"))
+            raise DeclarationError(
+                f"`{shown_name(body)}` is another body than the reduced one: {n} modes, {found.n} of it"
+            )
+        self._q, self._qd, self._qdd = (
+            result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd")
+        )
         self._r_0, self._v, self._a, self._z = (result[f"{frame}.{name}"] for name in ("r_0", "v", "a", "z"))
         self._T, self._w = result[f"{frame}.R.T"], result[f"{frame}.R.w"]
         self._nodal: NodalField = found.nodal.first(n)
@@ -193,7 +199,9 @@ class NodalResult:
             for file, step in zip(files, steps, strict=True)
         )
         with whole(target) as out:
-            out.write(f'<VTKFile type="Collection" version="0.1">\n  <Collection>\n{entries}  </Collection>\n</VTKFile>\n')
+            out.write(
+                f'<VTKFile type="Collection" version="0.1">\n  <Collection>\n{entries}  </Collection>\n</VTKFile>\n'
+            )
         return [target, *files]
 
     def _picture(self, step: int, scale: float, stresses: np.ndarray | None) -> tuple[Any, ...]:
@@ -217,7 +225,7 @@ class NodalResult:
         if nodes is None:
             return slice(None)
         rows, count = np.atleast_1d(np.asarray(nodes)), len(self._nodal.nodes)
-        if not np.issubdtype(rows.dtype, np.integer) or rows.size and not (0 <= rows.min() and rows.max() < count):
+        if not np.issubdtype(rows.dtype, np.integer) or ((rows < 0) | (rows >= count)).any():
             raise DeclarationError(f"nodes are rows from 0 to {count - 1}, not {nodes!r}")
         return rows
 
@@ -230,7 +238,9 @@ class NodalResult:
         """Stresses at the points of each element for each mode, shape (elements, points, 6, modes)."""
         field = self._nodal
         if not self.cells:
-            raise DeclarationError("this body knows no elements, as of matrices alone: stresses need a mesh, a box or a deck")
+            raise DeclarationError(
+                "this body knows no elements, as of matrices alone: stresses need a mesh, a box or a deck"
+            )
         found = {}
         for kind, cells in self.cells.items():
             stresses = operator(kind, np.asarray(field.nodes), cells, Material(E, nu, 1.0))

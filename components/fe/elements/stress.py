@@ -88,7 +88,9 @@ def _slopes(kind: str, at: np.ndarray) -> np.ndarray:
     # Of degree 2, or serendipity: one square at most.
     few = every.sum(axis=1) <= 2 if kind == "tetra10" else (every == 2).sum(axis=1) <= 1
     powers = every[few]
-    derived = [powers[:, [x]] * _monomials(at[None], np.maximum(powers - np.eye(3, dtype=int)[x], 0)).T for x in range(3)]
+    derived = [
+        powers[:, [x]] * _monomials(at[None], np.maximum(powers - np.eye(3, dtype=int)[x], 0)).T for x in range(3)
+    ]
     return np.linalg.inv(_monomials(_places(kind), powers)).T @ np.hstack(derived)
 
 

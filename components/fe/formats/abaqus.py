@@ -98,7 +98,9 @@ def _files(path: Path) -> list[Path]:
         if named and len(files) > 1:
             files = [file for file in files if FILE.fullmatch(file.name)["step"] == named["step"]]  # pyright: ignore
         if len(files) > 1:
-            raise wrong(path, f"there are several matrices, {', '.join(file.name for file in files)}; give the name of one")
+            raise wrong(
+                path, f"there are several matrices, {', '.join(file.name for file in files)}; give the name of one"
+            )
         if not files:
             raise wrong(path, f"there is no matrix {job}_{kind}1.mtx in its folder")
         found += files
@@ -130,18 +132,25 @@ def _matrix(path: Path, numbers: np.ndarray) -> Any:
 
 def _columns(path: Path) -> int:
     lines = text_of(path, "a matrix of Abaqus")[:BEGINNING].splitlines()
-    data: Sequence[str] = next((line.replace(",", " ").split() for line in lines if line.strip() and line[0] != "*"), ())
+    data: Sequence[str] = next(
+        (line.replace(",", " ").split() for line in lines if line.strip() and line[0] != "*"), ()
+    )
     return 3 if len(data) == 3 else 5
 
 
 def _equations(path: Path, pairs: np.ndarray, numbers: np.ndarray) -> np.ndarray:
     names, freedoms = pairs.T
     if names.min() <= 0:
-        raise wrong(path, f"node {names.min()} is an internal one of Abaqus (of hybrid elements or constraints), no node of a solid")
+        raise wrong(
+            path,
+            f"node {names.min()} is an internal one of Abaqus (of hybrid elements or constraints), no node of a solid",
+        )
     if freedoms.min() < 1 or freedoms.max() > 3:
         bad = pairs[(freedoms < 1) | (freedoms > 3)][0]
         raise wrong(path, f"node {bad[0]} has a freedom {bad[1]} that is no displacement; only solids are read")
     rows = np.minimum(np.searchsorted(numbers, names), numbers.size - 1)
     if (numbers[rows] != names).any():
-        raise wrong(path, f"node {names[numbers[rows] != names][0]} has equations, but no solid element in the input file")
+        raise wrong(
+            path, f"node {names[numbers[rows] != names][0]} has equations, but no solid element in the input file"
+        )
     return 3 * rows + freedoms - 1

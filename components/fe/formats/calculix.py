@@ -90,7 +90,9 @@ def _equations(path: Path) -> tuple[np.ndarray, np.ndarray]:
         if not (point and name.isdecimal() and direction.isdecimal()):
             raise wrong(path, f"a line holds node.direction, such as 12.3, not `{entry.strip()[:60]}`", line)
         if direction not in ("1", "2", "3"):
-            raise wrong(path, f"node {name} has a freedom {direction} that is no displacement; only solids are read", line)
+            raise wrong(
+                path, f"node {name} has a freedom {direction} that is no displacement; only solids are read", line
+            )
         names.append(int(name))
         directions.append(int(direction) - 1)
     if not text.endswith("\n"):

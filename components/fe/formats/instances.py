@@ -42,8 +42,10 @@ def instance_of(deck: Sequence[Block]) -> tuple[list[Block], Move]:
             instances[1].line,
         )
     one = instances[0]
-    part = [b for b in _within(deck, "PART") if b[0].options.get("NAME", "").upper() == one.options.get("PART", "").upper()]
-    own = [inside for begin, *inside in _within(deck, "INSTANCE") if begin is one][0]
+    part = [
+        b for b in _within(deck, "PART") if b[0].options.get("NAME", "").upper() == one.options.get("PART", "").upper()
+    ]
+    own = next(inside for begin, *inside in _within(deck, "INSTANCE") if begin is one)
     inside = [*(part[0][1:] if part else ()), *own]
     held = {id(block) for group in (*_within(deck, "PART"), *_within(deck, "INSTANCE")) for block in group}
     beside = next((b for b in deck if b.keyword in ("NODE", "ELEMENT") and id(b) not in held), None)

@@ -26,7 +26,9 @@ BY_SUFFIX: dict[str, Reader] = {
     ".dof": read_calculix,
 }
 SID = (".sid", ".sid_fem")
-KINDS = "matrices (.npz, Matrix Market .mtx, CalculiX .sti, Abaqus .mtx, Ansys .full, Nastran .op4), a SID (.sid) or a mesh"
+KINDS = (
+    "matrices (.npz, Matrix Market .mtx, CalculiX .sti, Abaqus .mtx, Ansys .full, Nastran .op4), a SID (.sid) or a mesh"
+)
 
 
 def reader_of(path: str | Path) -> Reader | None:

@@ -20,9 +20,7 @@ ENDS = (".mtx", ".mtx.gz")
 BANNER = "%%MatrixMarket"
 
 
-def read_matrix_market(
-    path: str | Path | Sequence[str | Path], *, length: float = 1.0, mass: float = 1.0
-) -> Matrices:
+def read_matrix_market(path: str | Path | Sequence[str | Path], *, length: float = 1.0, mass: float = 1.0) -> Matrices:
     """Return mass and stiffness matrix and nodes from three files in the Matrix Market format.
 
     The unit of time is the second: K, in force per length, is a mass per s2 and scales as M does, by `mass` alone.
@@ -59,7 +57,9 @@ def read_matrix_market(
         raise wrong(files[2], f"nodes are a matrix of three columns, x, y, z; this one is {_size(nodes)}")
     for file, matrix in zip(files, (M, K), strict=False):
         if matrix.shape != (3 * len(nodes), 3 * len(nodes)):
-            raise wrong(file, f"the matrix is {_size(matrix)}, where {len(nodes)} nodes have {3 * len(nodes)} equations")
+            raise wrong(
+                file, f"the matrix is {_size(matrix)}, where {len(nodes)} nodes have {3 * len(nodes)} equations"
+            )
     return mass * sp.csr_array(M), mass * sp.csr_array(K), length * nodes
 
 
@@ -103,7 +103,7 @@ def _read(path: Path) -> Any:
         kind, symmetry = mminfo(path)[4:6]
         if kind not in ("real", "integer") or symmetry not in ("general", "symmetric"):
             raise wrong(path, f"a real matrix, general or symmetric, is expected, not a {kind}, {symmetry} one")
-        matrix = mmread(path)
+        matrix: Any = mmread(path)
     except (ValueError, OverflowError, MemoryError, EOFError, zlib.error) as error:
         raise wrong(path, f"this is no file in the Matrix Market format, or not whole: {error}".rstrip(". ")) from None
     except OSError as error:

@@ -94,7 +94,9 @@ def _displacements(path: Path, name: str, matrix: Any, numbers: np.ndarray) -> A
         matrix = matrix[~turning][:, ~turning]
     elif shape != (3 * n, 3 * n):
         size = f"{shape[0]} x {shape[1]}"
-        raise wrong(path, f"{name} is {size}, where {n} grid points have {FREEDOMS * n} equations, or {3 * n} without turns")
+        raise wrong(
+            path, f"{name} is {size}, where {n} grid points have {FREEDOMS * n} equations, or {3 * n} without turns"
+        )
     return mirrored(matrix) if not sp.tril(matrix, -1).nnz or not sp.triu(matrix, 1).nnz else matrix
 
 
@@ -111,13 +113,17 @@ def _grid(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, list[list[int]]
         raise wrong(path, "there are no GRID cards in this file")
     turned = (values[3::6] != np.eye(3)[0]).any(axis=1) | (values[4::6] != np.eye(3)[1]).any(axis=1)
     if turned.any():
-        raise wrong(path, f"grid point {numbers[turned][0]} has displacements in axes of its own (CD), which is not read")
+        raise wrong(
+            path, f"grid point {numbers[turned][0]} has displacements in axes of its own (CD), which is not read"
+        )
     order = np.argsort(numbers, kind="stable")
     rows = {int(name): row for row, name in enumerate(numbers[order])}
     cells: dict[str, list[list[int]]] = {}
     for card, kinds in CARDS.items():
         read = read_by(
-            lambda card=card: bulk.rdcards(str(path), card, return_var="list", no_data_return=[], encoding="latin_1"), path, what
+            lambda card=card: bulk.rdcards(str(path), card, return_var="list", no_data_return=[], encoding="latin_1"),
+            path,
+            what,
         )
         for _, _, *names in read:
             names = [rows[name] for name in names if name in rows]

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal import AcausalWarning
 from acausal.result.files import whole
-from components.fe.formats.sid_tree import BLOCKS, DIGITS, Block, Taylor, index_order, read_tree, taylor
+from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
 from components.fe.formats.text import number, wrong
 from components.fe.reduced_body import Interface, ReducedBody
 
@@ -103,7 +103,9 @@ def write_sid(body: ReducedBody, path: str | Path) -> None:
         "Ct": Taylor(body.modal_first.T, np.zeros((n, n, 3))),
         "Cr": Taylor(*turning),
         "Me": Taylor(body.M, np.zeros((n, n, n))),
-        "Gr": Taylor(gyration.transpose(1, 0, 2).reshape(3, 3 * n), products.transpose(1, 2, 0, 3).reshape(n, 3, 3 * n)),
+        "Gr": Taylor(
+            gyration.transpose(1, 0, 2).reshape(3, 3 * n), products.transpose(1, 2, 0, 3).reshape(n, 3, 3 * n)
+        ),
         "Ge": Taylor(2 * turning[1].transpose(1, 0, 2).reshape(n, 3 * n), np.zeros((n, n, 3 * n))),
         "Oe": Taylor(_centrifugal(A), _centrifugal(B)),
         "ksigma": Taylor(np.zeros((n, 1)), np.zeros((n, n, 1))),

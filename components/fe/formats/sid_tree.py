@@ -12,7 +12,24 @@ import numpy as np
 from components.fe.formats.text import number, text_of, wrong
 
 BLOCKS = ("part", "modal", "refmod", "frame", "node")
-MATRICES = ("origin", "phi", "psi", "AP", "sigma", "mdCM", "J", "Ct", "Cr", "Me", "Gr", "Ge", "Oe", "ksigma", "Ke", "De")
+MATRICES = (
+    "origin",
+    "phi",
+    "psi",
+    "AP",
+    "sigma",
+    "mdCM",
+    "J",
+    "Ct",
+    "Cr",
+    "Me",
+    "Gr",
+    "Ge",
+    "Oe",
+    "ksigma",
+    "Ke",
+    "De",
+)
 ENTRY = re.compile(r"m([01])\s*\(([\d\s,]+)\)")
 SYMMETRIC, UNIT = 2, 4
 DIGITS = 1e-6  # to which files of few digits agree with themselves
@@ -74,7 +91,9 @@ def read_tree(path: str | Path) -> Block:
         else:
             raise wrong(path, f"a SID has blocks such as part, new modal, frame, mdCM here, not `{text[:60]}`", place)
     if len(stack) > 1:
-        raise wrong(path, f"the file ends inside of `{stack[-1].name}`, which begins in line {stack[-1].line}: it was cut off")
+        raise wrong(
+            path, f"the file ends inside of `{stack[-1].name}`, which begins in line {stack[-1].line}: it was cut off"
+        )
     return top
 
 
@@ -126,7 +145,9 @@ def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
     """
     rows, columns, n, structure = (_whole(path, block, name) for name in ("nrow", "ncol", "nq", "structure"))
     if rows * columns * (n + 1) > LARGEST:
-        raise wrong(path, f"`{block.name}` is {rows} x {columns} with {n} modes, more than a reduced body has", block.line)
+        raise wrong(
+            path, f"`{block.name}` is {rows} x {columns} with {n} modes, more than a reduced body has", block.line
+        )
     constant, linear = np.zeros((rows, columns)), np.zeros((n, rows, columns))
     if structure == UNIT:
         constant = np.eye(rows, columns)
@@ -166,7 +187,9 @@ def index_order(path: str | Path, nodes: Sequence[Block]) -> tuple[int, ...]:
                 moved = taylor(path, origin, order).linear[:, :, 0].T
                 if moved.shape == shape.shape and np.allclose(moved, shape, atol=DIGITS * np.abs(shape).max()):
                     return order
-        raise wrong(path, "m1 of `origin` differs from m0 of `phi`: the node would not move as its modes say", origin.line)
+        raise wrong(
+            path, "m1 of `origin` differs from m0 of `phi`: the node would not move as its modes say", origin.line
+        )
     return ORDERS[0]
 
 

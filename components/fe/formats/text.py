@@ -77,7 +77,9 @@ def table(path: str | Path, what: str, row: str, comments: str | None = None) ->
     if not values.size:
         raise wrong(path, f"there is no line of {what} in the file: {row}")
     if not text.endswith("\n"):
-        raise wrong(path, f"the last line has no end, so the file seems to be cut off: `{_shown(text.splitlines()[-1])}`")
+        raise wrong(
+            path, f"the last line has no end, so the file seems to be cut off: `{_shown(text.splitlines()[-1])}`"
+        )
     return values
 
 

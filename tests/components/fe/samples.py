@@ -42,7 +42,9 @@ def frequencies(M: Any, K: Any) -> np.ndarray:
     return np.sqrt(np.maximum(1 / inverse[inverse > 1e-12 * inverse[0]] - shift, 0)) / (2 * np.pi)
 
 
-def write_abaqus(path: Path, matrix: Any, numbers: np.ndarray, *, labels: bool = True, triangle: bool = True, held=()) -> None:
+def write_abaqus(
+    path: Path, matrix: Any, numbers: np.ndarray, *, labels: bool = True, triangle: bool = True, held=()
+) -> None:
     """Write a matrix as `*MATRIX OUTPUT, FORMAT=MATRIX INPUT` (with labels) or `FORMAT=COORDINATE` does."""
     entries = (sp.tril(matrix) if triangle else matrix).tocoo()
     lines = ["** MATRIX OF A TEST"]
@@ -60,14 +62,19 @@ def deck(nodes: Any, kinds: dict[str, str], *, E: float, nu: float, rho: float, 
     """
     numbers = nodes.numbers if nodes.numbers is not None else np.arange(len(nodes)) + 1
     lines = [head, "*NODE, NSET=NALL"]
-    lines += [f"{number}, {x:.12g}, {y:.12g}, {z:.12g}" for number, (x, y, z) in zip(numbers, np.asarray(nodes), strict=True)]
+    lines += [
+        f"{number}, {x:.12g}, {y:.12g}, {z:.12g}" for number, (x, y, z) in zip(numbers, np.asarray(nodes), strict=True)
+    ]
     count = 0
     for kind, cells in nodes.cells.items():
         lines.append(f"*ELEMENT, TYPE={kinds[kind]}, ELSET=EALL")
         for cell in cells:
             count += 1
             words = [str(word) for word in (count, *numbers[cell])]
-            lines += [", ".join(words[:12]) + ("," if len(words) > 12 else ""), *([", ".join(words[12:])] if words[12:] else [])]
+            lines += [
+                ", ".join(words[:12]) + ("," if len(words) > 12 else ""),
+                *([", ".join(words[12:])] if words[12:] else []),
+            ]
     lines += ["*MATERIAL, NAME=A", "*ELASTIC", f"{E:.12g}, {nu:.12g}", "*DENSITY", f"{rho:.12g}"]
     lines += ["*SOLID SECTION, ELSET=EALL, MATERIAL=A", step]
     return "\n".join(line for line in lines if line) + "\n"

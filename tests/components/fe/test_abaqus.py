@@ -20,7 +20,11 @@ MATERIAL = {"E": 7e10, "nu": 0.33, "rho": 2700}
 WRONG = {
     "empty": ("STIF1", lambda s: "", "the file is empty"),
     "comments": ("STIF1", lambda s: "** nothing\n", "there is no line of a matrix of Abaqus"),
-    "foreign": ("STIF1", lambda s: "hello, world, this is\n", "line 1: a line holds node, freedom, node, freedom, value"),
+    "foreign": (
+        "STIF1",
+        lambda s: "hello, world, this is\n",
+        "line 1: a line holds node, freedom, node, freedom, value",
+    ),
     "cut": ("STIF1", lambda s: s[:-2], "seems to be cut off"),
     "cut_in_a_line": ("MASS1", lambda s: s[: s.rindex(",")], "node, freedom, node, freedom, value"),
     "rotation": ("STIF1", lambda s: s.replace("5,3,", "5,4,", 1), "node 5 has a freedom 4"),
@@ -73,7 +77,7 @@ def test_equations_in_another_order_are_found(tmp_path: Path) -> None:
     """COORDINATE names no nodes; the stiffness shows that they are others."""
     text = deck(Nodes(NODES, np.roll(NODES.numbers, 1), NODES.cells), KINDS, **MATERIAL)
     path = write(tmp_path, labels=False, text=text)
-    with pytest.raises(DeclarationError, match="resist rigid motions of the nodes .* FORMAT=MATRIX INPUT names nodes"):
+    with pytest.raises(DeclarationError, match=r"resist rigid motions of the nodes .* FORMAT=MATRIX INPUT names nodes"):
         read_abaqus(path)
     (tmp_path / "job_STIF1.mtx").write_text("1 1 5.0\n")
     with pytest.raises(DeclarationError, match="there are 1 equations, where 32 nodes with elements have 96"):
@@ -118,7 +122,7 @@ def test_wrong_files(tmp_path: Path, case: str) -> None:
 def test_files_that_are_not_there(tmp_path: Path) -> None:
     path = write(tmp_path)
     (tmp_path / "job_MASS1.mtx").unlink()
-    with pytest.raises(DeclarationError, match="there is no matrix job_MASS1.mtx"):
+    with pytest.raises(DeclarationError, match=r"there is no matrix job_MASS1\.mtx"):
         read_abaqus(path)
     write(tmp_path, text="*HEADING\nnothing\n")
     with pytest.raises(DeclarationError, match="no node under"):

@@ -54,7 +54,9 @@ def test_three_files_by_what_their_names_have_in_common(tmp_path: Path, mark: st
 def test_folder_three_names_and_compressed_files(tmp_path: Path) -> None:
     write(tmp_path, "")
     assert same(read_matrix_market(tmp_path))
-    moved = [shutil.move(tmp_path / f"{name}.mtx", tmp_path / f"mat_{k}.txt") for k, name in enumerate(("M", "K", "nodes"))]
+    moved = [
+        shutil.move(tmp_path / f"{name}.mtx", tmp_path / f"mat_{k}.txt") for k, name in enumerate(("M", "K", "nodes"))
+    ]
     assert same(read_matrix_market(moved))
     for name, path in zip(("M", "K", "nodes"), moved, strict=True):
         (tmp_path / f"z_{name}.mtx.gz").write_bytes(gzip.compress(Path(path).read_bytes()))
@@ -88,7 +90,7 @@ def test_wrong_files(tmp_path: Path, case: str) -> None:
 
 
 def test_other_names(tmp_path: Path) -> None:
-    with pytest.raises(DeclarationError, match="ends in none of M.mtx"):
+    with pytest.raises(DeclarationError, match=r"ends in none of M\.mtx"):
         read_matrix_market(tmp_path / "stiffness.mtx")
     with pytest.raises(DeclarationError, match="are three"):
         read_matrix_market([tmp_path / "a.mtx", tmp_path / "b.mtx"])

@@ -33,7 +33,8 @@ def cards(extra: str = "") -> str:
     lines = ["$ a box", "BEGIN BULK"]
     order = np.argsort(-NUMBERS)  # any order
     lines += [
-        f"GRID*   {NUMBERS[k]:16d}{0:16d}{NODES[k][0]:16.9E}{NODES[k][1]:16.9E}\n*       {NODES[k][2]:16.9E}" for k in order
+        f"GRID*   {NUMBERS[k]:16d}{0:16d}{NODES[k][0]:16.9E}{NODES[k][1]:16.9E}\n*       {NODES[k][2]:16.9E}"
+        for k in order
     ]
     for k, cell in enumerate(NODES.cells["hexahedron20"]):
         words = [f"{word:8d}" for word in (k + 1, 1, *NUMBERS[cell[ORDER]])]
@@ -41,7 +42,9 @@ def cards(extra: str = "") -> str:
     return "\n".join([*lines, extra, "ENDDATA", ""])
 
 
-def write(folder: Path, stiffness=None, masses=None, *, binary: bool = True, names=("KGG", "MGG"), extra: str = "") -> Path:
+def write(
+    folder: Path, stiffness=None, masses=None, *, binary: bool = True, names=("KGG", "MGG"), extra: str = ""
+) -> Path:
     path = folder / "job.op4"
     given = [grown(K) if stiffness is None else stiffness, grown(M) if masses is None else masses]
     op4.write(str(path), list(names), given, binary=binary, digits=16, forms=[6, 6])
@@ -103,7 +106,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
     refused("one matrix whose name begins with M is expected; the file has KGG, BGG", names=("KGG", "BGG"))
     path = write(tmp_path)
     (tmp_path / "job.bdf").unlink()
-    with pytest.raises(DeclarationError, match="there is no job.bdf"):
+    with pytest.raises(DeclarationError, match=r"there is no job\.bdf"):
         read_nastran(path)
     (tmp_path / "job.bdf").write_text("hello\n")
     with pytest.raises(DeclarationError, match=r"job\.bdf"):

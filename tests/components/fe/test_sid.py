@@ -99,11 +99,13 @@ def test_modes_of_another_size(tmp_path: Path, text: str) -> None:
     path = tmp_path / "light.sid"
     path.write_text(text)
     light = read_sid(path, mass=0.1)
-    assert light.M == pytest.approx(np.eye(4), abs=1e-14)
+    assert np.abs(light.M - np.eye(4)).max() < 1e-14
     assert light.frequencies == pytest.approx(BODY.frequencies, rel=1e-12)
     assert light.effective_mass == pytest.approx(0.1 * BODY.effective_mass, abs=1e-15)
     assert np.diag(light.D) == pytest.approx(np.diag(BODY.D), rel=1e-12)
-    assert np.abs(light.interfaces[1].displacement) == pytest.approx(np.abs(BODY.interfaces[1].displacement) * np.sqrt(10))
+    assert np.abs(light.interfaces[1].displacement) == pytest.approx(
+        np.abs(BODY.interfaces[1].displacement) * np.sqrt(10)
+    )
 
 
 def test_matrices_are_those_of_the_equations(tmp_path: Path, text: str) -> None:
@@ -113,11 +115,21 @@ def test_matrices_are_those_of_the_equations(tmp_path: Path, text: str) -> None:
     A, B = np.einsum("k,ki,kjb->bij", m, r, phi), np.einsum("k,kib,kjc->bcij", m, phi, phi)
     M = np.einsum("k,kib,kic->bc", m, phi, phi)
     body = ReducedBody(
-        m.sum(), m @ r, np.einsum("k,ki,kj->ij", m, r, r), np.einsum("k,kib->ib", m, phi), A, B, M, np.eye(2), np.eye(2) * 0
+        m.sum(),
+        m @ r,
+        np.einsum("k,ki,kj->ij", m, r, r),
+        np.einsum("k,kib->ib", m, phi),
+        A,
+        B,
+        M,
+        np.eye(2),
+        np.eye(2) * 0,
     )
     write_sid(body, tmp_path / "points.sid")
     modal = read_tree(tmp_path / "points.sid").parts[0].parts[0]
-    given = {part.name: taylor(tmp_path / "points.sid", part, ORDERS[0]) for part in modal.parts if part.name[0] in "mJCGOM"}
+    given = {
+        part.name: taylor(tmp_path / "points.sid", part, ORDERS[0]) for part in modal.parts if part.name[0] in "mJCGOM"
+    }
     q, qd, w = rng.normal(size=2), rng.normal(size=2), rng.normal(size=3)
     now = {name: t.constant + np.einsum("bij,b->ij", t.linear, q) for name, t in given.items()}
     x, v = r + phi @ q, phi @ qd
@@ -145,7 +157,7 @@ def test_without_second_order(tmp_path: Path, text: str) -> None:
     with pytest.warns(AcausalWarning, match='take inertia="first_order"'):
         found = read_sid(path)
     assert found.modal_second == pytest.approx(BODY.modal_second, rel=1e-12, abs=1e-18)
-    assert found.K == pytest.approx(BODY.K)
+    assert np.abs(found.K - BODY.K).max() < 1e-9 * BODY.K.max()
 
 
 @pytest.mark.parametrize("case", WRONG)
