@@ -15,7 +15,7 @@ SHOWN = 12  # nodes that a message names
 class Nodes(np.ndarray):
     """Positions of nodes, shape (n, 3), in m: an array like any other, which also knows where it comes from.
 
-    Whatever is computed from it, a part of it included, is a plain array's equal and knows neither numbers nor cells.
+    Whatever is computed from it, a part of it included, is a plain array; a copy knows neither numbers nor cells.
 
     Attributes
     ----------
@@ -38,6 +38,12 @@ class Nodes(np.ndarray):
 
     def __array_finalize__(self, source: Any) -> None:
         self.numbers, self.cells = None, {}
+
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
+        return np.asarray(array)[()]
+
+    def __getitem__(self, key: Any) -> Any:
+        return np.asarray(self)[key]
 
 
 def rows_of(nodes: np.ndarray, numbers: Sequence[int]) -> list[int]:

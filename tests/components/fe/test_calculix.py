@@ -11,6 +11,7 @@ import pytest
 
 from acausal import DeclarationError
 from components.fe import box, read_calculix, reduce_body, rows_of
+from components.fe.nodes import Nodes
 from tests.components.fe.samples import NAMES, calculix, deck, expected, frequencies
 
 KINDS = {"hexahedron": "C3D8I", "hexahedron20": "C3D20", "tetra10": "C3D10"}
@@ -105,8 +106,7 @@ def test_node_numbers_with_gaps_and_nodes_without_elements(folder: Path, tmp_pat
     lines = [f"{rename[int(e.partition('.')[0])]}.{e.partition('.')[2]}" for e in equations]
     (tmp_path / "job.dof").write_text("\n".join(lines) + "\n")
     plain = read_calculix(folder / "c3d20")
-    renamed = plain[2].copy()
-    renamed.numbers, renamed.cells = np.array(list(rename.values())), plain[2].cells
+    renamed = Nodes(plain[2], list(rename.values()), plain[2].cells)
     text = deck(renamed, KINDS, E=1, nu=0, rho=1).replace("*ELEMENT", "20, 7, 7, 7\n*ELEMENT", 1)
     (tmp_path / "job.inp").write_text(text)
     M, K, nodes = read_calculix(tmp_path / "job")
@@ -137,8 +137,7 @@ def test_run_in_millimetres(tmp_path: Path, element: str) -> None:
     """CalculiX's stiffness is that of our own elements, and its matrices in mm, N, Mg are those in SI."""
     E, nu, rho = 70e9, 0.33, 2700.0
     M, K, nodes = box((0.1, 0.02, 0.03), (4, 2, 1), element, E=E, nu=nu, rho=rho)
-    millimetres = nodes * 1e3
-    millimetres.cells = nodes.cells
+    millimetres = Nodes(nodes * 1e3, cells=nodes.cells)
     step = "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n\n*END STEP"
     (tmp_path / "job.inp").write_text(deck(millimetres, KINDS, E=E * 1e-6, nu=nu, rho=rho * 1e-12, step=step))
     subprocess.run(["ccx", "job"], cwd=tmp_path, capture_output=True, timeout=100)
