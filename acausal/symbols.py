@@ -25,7 +25,7 @@ def stacked(entries: Iterable[Any]) -> ca.SX:
 
 
 def picked(column: ca.SX, places: list[int]) -> ca.SX:
-    """Return entries of a dense column; of no places an empty column of symbols."""
+    """Return entries of a column; of no places an empty column of symbols."""
     return column[places] if places else ca.SX(0, 1)
 
 

@@ -198,11 +198,11 @@ def _seen(compiled: CompiledModel) -> Iterator[Seen]:
     for path in names(tree):
         quantity = find(tree, path)
         owner, _, name = path.rpartition(".")
-        text = getattr(type(owners[owner]).fields[name], "description", "")
+        text = getattr(owners[owner].fields[name], "description", "")
         column = scalars(dense(quantity.column))
         index = {name: k for k, name in enumerate(_names_in_columns(quantity.entries, quantity.shape))}
         for _, entry, unit in quantity.entries:
-            output = not owner and isinstance(type(tree).fields[name], f.Variable) and name in compiled.outputs
+            output = not owner and isinstance(tree.fields[name], f.Variable) and name in compiled.outputs
             found.append(Seen(entry, unit, text, column[index[entry]], output))
     resolved = scalars(dense(compiled.reduced.running.resolve(stacked([s.expression for s in found]))))
     for one, expression in zip(found, resolved, strict=True):

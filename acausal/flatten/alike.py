@@ -226,7 +226,7 @@ def _template(component: Component, look: _Look, kind: type, hear: Hear) -> _Tem
 
 
 def _anew(variable: Expr) -> Expr:
-    return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name)
+    return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name, variable.shape)
 
 
 def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
@@ -235,7 +235,7 @@ def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
     for k, entry in enumerate(nonzeros):
         if not entry.is_constant():
             sx.nz[k] = entries[entry.element_hash()]
-    return Expr(sx, parameter.unit, parameter.name)
+    return Expr(sx, parameter.unit, parameter.name, parameter.shape)
 
 
 def _function(stated: list[Stated], kind: type, own: _Look, pending: Pending) -> _Template | None:

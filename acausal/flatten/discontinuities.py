@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import unit_of
+from acausal.flatten.given import shape_of, unit_of
 from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.tree import join
 from acausal.language import fields as f
@@ -103,8 +103,8 @@ def create_discretes(components: list[Component]) -> list[Discrete]:
         for name, declared in component.fields.items():
             if isinstance(declared, f.Variable) and declared.causality == "discrete":
                 path = join(component._path, name)
-                shape = declared.shape if isinstance(declared.shape, tuple) else ()
-                expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path)
+                shape = shape_of(declared, component)
+                expr = Expr(ca.SX.sym(path, *shape), unit_of(declared, component), path, shape)
                 vars(component)[name] = expr
                 found.append(Discrete(expr, declared, component))
                 PENDING.get().discrete.update(s.element_hash() for s in scalars(expr.sx))

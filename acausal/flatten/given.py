@@ -16,9 +16,11 @@ from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
+from acausal.language.arguments import refused
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
+from acausal.language.values import shown
 from acausal.symbols import scalars
 from acausal.units import parse
 
@@ -145,14 +147,13 @@ class Given:
         value = self._given(bound, name, declared)
         path = join(bound._path, name)
         where = f"`{name}` of {origin.owner}"
-        shape = declared.shape(bound) if callable(declared.shape) else declared.shape
-        unit = unit_of(declared, bound)
+        shape, unit = shape_of(declared, bound), unit_of(declared, bound)
         if not is_symbolic(value):
-            expression = self._free(path, numeric(value, shape or (), where), unit)
+            expression = self._free(path, numeric(value, shape, where), unit)
         else:
             given = with_place(lambda: as_expr(value), origin)
-            if given.shape != (shape or ()):
-                raise DeclarationError(misshapen(where, value, given.shape, shape or ()))
+            if given.shape != shape:
+                raise DeclarationError(misshapen(where, value, given.shape, shape))
             if any(s.is_constant() and not math.isfinite(float(s)) for s in scalars(given.sx)):
                 raise DeclarationError(
                     f"{Origin.of(bound)}: `{name}` is not a finite number: it is divided by a parameter that is 0"
@@ -163,17 +164,17 @@ class Given:
                 raise DeclarationError(
                     f"{where} depends on `time`, which changes in a run; a parameter takes numbers and parameters."
                 )
-            own = Expr(given.sx, unit, path)
+            own = Expr(given.sx, unit, path, shape)
             with_place(lambda: unit_rules.check_value(own, given), replace(origin, text=""))
             self.parameters.bound[path] = ", ".join(s.name() for s in symbols) or "others that are 0"
-            expression = Expr(given.sx, unit, path)
+            expression = own
         if declared.positive or declared.minimum is not None:
             self.parameters.limits.append((path, expression.sx, declared))
         return expression
 
     def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
         """An input at the top of the model is a parameter, whatever its value."""
-        shape = declared.shape if isinstance(declared.shape, tuple) else ()
+        shape = shape_of(declared, bound)
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, declared.start))
         if is_symbolic(given):
@@ -205,12 +206,23 @@ class Given:
             self.parameters.values.append(float(value[index]))
             entries.append(symbol)
         sx = entries[0] if not value.shape else ca.vertcat(*entries)
-        return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path)
+        return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path, value.shape)
 
 
 def _is(value: Any, choice: Any) -> bool:
     """Whether a value is a choice; arrays are none."""
     return value is choice or (np.ndim(value) == 0 and bool(value == choice))
+
+
+def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:
+    """Return the shape that a field declares, that of a scalar where it declares none."""
+    shape = declared.shape(owner) if callable(declared.shape) else declared.shape or ()
+    sizes = (int, np.integer)
+    fits = isinstance(shape, tuple) and all(isinstance(n, sizes) and not isinstance(n, bool) and n >= 0 for n in shape)
+    if not fits or len(shape) > 2:
+        path = join(owner._path, declared.name)
+        raise refused(f"the shape of `{path}` is {shown(shape)}; a vector has (3,), a matrix (3, 3).", declared.where)
+    return tuple(int(n) for n in shape)
 
 
 def unit_of(declared: f.Field, owner: Component) -> Any:

@@ -8,6 +8,7 @@ from itertools import islice
 from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
+from acausal.flatten.family import enter_family, no_part
 from acausal.flatten.given import Given, owner_text
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
@@ -84,7 +85,9 @@ class Instantiation:
         self._given.fill(bound, owner)
         with_place(lambda: _check(bound), here)
         for name, declared in cls.fields.items():
-            if isinstance(declared, f.Part):
+            if isinstance(declared, f.Family):
+                self._family(bound, name, declared)
+            elif isinstance(declared, f.Part):
                 own[name] = self._part(bound, name, declared)
         bound._ports = tuple(member for member in members(bound) if isinstance(member, Connector))
         return bound
@@ -119,6 +122,11 @@ class Instantiation:
             _refuse_lost(declared, place)
         return None if made is None else self._member(bound, made, path)
 
+    def _family(self, bound: Component, name: str, declared: f.Family) -> None:
+        made = self._made(bound, declared, Origin.of(bound, name))
+        for port, template in enter_family(bound, name, declared, made).items():
+            vars(bound)[port] = self._member(bound, template, join(bound._path, port))
+
     def _made(self, bound: Component, declared: f.Part, place: Origin) -> Any:
         """Template, list of templates or None that the class provides."""
         make: Any = declared.make
@@ -139,7 +147,7 @@ class Instantiation:
     def _member(self, bound: Component, template: Component, path: str) -> Component:
         if not isinstance(template, Component) or template._is_bound:
             raise DeclarationError(
-                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {_no_part(template)}."
+                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {no_part(template)}."
             )
         built = self._build(template, path, bound)
         if isinstance(built, Connector):
@@ -172,15 +180,6 @@ def _check(component: Component) -> None:
         *_, last = traceback.extract_tb(error.__traceback__)
         error.line = error.line if last.filename.startswith(PACKAGE) else component._origin
         raise
-
-
-def _no_part(value: Any) -> str:
-    """Write what stands in place of a part."""
-    if isinstance(value, type):
-        return f"the class {value.__name__}: it is made by {value.__name__}(...)"
-    if isinstance(value, Component):
-        return f"{value._path or 'a model'}, a part of another model"
-    return "a list in a list" if isinstance(value, list) else shown(value)
 
 
 def _refuse_lost(declared: f.Part, place: Origin) -> None:

@@ -66,8 +66,9 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
 
 def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...]) -> str:
     """Return the message for a value of a wrong shape."""
-    if shape:
-        return f"{where} has shape {found}; it must have shape {shape}."
+    if shape or len(found) > 2:
+        wanted = f"have shape {shape}" if shape else "be one number"
+        return f"{where} has shape {found}; it must {wanted}."
     return f"{where} is {short(value)}; it must be one number{decimal_point(value)}."
 
 

@@ -11,6 +11,7 @@ import casadi as ca
 from acausal.errors import PACKAGE
 from acausal.language.component import Component
 from acausal.language.expression import Expr
+from acausal.language.fields import Family, Part
 from acausal.language.symbolic import FUNCTIONS
 from acausal.nearest import likeliest
 
@@ -51,9 +52,7 @@ def in_words(error: Exception) -> str:
         Raised by Python, numpy or CasADi in a method of the user's.
     """
     if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
-        names = [name for name in (*type(error.obj).fields, *dir(error.obj)) if not name.startswith("_")]
-        near = likeliest(error.name or "", names)
-        return f"{type(error.obj).__name__} has no `{error.name}`" + (f"; did you mean `{near}`?" if near else ".")
+        return _unknown(error.obj, error.name or "")
     if isinstance(error, AttributeError) and isinstance(error.obj, Component):
         return _too_early(error)
     if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
@@ -74,6 +73,19 @@ def in_words(error: Exception) -> str:
     if foreign:
         return _of_casadi(foreign[1], error)
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
+
+
+def _unknown(owner: Component, name: str) -> str:
+    """Tell of a name that a component does not have."""
+    what = f"{type(owner).__name__} has no `{name}`"
+    names = [known for known in (*owner.fields, *dir(owner)) if not known.startswith("_")]
+    if near := likeliest(name, names):
+        return f"{what}; did you mean `{near}`?"
+    families = [known for known, field in owner.fields.items() if isinstance(field, Family)]
+    if families:
+        return f"{what}; the ports that `{families[0]}` makes exist in connections() and equations()."
+    ports = [known for known, field in owner.fields.items() if isinstance(field, Part) and field.family]
+    return f"{what}; its ports are {', '.join(ports)}." if ports else f"{what}."
 
 
 def _too_early(error: AttributeError) -> str:

@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import unit_of
+from acausal.flatten.given import shape_of, unit_of
 from acausal.flatten.numeric import misshapen
 from acausal.flatten.origin import value_origin, with_place
 from acausal.flatten.tree import join, walk
@@ -101,9 +101,9 @@ def _create(owner: Component, name: str, declared: f.Variable, arrays: list[Vari
 
 def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[VariableArray]) -> Expr:
     path = join(owner._path, name)
-    shape = declared.shape(owner) if callable(declared.shape) else (declared.shape or ())
+    shape = shape_of(declared, owner)
     symbol = ca.SX.sym(path, *shape)
-    expr = Expr(symbol, unit_of(declared, owner), path)
+    expr = Expr(symbol, unit_of(declared, owner), path, shape)
     given = owner._values.get(name)
     start = (
         given
@@ -131,7 +131,7 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
 @lru_cache(maxsize=1024)
 def _filled(value: float, shape: tuple[int, ...]) -> Expr:
     given = as_expr(value)
-    return Expr(combined(ca.SX.ones(*shape), "*", given.sx)) if shape else given
+    return Expr(combined(ca.SX.ones(*shape), "*", given.sx), shape=shape) if shape else given
 
 
 def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr:
@@ -147,7 +147,7 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
     if given.sx.is_constant() and not given.sx.is_regular():
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be finite.")
     if not given.shape and shape:
-        given = Expr(combined(ca.SX.ones(*shape), "*", given.sx), given.unit)
+        given = Expr(combined(ca.SX.ones(*shape), "*", given.sx), given.unit, shape=shape)
     elif given.shape != shape:
         raise DeclarationError(misshapen(f"{what} of `{path}`", value, given.shape, shape))
     if what == "start":

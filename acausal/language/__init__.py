@@ -20,11 +20,12 @@ from acausal.language.declare import (
     part,
     parts,
     port,
+    ports,
     structural,
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, as_expr, quantity
+from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -39,6 +40,7 @@ from acausal.language.functions import (
     initial,
     log,
     piecewise,
+    quantity,
     sign,
     sin,
     sqrt,
@@ -109,6 +111,7 @@ __all__ = [
     "parts",
     "piecewise",
     "port",
+    "ports",
     "potential_root",
     "quantity",
     "reinit",

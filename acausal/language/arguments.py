@@ -33,7 +33,7 @@ MEANT = {
     **dict.fromkeys(("params", "parameter", "values", "settings"), ("parameters",)),
     **dict.fromkeys(("file", "filename", "file_name", "fname"), ("path",)),
 }
-MARKS = ("part", "parts", "observed")
+MARKS = ("part", "parts", "ports", "observed")
 
 
 def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:

@@ -159,7 +159,8 @@ def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
     if value is None:
         return f.Part(old.description, make=None, is_port=old.is_port, name=name)
     if isinstance(value, FunctionType):
-        return f.Part(value.__doc__ or old.description, make=value, many=old.many, is_port=old.is_port, name=name)
+        description = value.__doc__ or old.description
+        return type(old)(description, make=value, many=old.many, is_port=old.is_port, name=name)
     raise DeclarationError(
         f"{where} is a part; put a component in its place, `{name} = Body(m=1)`, or None to leave it out, "
         f"not {shown(value)}."

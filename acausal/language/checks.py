@@ -163,8 +163,12 @@ def _wrong_part(field: f.Part) -> str:
         return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
     if inspect.isgeneratorfunction(make) and not field.many:
         mark, several = (
-            ("port", "") if field.is_port else ("part", " Several parts are made by a method marked @parts.")
+            ("port", " Several ports are made by a method marked @ports.")
+            if field.is_port
+            else ("part", " Several parts are made by a method marked @parts.")
         )
+        if isinstance(field, f.Family):
+            return "@ports marks a method that returns a dict of ports by their names: write `return`, not `yield`."
         return f"@{mark} marks a method that returns one {mark}: write `return`, not `yield`.{several}"
     return ""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
 
 from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
@@ -80,7 +80,7 @@ class Component(f.Template):
         self._values = {name: check_value(type(self), name, value) for name, value in values.items()}
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in self.fields:
+        if name in self.fields or name in type(self).fields:
             raise refused(refuse_value(self, name, value))
         if name[0] != "_":
             refuse_attribute(self, name, value)
@@ -92,6 +92,16 @@ class Component(f.Template):
             return self
         name = next(name for base in type(owner).__mro__ for name, value in vars(base).items() if value is self)
         return owner._member_path(name, self)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Give the path of a port of a family in a template that is not built: only instances know the names."""
+            families = any(isinstance(field, f.Family) for field in self.fields.values())
+            said = name in self._settings or any(name in vars(base) for base in type(self).__mro__)
+            if name[0] == "_" or said or self._is_bound or not families:
+                return object.__getattribute__(self, name)  # raises what is wrong
+            return Path(name, None)
 
     def _member_path(self, name: str, member: Any) -> Path:
         if not self._is_bound:

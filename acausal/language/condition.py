@@ -101,7 +101,7 @@ class Joined(Condition):
         """The greater of both if both must hold, the lesser if one is enough; deferred as long as one of them is."""
         a, b = self.a.excess, self.b.excess
         for x in (a, b):
-            if getattr(x, "is_deferred", False):
+            if getattr(x, "is_deferred", False) is True:
                 return x
         if a.shape or b.shape:
             raise DeclarationError("& and | join two conditions that compare scalars")

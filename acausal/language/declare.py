@@ -10,6 +10,7 @@ from acausal.language.arguments import brackets, told
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
+    Family,
     InitialValue,
     Observed,
     Outer,
@@ -230,6 +231,16 @@ def port(connector: Any, description: str = "") -> Any:
         What is fixed to it.
     """
     return Part(description or getattr(connector, "__doc__", None) or "", make=connector, is_port=True)
+
+
+@told
+def ports(make: Callable[[Any], Any]) -> Any:
+    """Decorate a method that makes ports by their names from structural values: a dict of connectors.
+
+    Each is a port of the component, `body.tip` for the name "tip"; all of them are read by the name of the method, as a
+    dict.
+    """
+    return Family(_described(make, "ports"), make=make, is_port=True)
 
 
 @told

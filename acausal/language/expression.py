@@ -12,15 +12,14 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
-from acausal.language.arguments import told
 from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
 from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.language.written import kind_of, short, written
-from acausal.symbols import combined
-from acausal.units import Dimension, parse
+from acausal.symbols import combined, picked, vec
+from acausal.units import Dimension
 
 
 class Expr(Symbolic):
@@ -34,11 +33,9 @@ class Expr(Symbolic):
         Its unit, one for each row, or None where it is not known (as of numbers).
     name : str
         The path of a declared variable or parameter, for messages.
-
-    Attributes
-    ----------
-    shape : tuple of int
-        Shape as numpy would give it: (), (n,) or (n, m).
+    shape : tuple of int, optional
+        Shape as numpy would give it: (), (n,) or (n, m). CasADi knows rows and columns only: where it is not given, one
+        entry is a scalar, and one column a vector.
     """
 
     __slots__ = ("name", "shape", "sx", "unit")
@@ -49,7 +46,7 @@ class Expr(Symbolic):
         self.sx = sx
         self.unit = unit
         self.name = name
-        if shape is None:  # where it is known, CasADi need not be asked
+        if shape is None:
             n, m = sx.size1(), sx.size2()
             shape = (n, m) if m != 1 else ((n,) if n != 1 else ())
         self.shape = shape
@@ -63,17 +60,19 @@ class Expr(Symbolic):
     @property
     def T(self) -> Expr:
         """Transpose."""
-        return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None)
+        shape = self.shape[::-1] if len(self.shape) != 1 else (1, *self.shape)
+        return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None, shape=shape)
 
     def __repr__(self) -> str:
-        return self.name or written(self.sx)
+        return self.name or written(self.sx, self.shape)
 
     def __len__(self) -> int:
         return self.sx.shape[0]
 
     def __getitem__(self, index: Any) -> Expr:
         places = chosen(self._shown, self.shape, index)
-        sx = self.sx[places.ravel(order="F").tolist() if places.ndim else int(places)]
+        # Of a column: CasADi gives a row where entries of a row are chosen.
+        sx = picked(vec(self.sx), places.ravel(order="F").tolist())
         if places.ndim == 2:
             sx = ca.reshape(sx, *places.shape)
         unit: Unit = self.unit if isinstance(self.unit, Dimension) else None
@@ -81,7 +80,7 @@ class Expr(Symbolic):
             unit = self.unit[index]  # type: ignore[assignment]
         at = index if isinstance(index, tuple) else (index,)
         whole = self.name and all(isinstance(k, int | np.integer) for k in at)
-        return Expr(sx, unit, f"{self.name}[{','.join(map(str, at))}]" if whole else "")
+        return Expr(sx, unit, f"{self.name}[{','.join(map(str, at))}]" if whole else "", places.shape)
 
     def __setitem__(self, index: Any, value: Any) -> None:
         raise DeclarationError(
@@ -129,7 +128,9 @@ class Expr(Symbolic):
         return self
 
     def __pow__(self, power: Any) -> Any:
-        return Expr(self.sx ** as_expr(power).sx, unit_rules.of_power(self, power))
+        exponent = as_expr(power)
+        shape = entrywise(self, "**", exponent)
+        return Expr(self.sx**exponent.sx, unit_rules.of_power(self, power), shape=shape)
 
     def __rpow__(self, base: Any) -> Any:
         return as_expr(base) ** self
@@ -180,7 +181,7 @@ def as_expr(value: Any) -> Expr:
         return _number(number_of(value))
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
-        return Expr(ca.SX(ca.sparsify(ca.DM(number))))
+        return Expr(ca.SX(ca.sparsify(ca.DM(number))), shape=value.shape)
     if isinstance(value, np.ndarray):
         return as_expr(value.tolist())
     if isinstance(value, ca.DM | ca.SX):
@@ -189,37 +190,16 @@ def as_expr(value: Any) -> Expr:
         rows = [as_expr(item) for item in value]
         if any(row.shape != rows[0].shape or len(row.shape) > 1 for row in rows):
             raise DeclarationError(ragged([row.shape for row in rows], value))
-        matrix = any(len(row.shape) == 1 for row in rows)
+        inner = rows[0].shape if rows else ()
         entries = [row.sx for row in rows]
-        return Expr(ca.horzcat(*entries).T if matrix else ca.vertcat(*entries), unit_rules.of_array(rows))
+        sx = ca.horzcat(*entries).T if inner else ca.vertcat(*entries)
+        return Expr(sx, unit_rules.of_array(rows), shape=(len(rows), *inner))
     raise DeclarationError(no_expression(value))
 
 
 @lru_cache(maxsize=1024)
 def _number(value: float) -> Expr:
     return Expr(ca.SX(value) if value else ca.SX(1, 1))
-
-
-@told
-def quantity(value: Any, unit: str) -> Expr:
-    """Return a constant with a unit, where a number alone would be a pure number.
-
-    Parameters
-    ----------
-    value : float or array
-        The value in SI.
-    unit : str
-        SI unit of every entry.
-
-    Examples
-    --------
-    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
-    """
-    if isinstance(value, str) or not isinstance(unit, str):
-        raise DeclarationError(
-            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
-        )
-    return Expr(as_expr(value).sx, parse(unit))
 
 
 def equation(lhs: Any, rhs: Any) -> Any:
@@ -249,7 +229,20 @@ def equation(lhs: Any, rhs: Any) -> Any:
 
 def is_deferred(*values: Any) -> bool:
     """Return whether one of the values is a field of a class body, known only when the model is built."""
-    return any(getattr(value, "is_deferred", False) for value in values)
+    return any(getattr(value, "is_deferred", False) is True for value in values)
+
+
+def entrywise(a: Expr, symbol: str, b: Expr) -> tuple[int, ...]:
+    """Return the shape of an operation entry by entry, of two equal shapes or with a scalar.
+
+    Raises
+    ------
+    DeclarationError
+        If the shapes do not fit.
+    """
+    if a.shape and b.shape and a.shape != b.shape:
+        raise DeclarationError(_misfit(a, symbol, b))
+    return a.shape or b.shape
 
 
 def _misfit(a: Expr, symbol: str, b: Expr) -> str:
@@ -283,7 +276,7 @@ def _matrix_product(left: Any, right: Any) -> Any:
     unit = unit_rules.of_inner_product(a, b)
     if len(a.shape) == len(b.shape) == 1:
         return Expr(ca.dot(a.sx, b.sx), unit)
-    return Expr(b.sx.T @ a.sx if len(a.shape) == 1 else a.sx @ b.sx, unit)
+    return Expr(b.sx.T @ a.sx if len(a.shape) == 1 else a.sx @ b.sx, unit, shape=a.shape[:-1] + b.shape[1:])
 
 
 def _quotient(left: Any, right: Any) -> Any:

@@ -191,6 +191,19 @@ class Part(Field):
     make: Any = None
     many: bool = False
     is_port: bool = False
+    family: str = ""  # the field of the class that makes it, for a port whose name only the instance knows
+
+
+@dataclass(eq=False)
+class Family(Part):
+    """Ports whose names are known only in an instance, where these are fields in its place."""
+
+    def __get__(self, owner: Any, cls: type | None = None) -> Any:
+        """Give the ports of a built component by their names."""
+        if owner is None or self.name in owner.fields:
+            return super().__get__(owner, cls)
+        ports = {name: field for name, field in owner.fields.items() if isinstance(field, Part)}
+        return {name: vars(owner)[name] for name, field in ports.items() if field.family == self.name}
 
 
 @dataclass(eq=False)
@@ -211,4 +224,4 @@ class Observed(Field):
         if owner is None or not owner._is_bound:
             return super().__get__(owner, cls)
         value = as_expr(self.compute(owner))
-        return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name)
+        return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name, value.shape)

@@ -15,7 +15,7 @@ from acausal.language import unit_rules
 from acausal.language.arguments import told
 from acausal.language.condition import Condition, refuse_cases
 from acausal.language.events import When
-from acausal.language.expression import Expr, as_expr, is_deferred
+from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred
 from acausal.language.written import kind_of
 from acausal.symbols import scalars, vec
@@ -117,7 +117,7 @@ def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any],
         x = as_expr(x)
         if isinstance(x.unit, Dimension) and x.unit != DIMENSIONLESS:
             raise UnitsError(f"{name} needs a number or an angle, but {x!r} is in [{x.unit}].")
-        return Expr(operate(x.sx), DIMENSIONLESS if x.unit is not None else None)
+        return Expr(operate(x.sx), DIMENSIONLESS if x.unit is not None else None, shape=x.shape)
 
     function.__name__ = function.__qualname__ = name
     function.__doc__ = f"{name.capitalize()} of an expression, entry by entry; the argument is dimensionless or in rad."
@@ -138,7 +138,7 @@ tanh = _elementary("tanh", ca.tanh)
 def sqrt(x: Any) -> Any:
     """Square root of an expression, entry by entry."""
     x = as_expr(x)
-    return Expr(ca.sqrt(x.sx), unit_rules.of_power(x, Fraction(1, 2)))
+    return Expr(ca.sqrt(x.sx), unit_rules.of_power(x, Fraction(1, 2)), shape=x.shape)
 
 
 @_deferrable
@@ -146,11 +146,11 @@ def sign(x: Any) -> Any:
     """Sign of an expression, entry by entry: -1, 0 or 1; the integration stops where it changes."""
     x, pending = as_expr(x), PENDING.get(None)
     if x.sx.is_constant():
-        return Expr(ca.sign(x.sx), DIMENSIONLESS)
+        return Expr(ca.sign(x.sx), DIMENSIONLESS, shape=x.shape)
     if pending is None:
         return Deferred(sign, (x,))
     entries = [_watched_sign(Expr(entry), pending) for entry in scalars(x.sx)]
-    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), DIMENSIONLESS)
+    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), DIMENSIONLESS, shape=x.shape)
 
 
 def _watched_sign(x: Expr, pending: Pending) -> ca.SX:
@@ -166,19 +166,20 @@ def absolute(x: Any) -> Any:
     x, pending = as_expr(x), PENDING.get(None)
     symbols = {s.element_hash() for s in ca.symvar(x.sx)}
     if time.sx.element_hash() not in symbols or (pending is not None and symbols & pending.varying):
-        return Expr(ca.fabs(x.sx), x.unit)
+        return Expr(ca.fabs(x.sx), x.unit, shape=x.shape)
     if pending is None:
         return Deferred(absolute, (x,))
     entries = [piecewise((-entry, entry < 0), entry).sx for entry in map(Expr, scalars(x.sx))]
-    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), x.unit)
+    return Expr(ca.reshape(ca.vertcat(*entries), *x.sx.shape), x.unit, shape=x.shape)
 
 
 @_deferrable
 def atan2(y: Any, x: Any) -> Any:
     """Angle of the point (x, y) in rad, in (-pi, pi]."""
     y, x = as_expr(y), as_expr(x)
+    shape = entrywise(y, "and", x)
     unit_rules.common(y, x, "the arguments of atan2")
-    return Expr(ca.atan2(y.sx, x.sx), DIMENSIONLESS)
+    return Expr(ca.atan2(y.sx, x.sx), DIMENSIONLESS, shape=shape)
 
 
 @_deferrable
@@ -195,6 +196,29 @@ def cross(a: Any, b: Any) -> Any:
         raise DeclarationError(f"cross needs two vectors of length 3, not {kind_of(a.shape)} and {kind_of(b.shape)}.")
     one = isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None)
     return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
+
+
+@told
+def quantity(value: Any, unit: str) -> Expr:
+    """Return a constant with a unit, where a number alone would be a pure number.
+
+    Parameters
+    ----------
+    value : float or array
+        The value in SI.
+    unit : str
+        SI unit of every entry.
+
+    Examples
+    --------
+    >>> yield self.f == quantity(100, "N/m") * self.s  # doctest: +SKIP
+    """
+    if isinstance(value, str) or not isinstance(unit, str):
+        raise DeclarationError(
+            f'a quantity is a number and its unit, quantity(100, "N/m"), not quantity({value!r}, {unit!r}).'
+        )
+    number = as_expr(value)
+    return Expr(number.sx, parse(unit), shape=number.shape)
 
 
 @told
@@ -218,7 +242,7 @@ def der(x: Any) -> Any:
         unit: Any = tuple(None if u is None else u / _SECOND for u in x.unit)
     else:
         unit = x.unit / _SECOND if x.unit is not None else None
-    return Expr(placeholder, unit, f"der({x.name})" if x.name else "")
+    return Expr(placeholder, unit, f"der({x.name})" if x.name else "", x.shape)
 
 
 @told
@@ -256,10 +280,11 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
             raise DeclarationError(
                 f"the cases of piecewise differ in shape: {kind_of(choice.shape)} and {kind_of(value.shape)}."
             )
-        unit = unit_rules.common(choice, Expr(otherwise.sx, value.unit, otherwise.name), "cases of a piecewise")
+        last = Expr(otherwise.sx, value.unit, otherwise.name, value.shape)
+        unit = unit_rules.common(choice, last, "cases of a piecewise")
         steps.insert(0, (condition, choice.sx - value.sx))
         holds = _truth(condition) if smooth else _pending("piecewise").switch(condition)
-        value = Expr(ca.if_else(holds, choice.sx, value.sx), unit)
+        value = Expr(ca.if_else(holds, choice.sx, value.sx), unit, shape=value.shape)
     if smooth and (pending := PENDING.get(None)):
         pending.promise(steps, value.sx)
     return value

@@ -80,7 +80,7 @@ def _described(value: Any) -> tuple[str, str]:
     if hasattr(value, "fields") and hasattr(value, "_ports"):
         names = [n for n, field in value.fields.items() if type(field).__name__ in ("Variable", "Parameter")]
         return f"the part {value!r}", f"Name one of its values{f', such as .{names[0]}' if names else ''}."
-    if getattr(value, "is_deferred", False):
+    if getattr(value, "is_deferred", False) is True:
         return "a field that belongs to no part", "Declare it in the class body, and use self.<name>."
     if isinstance(value, ModuleType):
         return (

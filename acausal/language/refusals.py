@@ -29,7 +29,8 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
     value : object
         What it should become.
     """
-    cls, field = type(component), component.fields[name]
+    cls = type(component)
+    field = component.fields[name] if name in component.fields else cls.fields[name]
     if component._is_bound:
         path = f"{component._path}.{name}" if component._path else name
         return f"`{path}` cannot be set on a built model. {_by_path(path, field, value, compiled=True)}"

@@ -42,18 +42,18 @@ def symbols(written: str) -> ca.SX:
 
 def reduced(value: Expr) -> tuple[Any, ...]:
     """Return what a pickle of an expression holds; only one of time and numbers is meaningful elsewhere."""
-    return expression, (text(value.sx), value.unit, value.name)
+    return expression, (text(value.sx), value.unit, value.name, value.shape)
 
 
-def expression(written: str, unit: Unit, name: str) -> Expr:
+def expression(written: str, unit: Unit, name: str, shape: tuple[int, ...]) -> Expr:
     """Return an expression of this process.
 
     Parameters
     ----------
     written : str
         From `text`.
-    unit, name
+    unit, name, shape
         As of Expr.
     """
     own = {"time": time, "initial": initial, "feedback": feedback}
-    return own[name] if name in own else Expr(symbols(written), unit, name)
+    return own[name] if name in own else Expr(symbols(written), unit, name, shape)

@@ -141,6 +141,11 @@ def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
 
 
 def _check_part(where: str, value: Any, field: f.Part) -> Any:
+    if isinstance(field, f.Family):
+        raise DeclarationError(
+            f"{where} makes ports from structural values; they are connected by their names, and it takes no value, not "
+            f"{shown(value)}."
+        )
     if isinstance(value, list | tuple):
         return instances(value, where)
     value = instance(value)

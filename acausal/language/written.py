@@ -11,14 +11,14 @@ LONG = 60  # letters of an expression that are shown
 DEEP = 40  # operations inside each other that are followed
 
 
-def written(sx: ca.SX) -> str:
-    """Return an expression as a formula, each shared part where it is used."""
+def written(sx: ca.SX, shape: tuple[int, ...]) -> str:
+    """Return an expression of a shape as a formula, each shared part where it is used."""
     sx = ca.densify(sx)
     known: dict[int, str] = {}
-    if sx.shape == (1, 1):
+    if not shape:
         return _scalar(sx, known, DEEP)
     rows = [[_scalar(sx[i, j], known, DEEP) for j in range(sx.shape[1])] for i in range(sx.shape[0])]
-    if sx.shape[1] == 1:
+    if len(shape) == 1:
         return f"[{', '.join(row[0] for row in rows)}]"
     inner = [f"[{', '.join(row)}]" for row in rows]
     return f"[{', '.join(inner)}]"

@@ -171,7 +171,7 @@ def _walk(tree: Component, path: str) -> Quantity:
     for name, places in parents:
         owner = choose(_member(owner, name), name, places)
     value = _member(owner, last)
-    declared = type(owner).fields[last]
+    declared = owner.fields[last]
     if not isinstance(declared, READABLE):
         raise DeclarationError(not_readable(path, choose(value, last, indices)))
     quantity = quantity_of(owner, last, declared, value)
@@ -208,11 +208,11 @@ def choose(value: Any, name: str, indices: list[tuple[int, ...]]) -> Any:
 
 
 def _member(owner: Any, name: str) -> Any:
-    if not isinstance(owner, Component) or name not in type(owner).fields:
+    if not isinstance(owner, Component) or name not in owner.fields:
         raise LookupError
-    observed = isinstance(type(owner).fields[name], f.Observed)
+    observed = isinstance(owner.fields[name], f.Observed)
     value = getattr(owner, name) if observed else vars(owner).get(name)
-    if value is None and not isinstance(type(owner).fields[name], f.Structural):
+    if value is None and not isinstance(owner.fields[name], f.Structural):
         raise LookupError
     return value
 
@@ -231,11 +231,9 @@ def quantity_of(owner: Component, name: str, declared: f.Field, expr: Expr) -> Q
     expr : Expr
         Its value.
     """
-    # SX knows rows and columns only: a declared shape (1,) or (n, 1) is not to be seen from it.
-    shape = declared.shape(owner) if callable(declared.shape) else declared.shape
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit
     units = _units(expr.unit if unit is None else unit, expr)
-    return Quantity(join(owner._path, name), vec(ca.densify(expr.sx)), expr.shape if shape is None else shape, units)
+    return Quantity(join(owner._path, name), vec(ca.densify(expr.sx)), expr.shape, units)
 
 
 def _units(unit: Any, expr: Expr) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr, cos, expect, sin, sqrt
+from acausal import Expr, as_expr, cos, expect, sin, sqrt
 from components.beams.strain import Bend, gauss
 
 SHARE = 0.01
@@ -202,9 +202,9 @@ def _joined(parts: Iterable[list[Any]]) -> Any:
 
 
 def _map(M: np.ndarray, x: Any) -> Any:
-    """Matrix of numbers times a vector, which may have one entry."""
-    return as_expr(as_expr(M).sx @ x.sx)
+    """Matrix of numbers times a vector, without its units."""
+    return Expr(as_expr(M).sx @ x.sx, shape=(len(M),))
 
 
 def _total(x: Any) -> Any:
-    return _map(np.ones((1, x.sx.shape[0])), x)
+    return _map(np.ones((1, len(x))), x)[0]

@@ -97,6 +97,7 @@ TURNED = SCENES | {"Prismatic": OnPrismatic}
 BASES = {
     "DrivenJoint",
     "LineForce",
+    "MovingBody",
     "TwoFrameBody",
     "TwoFrames",
     "TwoFlanges",

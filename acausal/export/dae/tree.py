@@ -68,15 +68,15 @@ def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stat
     """
     components = list(walk(tree))
     numbers = {id(component): k for k, component in enumerate(components)}
-    classes = list(dict.fromkeys(type(component) for component in components))
+    classes = {_kind(c): (k, c) for k, c in enumerate({_kind(c): c for c in components}.values())}
     own: dict[str, list[Any]] = {}
     for statement, origin in stated:
         own.setdefault(origin.path, []).append(encoded(statement, add))
     return {
-        "classes": [_class(cls) for cls in classes],
+        "classes": [_class(c) for _, c in classes.values()],
         "components": [
             {
-                "class": classes.index(type(c)),
+                "class": classes[_kind(c)][0],
                 "path": c._path,
                 "where": without_folder(c._origin),
                 "started": [name for name, value in c._values.items() if _is_start(value)],
@@ -90,13 +90,19 @@ def written(tree: Component, values: Mapping[str, Expr | str], stated: list[Stat
     }
 
 
-def _class(cls: type[Component]) -> dict[str, Any]:
+def _kind(component: Component) -> tuple[Any, ...]:
+    """Class and names of the fields, of which an instance may have ports of its own."""
+    return type(component), *component.fields
+
+
+def _class(component: Component) -> dict[str, Any]:
+    cls = type(component)
     return {
         "name": cls.__name__,
         "base": next(base for base in BASES if issubclass(cls, base)).__name__,
         "description": (cls.__doc__ or "").strip().partition("\n")[0],
         "start_words": dict(cls.start_words),
-        "fields": [_field(name, declared) for name, declared in cls.fields.items()],
+        "fields": [_field(name, declared) for name, declared in component.fields.items()],
     }
 
 

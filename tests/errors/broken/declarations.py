@@ -8,6 +8,8 @@ from acausal import (
     Model,
     Scalar,
     Vector3,
+    chain,
+    connect,
     der,
     discrete,
     effect,
@@ -21,11 +23,12 @@ from acausal import (
     part,
     parts,
     port,
+    ports,
     quantity,
     structural,
     variable,
 )
-from components import Body, Revolute, rotational
+from components import Body, FixedTranslation, Frame, Revolute, World, rotational
 from tests.errors.broken.models import Decay, Pendulum
 
 
@@ -384,3 +387,145 @@ def port_of_a_part(repaired):
 
 def observed_text(repaired):
     built(e=observed((lambda self: 2 * self.x) if repaired else "2 x"))
+
+
+class Plate(Component):
+    """A massless body with two frames that are named by what it is given."""
+
+    names = structural("names of its frames", default=("hinge", "tip"))
+
+    @ports
+    def frames(self):
+        """Frames by their names."""
+        return {name: Frame() for name in self.names}
+
+    @part
+    def arm(self):
+        return FixedTranslation(r=(1, 0, 0))
+
+    def connections(self):
+        yield from (
+            connect(a, b) for a, b in zip(self.frames.values(), (self.arm.frame_a, self.arm.frame_b), strict=True)
+        )
+
+
+def hung(plate, connections):
+    """A plate that hangs at a hinge, with a body at its other frame."""
+
+    class M(Model):
+        world, hinge, mass = World(), Revolute(phi=fixed(0.1), w=fixed(0)), Body(m=1)
+        board = plate
+
+    M.connections = connections
+    ac.compile(M())
+
+
+def unknown_port_of_a_family(repaired):
+    def connections(self):
+        yield chain(self.world, self.hinge, self.board.hinge)
+        yield connect(self.board.tip if repaired else self.board.edge, self.mass.frame_a)
+
+    hung(Plate(), connections)
+
+
+def misspelled_port_of_a_family(repaired):
+    def connections(self):
+        yield chain(self.world, self.hinge, self.board.hinge if repaired else self.board.hinges)
+        yield connect(self.board.tip, self.mass.frame_a)
+
+    hung(Plate(), connections)
+
+
+def ends_of_a_family(repaired):
+    def connections(self):
+        if repaired:
+            yield chain(self.world, self.hinge, self.board.hinge)
+            yield chain(self.board.tip, self.mass)
+        else:
+            yield chain(self.world, self.hinge, self.board, self.mass)
+
+    hung(Plate(), connections)
+
+
+def held(plate):
+    def connections(self):
+        first, second = self.board.frames.values()
+        yield chain(self.world, self.hinge, first)
+        yield connect(second, self.mass.frame_a)
+
+    hung(plate, connections)
+
+
+def port_named_as_a_field(repaired):
+    held(Plate(names=("hinge", "plate" if repaired else "names")))
+
+
+def port_named_as_a_method(repaired):
+    held(Plate(names=("hinge", "checked" if repaired else "check")))
+
+
+def port_that_is_no_name(repaired):
+    held(Plate(names=("hinge", "tip_1" if repaired else "tip-1")))
+
+
+def list_for_a_family(repaired):
+    class Board(Plate):
+        def frames(self):
+            return {name: Frame() for name in self.names} if repaired else [Frame() for _ in self.names]
+
+    held(Board())
+
+
+def part_in_a_family(repaired):
+    class Board(Plate):
+        def frames(self):
+            return {name: Frame() if repaired else Body(m=1) for name in self.names}
+
+    held(Board())
+
+
+def class_in_a_family(repaired):
+    class Board(Plate):
+        def frames(self):
+            return {name: Frame() if repaired else Frame for name in self.names}
+
+    held(Board())
+
+
+def generator_for_a_family(repaired):
+    class Board(Plate):
+        if repaired:
+
+            @ports
+            def frames(self):
+                return {name: Frame() for name in self.names}
+
+        else:
+
+            @ports
+            def frames(self):
+                yield "tip", Frame()
+
+    held(Board())
+
+
+def value_for_a_family(repaired):
+    held(Plate() if repaired else Plate(frames={"hinge": Frame(), "tip": Frame()}))
+
+
+def family_before_it_is_made(repaired):
+    class Board(Decay):
+        world = World()
+
+        @part
+        def arm(self):
+            return FixedTranslation(r=(1, 0, 0) if repaired else self.tip.r_0)
+
+        @ports
+        def frames(self):
+            return {"tip": Frame()}
+
+        def connections(self):
+            yield chain(self.world, self.arm, self.tip)
+
+    ac.compile(Board())

@@ -1,0 +1,80 @@
+"""Ports whose names are structural: in an instance they stand among its fields in place of their family."""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Mapping
+from typing import Any
+
+from acausal.errors import DeclarationError
+from acausal.flatten.origin import Origin
+from acausal.language import fields as f
+from acausal.language.component import Component, Connector
+from acausal.language.values import shown
+
+
+def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> dict[str, Connector]:
+    """Give a component the ports of a family as fields of its own; return what they are made from.
+
+    Parameters
+    ----------
+    bound : Component
+        Under construction.
+    name : str
+        The family.
+    declared : Family
+        How it is declared.
+    made : dict of str to Connector
+        What its method returns.
+
+    Raises
+    ------
+    DeclarationError
+        If this is not a dict of connectors, or a name cannot be that of a port.
+    """
+    place = Origin(bound._path, type(bound).__name__, declared.where, name)
+    if not isinstance(made, Mapping):
+        raise DeclarationError(
+            f"{place}: @ports marks a method that returns a dict of ports by their names, "
+            f'{{"tip": Frame()}}, not {shown(made)}.'
+        )
+    for port, template in made.items():
+        if wrong := _wrong_name(bound, port):
+            # Names come from the values that the component was given.
+            raise DeclarationError(f"{Origin.of(bound)}: {wrong}")
+        if not isinstance(template, Connector) or template._is_bound:
+            raise DeclarationError(f"{place}: `{port}` must be a port, such as Frame(), not {no_part(template)}.")
+    ports = {
+        port: f.Part(declared.description, make=template, is_port=True, name=port, family=name)
+        for port, template in made.items()
+    }
+    fields: dict[str, f.Field] = {}
+    for known, field in bound.fields.items():
+        fields |= ports if known == name else {known: field}
+    vars(bound)["fields"] = fields
+    return dict(made)
+
+
+def _wrong_name(bound: Component, port: Any) -> str:
+    """Say why a port cannot have a name, "" if it can."""
+    if not isinstance(port, str):
+        return f"a port is named by a text, not by {shown(port)}."
+    if not port.isidentifier() or keyword.iskeyword(port) or port.startswith("_"):
+        return (
+            f"{port!r} cannot be the name of a port, which is written behind a dot, `body.tip`: a name has letters, digits "
+            "and `_`, begins with a letter, and is no word of Python."
+        )
+    cls = type(bound)
+    if port in bound.fields or port in vars(bound) or any(port in vars(base) for base in cls.__mro__):
+        what = "a field" if port in bound.fields else "a name"
+        return f"`{port}` is {what} of {cls.__name__} already; give the port another name."
+    return ""
+
+
+def no_part(value: Any) -> str:
+    """Write what stands in place of a part."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}: it is made by {value.__name__}(...)"
+    if isinstance(value, Component) and value._is_bound:
+        return f"{value._path or 'a model'}, a part of another model"
+    return "a list in a list" if isinstance(value, list) else shown(value)

@@ -1,0 +1,53 @@
+"""Where a body of the equations comes from, and what follows from its modes."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from components.fe.reduced_body import ReducedBody
+
+
+def body_of(given: Any) -> ReducedBody:
+    """Return a reduced body, from a file if this is the path of one; a file that did not change is read once in a process.
+
+    Raises
+    ------
+    DeclarationError
+        If there is no such file, or it is none of a reduced body.
+    """
+    if isinstance(given, ReducedBody):
+        return given
+    path = Path(given)
+    if not path.is_file():
+        return ReducedBody.load(path)
+    status = path.stat()
+    return _read(path.resolve(), status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path, changed: int, size: int) -> ReducedBody:
+    return ReducedBody.load(path)
+
+
+@lru_cache(maxsize=64)
+def with_modes(body: ReducedBody, modes: int) -> ReducedBody:
+    """Return the body with its first modes: the same object whenever it is asked for."""
+    return body.first(modes)
+
+
+@lru_cache(maxsize=64)
+def critical_damping(body: ReducedBody) -> np.ndarray:
+    """Damping matrix in N.s/m, shape (n, n), with which every mode of a held reference frame is critically damped."""
+    import scipy.linalg
+
+    if not body.n:
+        return np.zeros((0, 0))
+    squares, V = scipy.linalg.eigh(body.K, body.M)
+    rates = np.sqrt(np.maximum(squares, 0))
+    D = body.M @ V @ np.diag(2 * rates) @ V.T @ body.M
+    largest = np.sqrt(np.outer(np.diag(D), np.diag(D)))
+    return np.where(np.abs(D) > 1e-12 * largest, D, 0)  # what is rounding would couple orthogonal modes
