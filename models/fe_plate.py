@@ -9,7 +9,7 @@ from acausal import Model, Scalar, connect, fixed, output, parameter, part, piec
 from components import World, WorldForce
 from components.fe import FEBody, ReducedBody, box, read_npz, reduce_body
 
-SIZE, COUNTS = np.array([1, 0.05, 0.01]), (100, 5, 1)
+SIZE, COUNTS, REST = np.array([1, 0.05, 0.01]), (100, 5, 1), fixed((0, 0, 0))
 PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}  # from the middle of the lower face
 
 
@@ -37,29 +37,21 @@ class FEPlate(Model):
     load: str = structural("what pushes", default="pulse", choices=("pulse", "none"))
     spin: tuple = structural("angular velocity at the start in rad/s", default=(0, 0, 0), shape=(3,))
     damping: Scalar = parameter("damping of the modes, of critical", unit="1", default=0.05, minimum=0)
-    world = World(gravity=None)
+    world, push = World(gravity=None), WorldForce()
     P1_x, P1_y, P1_z = (output(f"{axis} of the corner P1, in the world", unit="m") for axis in "xyz")
     w_x, w_y, w_z = (output(f"angular velocity about {axis} of the plate", unit="rad/s") for axis in "xyz")
 
     @part
     def body(self):
-        start: dict = {
-            "angles_fixed": True,
-            "r_0": fixed((0, 0, 0)),
-            "v_0": fixed((0, 0, 0)),
-            "w_a": fixed(tuple(self.spin)),
-        }
+        start: dict = {"angles_fixed": True, "r_0": REST, "v_0": REST, "w_a": fixed(tuple(self.spin))}
         return FEBody(reduced=plate(str(self.mesh), self.modes), damping_ratio=self.damping, **start)
-
-    @part
-    def push(self):
-        along = piecewise((50 / 2**0.5 * sin(np.pi * time / 0.1), time < 0.1), 0) if self.load == "pulse" else 0
-        return WorldForce(force=(along, 0, along))
 
     def connections(self):
         yield connect(self.body.end, self.push.frame_b)
 
     def equations(self):
+        force = piecewise((50 / 2**0.5 * sin(np.pi * time / 0.1), time < 0.1), 0) if self.load == "pulse" else 0
+        yield self.push.force == (force, 0, force)
         yield self.body.P1.r_0 == (self.P1_x, self.P1_y, self.P1_z)
         yield self.body.w_a == (self.w_x, self.w_y, self.w_z)
 

@@ -153,7 +153,7 @@ class FEBody(MovingBody):
             if np.any(interface.rotation):
                 R, G = rodrigues_rotation(theta), rodrigues_rate(theta)
             yield from move(ref, frame, r, R)
-            f_k, t_k = (as_expr([x[k, j] for j in range(3)]) for x in (self.frame_force, self.frame_torque))
+            f_k, t_k = self.frame_force[k], self.frame_torque[k]
             yield f_k == resolve1(R, frame.f)
             yield t_k == G.T @ frame.t
             f, t = f + f_k, t + resolve1(R, frame.t) + cross(r, f_k)
