@@ -14,6 +14,43 @@ ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
+class UsualInvariants:
+    """The nine inertia invariants that multibody programs name I1 to I9, with v~ the matrix of v x.
+
+    Parameters
+    ----------
+    I1 : float
+        Mass.
+    I2 : array, shape (3,)
+        Integral of r0 dm.
+    I3 : array, shape (3, n)
+        Integrals of phi_b dm.
+    I4 : array, shape (3, n)
+        Integrals of r0 x phi_b dm.
+    I5 : array, shape (n, 3, n)
+        Integrals of phi_b x phi_c dm, at [b, :, c].
+    I6 : array, shape (n, n)
+        Integrals of phi_b . phi_c dm.
+    I7 : array, shape (3, 3)
+        Integral of r0~' r0~ dm, the inertia tensor about the origin.
+    I8 : array, shape (n, 3, 3)
+        Integrals of r0~ phi_b~ dm.
+    I9 : array, shape (n, n, 3, 3)
+        Integrals of phi_b~ phi_c~ dm.
+    """
+
+    I1: float
+    I2: Array
+    I3: Array
+    I4: Array
+    I5: Array
+    I6: Array
+    I7: Array
+    I8: Array
+    I9: Array
+
+
+@dataclass(frozen=True)
 class Invariants:
     """Integrals of the places r0 and the modes phi_b over the mass of a body; see `ReducedBody`.
 
@@ -78,3 +115,29 @@ def invariants(mass: Any, places: Array, modes: Array) -> Invariants:
         modal_second=second,
         modal_products=products[4:, 4:].reshape(n, 3, n, 3).transpose(0, 2, 1, 3),
     )
+
+
+def usual(body: Any) -> UsualInvariants:
+    """I1 to I9 of a `ReducedBody` (or of `Invariants`).
+
+    u~ v~ = v u' - (u . v) E, so A_b and B_bc hold all of them.
+    """
+    P, A, B, E = body.second_moment, body.modal_second, body.modal_products, np.eye(3)
+    along = np.trace(B, axis1=2, axis2=3)
+    return UsualInvariants(
+        I1=body.mass,
+        I2=body.first_moment,
+        I3=body.modal_first,
+        I4=axial(A).T,
+        I5=axial(B).transpose(0, 2, 1),
+        I6=along,
+        I7=np.trace(P) * E - P,
+        I8=A.transpose(0, 2, 1) - np.trace(A, axis1=1, axis2=2)[:, None, None] * E,
+        I9=B.transpose(0, 1, 3, 2) - along[:, :, None, None] * E,
+    )
+
+
+def axial(products: Array) -> Array:
+    """Integrals of u x v from those of u v', shape (..., 3, 3)."""
+    P = products
+    return np.stack([P[..., 1, 2] - P[..., 2, 1], P[..., 2, 0] - P[..., 0, 2], P[..., 0, 1] - P[..., 1, 0]], axis=-1)

@@ -14,6 +14,7 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe import archive
 from components.fe.arrays import Array, frozen
+from components.fe.invariants import axial
 from components.fe.nodal_field import NodalField
 
 
@@ -141,9 +142,7 @@ class ReducedBody:
         Along x, y, z in kg and about x, y, z of the reference frame in kg.m2: (S_b)^2 / M_bb and (H_b)^2 / M_bb with
         H_b the integral of r0 x phi_b dm. Modes in a mean-axis frame have none.
         """
-        A = self.modal_second
-        turning = np.stack([A[:, 1, 2] - A[:, 2, 1], A[:, 2, 0] - A[:, 0, 2], A[:, 0, 1] - A[:, 1, 0]], axis=1)
-        return np.hstack([self.modal_first.T, turning]) ** 2 / np.diag(self.M)[:, None]
+        return np.hstack([self.modal_first.T, axial(self.modal_second)]) ** 2 / np.diag(self.M)[:, None]
 
     @property
     def lost_mass(self) -> Array:
