@@ -28,7 +28,7 @@ from acausal import (
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
 from components.fe.reduced_body import Interface, ReducedBody
-from components.fe.source import body_of, critical_damping, with_modes
+from components.fe.source import body_of, critical_damping, nominal, with_modes
 from components.frame import Frame, move
 from components.moving_body import MovingBody
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
@@ -111,8 +111,11 @@ class FEBody(MovingBody):
         shape=lambda s: (s.modes,),
         unit="m",
         select=PREFER,
+        nominal=lambda s: nominal(s._body)[0],
     )
-    qd: Any = variable("der(q)", shape=lambda s: (s.modes,), unit="m/s", select=PREFER)
+    qd: Any = variable(
+        "der(q)", shape=lambda s: (s.modes,), unit="m/s", select=PREFER, nominal=lambda s: nominal(s._body)[1]
+    )
     qdd: Any = variable("der(qd)", shape=lambda s: (s.modes,), unit="m/s2")
     # Unknowns of their own, as otherwise every mode would meet every other one in the derivatives of their power.
     frame_force: Any = variable(

@@ -26,7 +26,13 @@ class Bricks(Model):
     @part
     def body(self):
         bricks, maps = loaded(self.seed)
-        state = {"r_0": bricks.state["x"], "v_0": bricks.state["v"], "w_a": bricks.motion()[4], "q": bricks.q, "qd": bricks.qd}
+        state = {
+            "r_0": bricks.state["x"],
+            "v_0": bricks.state["v"],
+            "w_a": bricks.motion()[4],
+            "q": bricks.q,
+            "qd": bricks.qd,
+        }
         start: dict = {name: fixed(tuple(value)) for name, value in state.items()}
         angles: dict = {"angles_start": tuple(bricks.state["angles"]), "angles_fixed": True}
         reduced = ReducedBody(**bricks.moments(), interfaces=(Interface("tip", *maps),))
@@ -82,14 +88,13 @@ class Free(Model):
     @part
     def body(self):
         start: dict = {"r_0": fixed((0.2, 0.1, -0.3)), "v_0": fixed((0.5, -1.0, 0.7)), "w_a": fixed((4.0, -3.0, 5.0))}
-        start |= {"q": fixed((0.03, -0.02, 0.01, 0, 0, 0)), "qd": fixed((0.1, 0, 0, -0.2, 0, 0)), "initial": "free"}
         return FEBody(reduced=rod(self.hold), angles_start=(0.3, 0.2, -0.5), angles_fixed=True, **start)
 
 
 @pytest.mark.parametrize("hold", ["frame_a", "frame_b"])
 def test_free_body_keeps_its_momenta(hold):
     result = ac.simulate(Free(hold=hold), stop_time=0.2, tolerance=1e-9, intervals=40, energy=True)
-    assert np.abs(result["body.q"]).max() > 0.03
+    assert np.abs(result["body.q"]).max() > 1e-4
     for momentum in momenta(rod(hold), result, frame=hold):
         np.testing.assert_allclose(momentum - momentum[0], 0, atol=1e-10 * np.linalg.norm(momentum[0]))
     assert abs(result.stats["energy_method"]) < 1e-9
@@ -102,8 +107,8 @@ class OnBall(Model):
     hold = structural("frame that is the reference frame", default="frame_a")
     world = World()
     joint = Spherical(angles_fixed=True, w_rel_a=fixed((3.0, -2.0, 4.0)))
-    force = WorldForce(force=(5.0, -3.0, 4.0), resolve_in_frame="frame_b")
-    torque = WorldTorque(torque=(0.2, 0.3, -0.2), resolve_in_frame="frame_b")
+    force = WorldForce(force=(1.5, -1.0, 1.2), resolve_in_frame="frame_b")
+    torque = WorldTorque(torque=(0.06, 0.09, -0.06), resolve_in_frame="frame_b")
 
     @part
     def body(self):
@@ -122,7 +127,7 @@ class OnBall(Model):
 def test_energy_on_a_ball_joint(hold, turned):
     result = ac.simulate(OnBall(hold=hold, turned=turned), stop_time=0.3, tolerance=1e-9, energy=True)
     stats = result.stats
-    assert abs(stats["energy_supplied"]) > 0.1
+    assert abs(stats["energy_supplied"]) > 0.01
     assert stats["energy_stored_change"] == pytest.approx(stats["energy_supplied"], abs=1e-9)
 
 
