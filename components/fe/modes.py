@@ -18,6 +18,8 @@ from components.fe.solid import Solid
 DENSE, SHARE = 600, 0.25
 # Of the largest eigenvalue that the diagonals suggest: less is the rounding of a motion without stiffness.
 NOTHING = 1e-14
+# Frequencies that differ by less are one, whose modes are any turned among themselves.
+EQUAL = 1e-7
 # Modes beyond those asked for, so that a pair of equal frequencies is complete before it is cut.
 MORE = 2
 
@@ -194,7 +196,24 @@ def orthogonal(system: System, shapes: Array) -> tuple[Array, Array]:
         keep = values > 1e-12 * len(values)
         basis = basis / size @ (mix[:, keep] / np.sqrt(values[keep]))
     squares, turned = eigh(basis.T @ (system.stiffness @ basis))
-    return basis @ turned, squares
+    return _settled(system, basis @ turned, squares), squares
+
+
+def _settled(system: System, shapes: Array, squares: Array) -> Array:
+    """Modes of one sign, and of equal frequencies those along the axes: the same in every run, with the fewest terms."""
+    moved, first = system.expand @ shapes, 0
+    for k in range(1, len(squares) + 1):
+        if k == len(squares) or squares[k] > squares[first] * (1 + 2 * EQUAL):
+            if k - first > 1:
+                group = moved[:, first:k]
+                weights = np.tile([1.0, 2.0, 3.0], len(system.body.nodes))[:, None]
+                form = group.T @ (weights * system.body.weigh(group))
+                turned = np.linalg.eigh((form + form.T) / 2)[1]
+                shapes[:, first:k], moved[:, first:k] = shapes[:, first:k] @ turned, group @ turned
+            first = k
+    # Among entries that differ by rounding alone the first decides.
+    top = np.argmax(np.abs(moved) > (1 - 1e-6) * np.abs(moved).max(axis=0), axis=0)
+    return shapes * np.sign(moved[top, range(len(squares))])
 
 
 def lowest(flexibility: Flexibility, count: int) -> tuple[Array, Array]:

@@ -18,9 +18,6 @@ from components.fe.invariants import ROUNDING, invariants
 from components.fe.reduced_body import Interface, NodalField, ReducedBody
 from components.fe.solid import Solid
 
-# Frequencies that differ by less are one, whose modes are any turned among themselves.
-EQUAL = 1e-7
-
 
 def reduce_body(
     M: Any,
@@ -95,8 +92,8 @@ def reduce_body(
         raise DeclarationError(f"no mode lies below {frequency} Hz")
     if wanted is not None and len(squares) < wanted:
         raise DeclarationError(f"there are {len(squares)} modes with mass, fewer than modes={wanted}")
-    shapes = _settled(body, shapes, squares)[:, : wanted or len(squares)]
-    return _reduced(body, shapes, squares[: shapes.shape[1]], held, found, damping)
+    shapes, squares = shapes[:, :wanted], squares[:wanted]
+    return _reduced(body, shapes, squares, held, found, damping)
 
 
 def _numbers(modes: Any, frequency: Any) -> None:
@@ -104,23 +101,6 @@ def _numbers(modes: Any, frequency: Any) -> None:
         raise DeclarationError(f"modes is a whole number from 1 on, not {modes!r}")
     if frequency is not None and not (isinstance(frequency, int | float | np.number) and 0 < frequency < np.inf):
         raise DeclarationError(f"frequency is a positive bound in Hz, not {frequency!r}")
-
-
-def _settled(body: Solid, shapes: Array, squares: Array) -> Array:
-    """Modes of one sign, and of equal frequencies those along the axes: the same in every run, with the fewest terms."""
-    shapes = shapes.copy()
-    first = 0
-    for k in range(1, len(squares) + 1):
-        if k == len(squares) or squares[k] > squares[first] * (1 + 2 * EQUAL):
-            if k - first > 1:
-                group = shapes[:, first:k]
-                weights = np.tile([1.0, 2.0, 3.0], len(body.nodes))[:, None]
-                form = group.T @ (weights * body.weigh(group))
-                shapes[:, first:k] = group @ np.linalg.eigh((form + form.T) / 2)[1]
-            first = k
-    # Among entries that differ by rounding alone the first decides.
-    top = np.argmax(np.abs(shapes) > (1 - 1e-6) * np.abs(shapes).max(axis=0), axis=0)
-    return shapes * np.sign(shapes[top, range(shapes.shape[1])])
 
 
 def _reduced(

@@ -58,7 +58,7 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
         jacobian = np.einsum("eia,ix->eax", corners, slopes(at))
         weight = np.linalg.det(jacobian)
         if (weight <= 0).any():
-            wrong = int(np.argmin(weight))
+            wrong = int(np.flatnonzero(weight <= 0)[0])
             raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
         mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
         own = np.einsum("ix,exa->eia", slopes(at), np.linalg.inv(jacobian))

@@ -54,7 +54,7 @@ def matrices(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
 
     volumes = basis.mapping.detDF(basis.X)
     if (volumes <= 0).any():
-        wrong = int(np.argmin(volumes.min(axis=1)))
+        wrong = int(np.flatnonzero((volumes <= 0).any(axis=1))[0])
         raise DeclarationError(f"element {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
 
     def assembled(form: Any) -> Any:
