@@ -42,5 +42,5 @@ def read(path: Path) -> dict[str, np.ndarray]:
             return content
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path} of a reduced body") from None
-    except (OSError, EOFError, ValueError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
         raise DeclarationError(f"{path} is no file of a reduced body, or not whole: {error}") from None

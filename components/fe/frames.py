@@ -50,7 +50,8 @@ def reference(hold: Any, frames: list[Frame], body: Solid) -> Reference:
     if isinstance(hold, str) and hold == MEAN_AXIS:
         return Reference(body.centre, np.zeros(0, dtype=int), body.weigh(body.rigid).T / body.total)
     if isinstance(hold, str | Mapping):
-        return _of_frames(hold if isinstance(hold, Mapping) else {hold: DIRECTIONS}, frames, body)
+        found = _of_frames(hold if isinstance(hold, Mapping) else {hold: DIRECTIONS}, frames, body)
+        return _completed(found, frames if isinstance(hold, str) else [], body)
     nodes = np.asarray(hold)
     if nodes.shape != (3,) or not np.issubdtype(nodes.dtype, np.integer):
         raise DeclarationError(
@@ -119,7 +120,13 @@ def _of_frames(hold: Mapping[Any, Any], frames: list[Frame], body: Solid) -> Ref
     if origin is None:
         origin = body.nodes[np.unique(equations // 3)].mean(axis=0) if len(equations) else body.centre
     names = tuple(f.name for f in frames if _stands(f, hold, equations))
-    return _completed(Reference(origin, equations, conditions, names), frames, body)
+    if not names and len(equations) + len(conditions) == 6:
+        # Six directions of nodes say what a rigid motion is, and hold no interface: conditions as any others.
+        units = np.zeros((len(equations), 3 * len(body.nodes)))
+        units[range(len(equations)), equations] = 1.0
+        conditions = np.vstack([units, conditions])
+        equations = equations[:0]
+    return Reference(origin, equations, conditions, names)
 
 
 def _stands(frame: Frame, hold: Mapping[Any, Any], equations: Array) -> bool:

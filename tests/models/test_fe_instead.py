@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal import chain, connect
+from components import FixedRotation
 from components.fe import FEBody, ReducedBody, box, reduce_body
 from models import FourBar, SliderCrank, SpinUp
-from tests.components.fe.bodies import ends
+from tests.components.fe.moving import ends
 from tests.reference import cantilever
 
 
@@ -40,12 +42,13 @@ def test_spin_up_is_that_of_a_linear_body():
     assert result["tip_deflection"].min() == pytest.approx(-0.3436, abs=1e-4)
 
 
-def test_linear_body_on_the_hub_has_the_frequencies_of_the_beam():
+@pytest.mark.parametrize(("elements", "share"), [(40, 1.5e-3), (80, 5e-5)])
+def test_frequencies_in_the_plane_are_those_of_the_beam(elements, share):
     length, area, J, E, rho = HUB
     exact = cantilever.bending_frequencies(length, rho * area, E * J, 3) / (2 * np.pi)
-    found = bar(*HUB, 40, 10).frequencies
+    found = bar(*HUB, elements, 10).frequencies
     nearest = [found[np.argmin(np.abs(found - f))] for f in exact]
-    np.testing.assert_allclose(nearest, exact, rtol=1.5e-3)
+    np.testing.assert_allclose(nearest, exact, rtol=share)
 
 
 class Coupled(SliderCrank):
@@ -78,3 +81,37 @@ def test_coupler_of_the_slider_crank(hold):
     beam = ac.simulate(SliderCrank(crank="rigid", rod_volumes=1), stop_time=0.7, tolerance=1e-5)
     found = ac.simulate(Coupled(hold=hold), stop_time=0.7, tolerance=1e-5)
     np.testing.assert_allclose(found["slider_position"], beam["slider_position"], atol=1e-4)
+
+
+class FEFourBar(FourBar):
+    """The coupler of the four-bar as a bar of bricks between its ends."""
+
+    b2 = None
+
+    @ac.part
+    def before(self):
+        return FixedRotation(n=(0, 0, 1), angle=np.arctan2(1.1, 0.1))
+
+    @ac.part
+    def coupler(self):
+        M, K, nodes = box((np.hypot(0.1, 1.1), 0.05, 0.05), (12, 1, 1), "hex8", E=7e10, nu=0.3, rho=7700.0)
+        return FEBody(reduced=reduce_body(M, K, nodes, frames=ends(nodes), hold="frame_a", modes=4))
+
+    @ac.part
+    def after(self):
+        return FixedRotation(n=(0, 0, 1), angle=-np.arctan2(1.1, 0.1))
+
+    def connections(self):
+        through = (self.before, self.coupler, self.after)
+        yield chain(self.world, self.j1, self.b1, self.j2, *through, self.j4, self.b4.frame_b)
+        yield chain(self.world, self.b3, self.j3, self.b4)
+        yield connect(self.j1.support, self.damper.flange_a)
+        yield connect(self.damper.flange_b, self.j1.axis)
+
+
+def test_coupler_of_the_four_bar():
+    """A stiff one moves nearly as the rigid one of the same size and density."""
+    rigid = ac.simulate(FourBar(), stop_time=1.5, tolerance=1e-6)
+    found = ac.simulate(FEFourBar(), stop_time=1.5, tolerance=1e-6)
+    np.testing.assert_allclose(found["j1_phi"], rigid["j1_phi"], atol=1e-3)
+    assert np.abs(found["j1_phi"] - rigid["j1_phi"]).max() > 1e-6

@@ -49,7 +49,7 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
             content = {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path}") from None
-    except (OSError, EOFError, ValueError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
         raise DeclarationError(f"{path} is no .npz file, or not whole: {error}") from None
     places = next((name for name in PLACES if name in content), None)
     if places is None:

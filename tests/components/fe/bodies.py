@@ -1,45 +1,59 @@
-"""Bodies and scenes of tests."""
+"""Bodies that tests of FE bodies share, and what is known of them without a reduction."""
 
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
+from pathlib import Path
 
 import numpy as np
+from scipy.linalg import eigh, null_space
 
-from components.fe import ReducedBody, box, reduce_body
+from components.fe import box, read_npz
 
-SIZE, RUBBER = (0.5, 0.06, 0.04), {"E": 5e6, "nu": 0.3, "rho": 1100.0}
-
-
-def ends(nodes: np.ndarray, first: str = "frame_a", last: str = "frame_b") -> dict[str, Any]:
-    """Frames on the first and the last section of a body along x."""
-    x = nodes[:, 0]
-    return {first: np.flatnonzero(x == x.min()), last: np.flatnonzero(x == x.max())}
+FILES = Path(__file__).parents[2] / "reference/fe"
+HINGE, TIP = (0, 2, 4), 50
 
 
 @cache
-def rod(hold: str = "frame_a", modes: int = 6, element: str = "hex8", basis: str = "held") -> ReducedBody:
-    """A rubber rod of few bricks."""
-    M, K, nodes = box(SIZE, (4, 1, 1), element, **RUBBER)
-    return reduce_body(M, K, nodes, frames=ends(nodes), hold=hold, modes=modes, basis=basis)
+def rod():
+    """The pendulum of Vlasenko and Kasper 2008, section XI."""
+    return read_npz(FILES / "rod_qm6_8x2x1.npz")
 
 
 @cache
-def masses() -> tuple[np.ndarray, np.ndarray]:
-    """Mass of each pair of nodes of the rod, and places of the nodes."""
-    M, _, nodes = box(SIZE, (4, 1, 1), "hex8", **RUBBER)
-    return M.toarray()[::3, ::3], nodes
+def plate():
+    return read_npz(FILES / "plate_fe_h25.npz", length=1e-3, mass=1e3)
 
 
-def momenta(reduced: ReducedBody, result: Any, path: str = "body", frame: str = "frame_a") -> tuple[np.ndarray, ...]:
-    """Momentum and angular momentum about the origin of the world, from the motion of all nodes, shape (times, 3) each."""
-    m, _ = masses()
-    field, at = reduced.nodal, f"{path}.{frame}"
-    T, w, v, r = (result[f"{at}.{name}"] for name in ("R.T", "R.w", "v", "r_0"))
-    local = field.nodes + np.einsum("iab,tb->tia", field.modes, result[f"{path}.q"])
-    rates = v[:, None] + np.cross(w[:, None], local) + np.einsum("iab,tb->tia", field.modes, result[f"{path}.qd"])
-    places, rates = (np.einsum("tab,tia->tib", T, x) for x in (local, rates))
-    places = places + r[:, None]
-    carried = np.einsum("ij,tja->tia", m, rates)
-    return carried.sum(axis=1), np.cross(places, carried).sum(axis=1)
+@cache
+def block(counts=(3, 1, 2), size=(0.3, 0.1, 0.17)):
+    """A small block of steel without equal frequencies."""
+    return box(size, counts, "hex8", E=2.1e11, nu=0.3, rho=7850.0)
+
+
+def face(nodes, axis, end):
+    """Nodes of a face of a box: axis 0 to 2, end 0 or -1."""
+    return np.flatnonzero(np.isclose(nodes[:, axis], np.unique(nodes[:, axis])[end]))
+
+
+def rigid(nodes, about=(0, 0, 0)):
+    """Translations and turns of 1 rad, shape (3 N, 6)."""
+    moves = np.tile(np.eye(3), (len(nodes), 1))
+    turns = [np.cross(axis, nodes - about).ravel() for axis in np.eye(3)]
+    return np.column_stack([moves, *turns])
+
+
+def constrained(M, K, rows):
+    """Eigenvalues and modes with rows @ u = 0, by a dense null space."""
+    Z = null_space(rows) if len(rows) else np.eye(M.shape[0])
+    squares, vectors = eigh(Z.T @ K.toarray() @ Z, Z.T @ M.toarray() @ Z)
+    return squares, Z @ vectors
+
+
+def units(equations, count):
+    """Rows that hold equations."""
+    return np.eye(count)[np.asarray(equations)]
+
+
+def hertz(squares):
+    return np.sqrt(np.maximum(squares, 0)) / (2 * np.pi)

@@ -10,7 +10,7 @@ import acausal as ac
 from acausal import Model, chain, connect, fixed, part, structural
 from components import BodyShape, Spherical, World, WorldForce, WorldTorque
 from components.fe import FEBody, Interface, ReducedBody
-from tests.components.fe.bodies import momenta, rod
+from tests.components.fe.moving import momenta, rod
 from tests.reference.two_bricks import TwoBricks, turned
 
 FORCE, TORQUE, GRAVITY = (30.0, -20.0, 45.0), (3.0, 5.0, -2.0), np.array([0.4, -0.7, -0.2])
