@@ -113,5 +113,5 @@ def test_coupler_of_the_four_bar():
     """A stiff one moves nearly as the rigid one of the same size and density."""
     rigid = ac.simulate(FourBar(), stop_time=1.5, tolerance=1e-6)
     found = ac.simulate(FEFourBar(), stop_time=1.5, tolerance=1e-6)
-    np.testing.assert_allclose(found["j1_phi"], rigid["j1_phi"], atol=1e-3)
-    assert np.abs(found["j1_phi"] - rigid["j1_phi"]).max() > 1e-6
+    np.testing.assert_allclose(found["j1_phi"], rigid["j1_phi"], atol=3e-3)
+    assert np.abs(found["j1_phi"] - rigid["j1_phi"]).max() > 1e-4

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, chain, connect, fixed, part, structural
-from components import BodyShape, Spherical, World, WorldForce, WorldTorque
-from components.fe import FEBody, Interface, ReducedBody
-from tests.components.fe.moving import momenta, rod
+from acausal import Model, chain, connect, fixed, part, piecewise, structural, time
+from components import Body, BodyShape, Revolute, Spherical, World, WorldForce, WorldTorque
+from components.fe import FEBody, Interface, ReducedBody, box, reduce_body
+from components.fe.source import body_of
+from tests.components.fe.moving import RUBBER, SIZE, ends, momenta, rod
 from tests.reference.two_bricks import TwoBricks, turned
 
 FORCE, TORQUE, GRAVITY = (30.0, -20.0, 45.0), (3.0, 5.0, -2.0), np.array([0.4, -0.7, -0.2])
@@ -154,3 +155,124 @@ def test_without_modes_it_is_the_rigid_body():
 
     found = [ac.simulate(Pair(rigid=rigid), stop_time=0.5, tolerance=1e-9) for rigid in (True, False)]
     np.testing.assert_allclose(found[1]["body.frame_b.r_0"], found[0]["body.frame_b.r_0"], atol=1e-8)
+
+
+class OnPoint(Model):
+    """A rod that hangs on the world, with a part at one node."""
+
+    kind = structural("what joins the part", default="ball")
+    world = World()
+
+    @part
+    def body(self):
+        M, K, nodes = box(SIZE, (4, 1, 1), "hex8", **RUBBER)
+        frames = {"root": ends(nodes)["frame_a"], "corner": [len(nodes) - 1]}
+        return FEBody(reduced=reduce_body(M, K, nodes, frames=frames, hold="root", modes=4), check_range=False)
+
+    @part
+    def joint(self):
+        return (
+            Spherical(angles_fixed=True, w_rel=fixed((0, 0, 0)))
+            if self.kind == "ball"
+            else Revolute(phi=fixed(0), w=fixed(0))
+        )
+
+    @part
+    def load(self):
+        return Body(m=0.1, r_CM=(0.05, 0.02, 0.03), I=1e-4 * np.eye(3))
+
+    def connections(self):
+        yield connect(self.world.frame_b, self.body.root)
+        yield chain(self.body.corner, self.joint, self.load)
+
+
+def test_a_point_takes_a_ball_joint():
+    result = ac.simulate(OnPoint(), stop_time=0.1, tolerance=1e-7, energy=True)
+    assert np.abs(result["body.corner.t"]).max() == 0
+    assert abs(result.stats["energy_method"]) < 1e-7
+
+
+def test_a_point_carries_no_moment():
+    with pytest.raises(ac.InitializationError) as told:
+        ac.simulate(OnPoint(kind="hinge"), stop_time=0.1)
+    for words in ("body (FEBody)", "`corner`", "one node", "Spherical"):
+        assert words in str(told.value)
+
+
+def test_a_moment_that_comes_later_is_told():
+    class Later(OnPoint):
+        joint = None
+        load = WorldTorque(torque=(0, 0, piecewise((1e-3, time > 0.05), 0)))
+
+        def connections(self):
+            yield connect(self.world.frame_b, self.body.root)
+            yield connect(self.body.corner, self.load.frame_b)
+
+    with pytest.warns(ac.AcausalWarning, match="`corner` is given by one node"):
+        ac.simulate(Later(), stop_time=0.1)
+
+
+class Falling(Model):
+    world = World()
+    body = FEBody(
+        reduced="rod.npz", r_0=fixed((0, 0, 0)), v_0=fixed((0, 0, 0)), w_a=fixed((0, 0, 0)), angles_fixed=True
+    )
+
+
+def test_a_body_may_be_a_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rod().save("rod.npz")
+    rod(modes=3).save("other.npz")
+    given = ac.simulate(Falling(), stop_time=0.1, intervals=2)
+    assert given["body.q"].shape == (3, 6)
+    other = ac.simulate(Falling(), stop_time=0.1, intervals=2, parameters={"body.reduced": "other.npz"})
+    assert other["body.q"].shape == (3, 3)
+    np.testing.assert_allclose(given["body.r_0"][-1], (0, -9.80665 * 0.1**2 / 2, 0), atol=1e-9)
+    (tmp_path / "rod.npz").unlink()
+    with pytest.raises(ac.DeclarationError, match="there is no file"):
+        ac.simulate(Falling(), stop_time=0.1)
+
+
+def test_a_file_that_changed_is_read_again(tmp_path):
+    path = tmp_path / "body.npz"
+    rod().save(path)
+    assert body_of(path).n == body_of(str(path)).n == 6
+    assert body_of(path) is body_of(str(path))
+    rod(modes=3).save(path)
+    assert body_of(path).n == 3
+
+
+def test_more_modes_than_there_are():
+    with pytest.raises(ac.DeclarationError, match="6 modes"):
+        ac.compile(Free(), parameters={"body.modes": 7})
+
+
+class Held(Model):
+    """A rod that is clamped in the world."""
+
+    world = World()
+    body = FEBody(reduced=rod(), check_range=False)
+
+    def connections(self):
+        yield connect(self.world.frame_b, self.body.frame_a)
+
+
+def test_stiffness_and_damping_are_parameters():
+    compiled = ac.compile(Held(), parameters={"body.damping_ratio": 0.1})
+    for factor in (1.0, 4.0):
+        values = ac.linearize(compiled, parameters={"body.stiffness": factor}).eigenvalues
+        rates = np.sort(np.abs(values))[::2]
+        np.testing.assert_allclose(rates, np.sqrt(factor) * 2 * np.pi * rod().frequencies, rtol=1e-3)
+        np.testing.assert_allclose(-values.real / np.abs(values), 0.1, rtol=1e-3)
+
+
+@pytest.mark.parametrize("initial", ["undeformed", "static"])
+def test_state_at_the_start(initial):
+    result = ac.simulate(Held(), parameters={"body.initial": initial}, stop_time=0.5, tolerance=1e-9)
+    sag = result["body.frame_b.r_0"][:, 1]
+    if initial == "static":
+        assert np.ptp(sag) < 1e-8
+        assert sag[0] < -1e-3
+    else:
+        assert sag[0] == pytest.approx(0, abs=1e-15)
+        assert np.ptp(sag) > 1e-3
