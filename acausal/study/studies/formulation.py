@@ -12,6 +12,7 @@ from acausal.flatten.tree import join, members
 from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.component import Component
+from acausal.language.data import same
 
 # Where a model does not say which numbers of elements to try: its own, twice and four times as many.
 MULTIPLES = (1, 2, 4)
@@ -111,7 +112,7 @@ def formulations_of(model: Component, given: Mapping[str, Any]) -> tuple[Formula
 
 
 def _agrees(form: Formulation, given: Mapping[str, Any]) -> bool:
-    return all(path not in given or given[path] == value for path, value in form.settings.items())
+    return all(path not in given or same(given[path], value) for path, value in form.settings.items())
 
 
 def _with(form: Formulation, given: Mapping[str, Any]) -> Formulation:

@@ -232,7 +232,7 @@ def study(
     if constraints is None and compiled.constraints.size and len(forms) == 1 and not forms[0].refine:
         grid = replace(grid, constraints=("states", "projection"))
     trees = [Instantiation(model, case.settings).root for case in grid.structures(given)]
-    job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial)
+    job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial, type(model).__module__)
     known = None if table is None else matching(table, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
     kept = Journal(journal, identity(model, trees, **common))
