@@ -10,7 +10,6 @@ import acausal as ac
 from acausal import Model, chain, connect, fixed, part, piecewise, structural, time
 from components import Body, BodyShape, Revolute, Spherical, World, WorldForce, WorldTorque
 from components.fe import FEBody, Interface, ReducedBody, box, reduce_body
-from components.fe.source import body_of
 from tests.components.fe.moving import RUBBER, SIZE, ends, momenta, rod
 from tests.reference.two_bricks import TwoBricks, turned
 
@@ -233,17 +232,8 @@ def test_a_body_may_be_a_file(tmp_path, monkeypatch):
         ac.simulate(Falling(), stop_time=0.1)
 
 
-def test_a_file_that_changed_is_read_again(tmp_path):
-    path = tmp_path / "body.npz"
-    rod().save(path)
-    assert body_of(path).n == body_of(str(path)).n == 6
-    assert body_of(path) is body_of(str(path))
-    rod(modes=3).save(path)
-    assert body_of(path).n == 3
-
-
 def test_more_modes_than_there_are():
-    with pytest.raises(ac.DeclarationError, match="6 modes"):
+    with pytest.raises(ac.DeclarationError, match="at most 6"):
         ac.compile(Free(), parameters={"body.modes": 7})
 
 

@@ -1,10 +1,8 @@
-"""Where a body of the equations comes from, and what follows from its modes."""
+"""What the equations of a body take from its modes, once in a process."""
 
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,28 +10,6 @@ from components.fe.reduced_body import ReducedBody
 
 # Of the size of a body, the root mean square of the distance of its mass from its centre: how far it may deflect.
 DEFLECTION = 0.1
-
-
-def body_of(given: Any) -> ReducedBody:
-    """Return a reduced body, from a file if this is the path of one; a file that did not change is read once in a process.
-
-    Raises
-    ------
-    DeclarationError
-        If there is no such file, or it is none of a reduced body.
-    """
-    if isinstance(given, ReducedBody):
-        return given
-    path = Path(given)
-    if not path.is_file():
-        return ReducedBody.load(path)
-    status = path.stat()
-    return _read(path.resolve(), status.st_mtime_ns, status.st_size)
-
-
-@lru_cache(maxsize=8)
-def _read(path: Path, changed: int, size: int) -> ReducedBody:
-    return ReducedBody.load(path)
 
 
 @lru_cache(maxsize=64)
