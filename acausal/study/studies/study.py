@@ -37,7 +37,7 @@ from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import pack
-from acausal.study.studies.formulation import Formulation, formulations_of
+from acausal.study.studies.formulation import Formulation, formulations_of, within
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
@@ -224,7 +224,8 @@ def study(
     check_shares(1e-4, accuracy=accuracy)
     _check(initial, workers, journal)
     table = None if reference is None else read_csv(reference, "the reference")
-    forms = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    asked = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in asked]
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
     grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied)
     compiled = compile(model, given)
