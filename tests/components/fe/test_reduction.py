@@ -380,3 +380,33 @@ def test_nodes_on_a_line_and_points():
     np.testing.assert_array_equal(edge.rotation[1], 0)
     assert np.abs(edge.rotation[[0, 2]]).max() > 0
     assert reduce_body(M, K, nodes, frames={"point": [7]}, modes=3).interfaces[0].turns is False
+
+
+@pytest.mark.parametrize("basis", BASES)
+@pytest.mark.parametrize("hold", ["left", "mean-axis", "inner"])
+def test_frames_may_share_nodes(hold, basis):
+    """A frame inside of another, held or not, adds no condition that is there already."""
+    M, K, nodes = block()
+    left, right = face(nodes, 0, 0), face(nodes, 0, -1)
+    frames = {
+        "left": left,
+        "right": rigid(right),
+        "corner": right[0],
+        "line": right[:2],
+        "same": right,
+        "inner": left[:4],
+    }
+    body = reduce_body(M, K, nodes, frames=frames, hold=hold, basis=basis, modes=16)
+    found = {frame.name: frame for frame in body.interfaces}
+    size = np.abs(body.nodal.modes).max()
+    np.testing.assert_allclose(found["same"].displacement, found["right"].displacement, atol=1e-9 * size)
+    np.testing.assert_allclose(found["same"].rotation, found["right"].rotation, atol=1e-7 * size)
+    arm = nodes[right[0]] - nodes[right].mean(axis=0)
+    moved = found["right"].displacement + np.cross(found["right"].rotation.T, arm).T
+    np.testing.assert_allclose(found["corner"].displacement, moved, atol=1e-7 * size)
+    if hold == "left" and basis != "free":
+        assert found["inner"].turns
+        assert not found["inner"].displacement.any()
+        assert not found["inner"].rotation.any()
+    u = body.nodal.modes.reshape(-1, 16)
+    np.testing.assert_allclose(u.T @ (M @ u), np.eye(16), atol=1e-10)
