@@ -15,6 +15,7 @@ from components.flange import Flange, TwoFlanges
 from components.force import Force
 from components.frame import Frame, TwoFrames, move
 from components.line_force import LineForce
+from components.moving_body import MovingBody
 from components.orientation import (
     Orientation,
     RelativeOrientation,
@@ -57,6 +58,7 @@ __all__ = [
     "Force",
     "Frame",
     "LineForce",
+    "MovingBody",
     "Orientation",
     "Prismatic",
     "RelativeOrientation",

@@ -105,6 +105,29 @@ def from_quaternion(Q: Any) -> RelativeOrientation:
     return RelativeOrientation(T, 2 * (s * dQ[:3] - dQ[3] * e - cross(e, dQ[:3])))
 
 
+def rodrigues_rotation(theta: Any) -> RelativeOrientation:
+    """Turn by the angle 2 arctan(|theta| / 2) about theta, in small turns by the vector theta, with w = G(theta) der(theta).
+
+    Its Rodrigues vector is p = theta / 2, that is, it has the quaternion (p, 1) / sqrt(1 + p . p): there is no singular
+    position but a half turn, and no trigonometric function. The torque t of frame 2, resolved in it, does the work
+    of G' t on theta (`rodrigues_rate`).
+
+    Parameters
+    ----------
+    theta : Expr, shape (3,)
+        Rotation vector in rad, the same in both frames.
+    """
+    p = theta / 2
+    T = (2 * (outer_product(p, p) - skew(p)) + (1 - p @ p) * np.eye(3)) / (1 + p @ p)
+    return RelativeOrientation(T, rodrigues_rate(theta) @ der(theta))
+
+
+def rodrigues_rate(theta: Any) -> Any:
+    """Matrix G with w = G der(theta) of `rodrigues_rotation`, w resolved in frame 2."""
+    p = theta / 2
+    return (np.eye(3) - skew(p)) / (1 + p @ p)
+
+
 def outer_product(a: Any, b: Any) -> Any:
     """Return the matrix a b'."""
     return as_expr([[a[i] * b[j] for j in range(3)] for i in range(3)])

@@ -4,30 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Vector3, connect, effect, part, require, structural, variable
+from acausal import connect, effect, part, require
 from components.body import Body
 from components.frame import TwoFrames
+from components.moving_body import MovingBody
 from components.rigid import wrong_inertia
 from components.translation import FixedTranslation
 
 
-class TwoFrameBody(TwoFrames):
+class TwoFrameBody(TwoFrames, MovingBody):
     """Base of rigid bodies with frame_a and, at r from it, frame_b; a subclass declares r, m, r_CM and I."""
 
-    angles_start: Any = structural(
-        "angles at the start",
-        default=(0, 0, 0),
-        shape=(3,),
-        doc="In rad; the orientation of a freely moving body, as of Body.",
-    )
-    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
-    angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     gyroscopic: bool = effect("gyroscopic torque w x I w", default=True, doc="False leaves it out, as of Body.")
-    r_0: Vector3 = variable("position of frame_a, resolved in the world", unit="m")
-    v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
-    a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
-    w_a: Vector3 = variable("angular velocity, resolved in frame_a", unit="rad/s")
-    z_a: Vector3 = variable("angular acceleration, resolved in frame_a", unit="rad/s2")
     r: Any
     m: Any
     r_CM: Any

@@ -3,6 +3,8 @@
 from acausal import Model
 from models.bricard import Bricard
 from models.car_axis import CarAxis
+from models.fe_pendulum import FEPendulum
+from models.fe_plate import FEPlate
 from models.four_bar import FourBar
 from models.four_bar_spatial import FourBarSpatial
 from models.free_vibration import FreeVibration
@@ -27,12 +29,16 @@ SCENES: dict[str, type[Model]] = {
     "car-axis": CarAxis,
     "four-bar": FourBar,
     "four-bar-spatial": FourBarSpatial,
+    "fe-pendulum": FEPendulum,
+    "fe-plate": FEPlate,
 }
 
 __all__ = [
     "SCENES",
     "Bricard",
     "CarAxis",
+    "FEPendulum",
+    "FEPlate",
     "FlexiblePendulum",
     "FourBar",
     "FourBarSpatial",

@@ -1,0 +1,46 @@
+"""Named arrays in a .npz file that is written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+from acausal import DeclarationError
+
+FORMAT = "acausal reduced body 1"
+
+
+def write(path: Path, content: dict[str, np.ndarray]) -> None:
+    """Write to a file beside `path`, and give it that name when it is complete."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            np.savez_compressed(file, format=np.array(FORMAT), entries=np.array(len(content)), **content)  # pyright: ignore
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def read(path: Path) -> dict[str, np.ndarray]:
+    """The arrays of a file that `write` made."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            if "format" not in file or str(file["format"]) != FORMAT:
+                raise DeclarationError(f"{path} is no file of a reduced body: `reduce_body(...).save(path)` writes one")
+            content = {name: file[name] for name in file.files if name not in ("format", "entries")}
+            if len(content) != int(file["entries"]):
+                raise DeclarationError(f"{path} is not whole: {len(content)} of {int(file['entries'])} entries")
+            return content
+    except FileNotFoundError:
+        raise DeclarationError(f"there is no file {path} of a reduced body") from None
+    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+        raise DeclarationError(f"{path} is no file of a reduced body, or not whole: {error}") from None

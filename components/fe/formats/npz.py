@@ -1,0 +1,83 @@
+"""Matrices in a .npz file of numpy."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal import DeclarationError
+
+PLACES = ("coords_m", "coords_mm", "nodes")
+
+
+def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tuple[Any, Any, np.ndarray]:
+    """Mass, stiffness and nodes from a .npz file.
+
+    It holds the nodes as `coords_m`, `coords_mm` or `nodes`, shape (N, 3), and each of mass and stiffness as a full or
+    triangular matrix: dense under its name, or sparse in rows (CSR) as NAME_data, NAME_indices and NAME_indptr. The names
+    are `K` for the stiffness, shape (3 N, 3 N), and `M` for the mass, or `mscalar`, shape (N, N), for the mass of each
+    pair of nodes.
+
+    Parameters
+    ----------
+    path : str or Path
+        File.
+    length, mass : float
+        Metres in the file's unit of length, kilograms in its unit of mass, where seconds are the unit of time: 1e-3 and
+        1e3 for mm, N and Mg. The name `coords_mm` changes nothing.
+
+    Returns
+    -------
+    M, K : sparse matrix, shape (3 N, 3 N)
+        In kg and N/m; equations in the order x, y, z of each node.
+    nodes : array, shape (N, 3)
+        In m.
+
+    Raises
+    ------
+    DeclarationError
+        If the file is not there, not whole, or lacks one of these.
+    """
+    from scipy.sparse import csr_array, kron
+
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            content = {name: file[name] for name in file.files}
+    except FileNotFoundError:
+        raise DeclarationError(f"there is no file {path}") from None
+    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+        raise DeclarationError(f"{path} is no .npz file, or not whole: {error}") from None
+    places = next((name for name in PLACES if name in content), None)
+    if places is None:
+        raise DeclarationError(f"{path} holds no nodes ({', '.join(PLACES)}), but {', '.join(content) or 'nothing'}")
+    K, M = _matrix(content, "K", path), _matrix(content, "M", path)
+    if M is None and (scalar := _matrix(content, "mscalar", path)) is not None:
+        M = csr_array(kron(scalar, np.eye(3), format="csr"))
+    if K is None or M is None:
+        raise DeclarationError(f"{path} holds no {'stiffness (K)' if K is None else 'mass (M or mscalar)'}")
+    return mass * M, mass * K, length * np.asarray(content[places], dtype=float)
+
+
+def _matrix(content: dict[str, np.ndarray], name: str, path: str | Path) -> Any:
+    """A full matrix, whether the file has all of it or one triangle."""
+    from scipy.sparse import csr_array, tril, triu
+
+    if name in content:
+        A = csr_array(content[name])
+    elif f"{name}_data" in content:
+        try:
+            data, indices, starts = (content[f"{name}_{part}"] for part in ("data", "indices", "indptr"))
+            A = csr_array((data, indices, starts), shape=(len(starts) - 1,) * 2)
+            A.check_format()
+        except (KeyError, ValueError) as error:
+            raise DeclarationError(f"{path} holds no whole sparse matrix {name}: {error}") from None
+    else:
+        return None
+    below, above = tril(A, -1), triu(A, 1)
+    if bool(below.nnz) == bool(above.nnz):
+        return A
+    return csr_array(A + (below + above).T)

@@ -1,0 +1,171 @@
+"""Reference frames: six conditions on the deformation of a body that say what its rigid motion is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from acausal import DeclarationError
+from components.fe.arrays import Array
+from components.fe.interface import ON_A_LINE, Frame
+from components.fe.solid import Solid
+
+MEAN_AXIS = "mean-axis"
+DIRECTIONS = "xyz"
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Reference frame of a body; its axes are those of the nodes' coordinates.
+
+    Parameters
+    ----------
+    origin : array, shape (3,)
+        Place in m.
+    held : array of int
+        Equations whose displacement is 0.
+    rows : array, shape (k, 3 N)
+        Further conditions: rows @ u = 0.
+    names : tuple of str
+        Interfaces that are the reference frame itself, or fixed to it.
+    """
+
+    origin: Array
+    held: Array
+    rows: Array
+    names: tuple[str, ...] = ()
+
+
+def reference(hold: Any, frames: list[Frame], body: Solid) -> Reference:
+    """The reference frame that `hold` of `reduce_body` asks for, which leaves no rigid motion free.
+
+    Raises
+    ------
+    DeclarationError
+        If `hold` names no frame or node, or leaves rigid motions free.
+    """
+    if isinstance(hold, str) and hold == MEAN_AXIS:
+        return Reference(body.centre, np.zeros(0, dtype=int), body.weigh(body.rigid).T / body.total)
+    if isinstance(hold, str | Mapping):
+        found = _of_frames(hold if isinstance(hold, Mapping) else {hold: DIRECTIONS}, frames, body)
+        return _completed(found, frames if isinstance(hold, str) else [], body)
+    nodes = np.asarray(hold)
+    if nodes.shape != (3,) or not np.issubdtype(nodes.dtype, np.integer):
+        raise DeclarationError(
+            f'hold is a frame, "mean-axis", three nodes (i, j, k), or directions by frames or nodes as {{"hinge": "xyz", '
+            f'"tip": "z"}}, not {hold!r}'
+        )
+    return _of_three([_node(k, body) for k in nodes.tolist()], body)
+
+
+def _node(k: Any, body: Solid) -> int:
+    if isinstance(k, bool) or not isinstance(k, int | np.integer) or not 0 <= k < len(body.nodes):
+        raise DeclarationError(f"hold names {k!r}, but nodes are counted from 0 to {len(body.nodes) - 1}")
+    if body.empty[k]:
+        raise DeclarationError(f"node {k} that hold names has no stiffness")
+    return int(k)
+
+
+def _of_three(nodes: list[int], body: Solid) -> Reference:
+    """Origin in node i, x towards node j, node k in the plane of x and y (Vlasenko and Kasper 2008, (99) to (103)).
+
+    The conditions are theirs; the axes of the frame are those of the coordinates, from which theirs differ by a
+    constant rotation.
+    """
+    i, j, k = nodes
+    first, second = body.nodes[j] - body.nodes[i], body.nodes[k] - body.nodes[i]
+    normal = np.cross(first, second)
+    extent = max(np.linalg.norm(first), np.linalg.norm(second))
+    if np.linalg.norm(normal) <= ON_A_LINE * extent * max(np.linalg.norm(first), ON_A_LINE * extent):
+        raise DeclarationError(
+            f"the nodes {i}, {j}, {k} of the reference frame lie on a line: a frame needs a triangle"
+        )
+    x, z = first / np.linalg.norm(first), normal / np.linalg.norm(normal)
+    rows = np.zeros((6, 3 * len(body.nodes)))
+    rows[:3, 3 * i : 3 * i + 3] = np.eye(3)
+    for row, (node, direction) in zip(rows[3:], ((j, np.cross(z, x)), (j, z), (k, z)), strict=True):
+        row[3 * node : 3 * node + 3] = direction
+    return Reference(body.nodes[i], np.zeros(0, dtype=int), rows)
+
+
+def _of_frames(hold: Mapping[Any, Any], frames: list[Frame], body: Solid) -> Reference:
+    """Nodes of frames, or their averages, held in some directions."""
+    known = {frame.name: frame for frame in frames}
+    held, rows, origin = [], [], None
+    for name, letters in hold.items():
+        if not isinstance(letters, str) or not letters or set(letters) - set(DIRECTIONS):
+            raise DeclarationError(f'directions that are held are letters of "xyz", not {letters!r} as for {name!r}')
+        axes = np.array([DIRECTIONS.index(letter) for letter in dict.fromkeys(letters)])
+        if isinstance(name, str):
+            if name not in known:
+                raise DeclarationError(
+                    f'hold names {name!r}, but the frames are {", ".join(known) or "none"}, or "mean-axis"'
+                )
+            frame = known[name]
+            # A rigid frame moves as a whole: some of its directions are held where it stands, all at every node.
+            nodes, average = frame.nodes, frame.kind == "average" or (frame.kind == "rigid" and len(axes) < 3)
+        else:
+            frame, nodes, average = None, np.array([_node(name, body)]), False
+        if frame and average:
+            rows.append(spread(frame, body)[axes if len(axes) < 3 else slice(None)])
+        else:
+            held.append((3 * nodes[:, None] + axes).ravel())
+        if origin is None and len(axes) == 3:
+            origin = frame.place if frame else body.nodes[nodes[0]]
+    equations = np.unique(np.concatenate([*held, np.zeros(0, dtype=int)]).astype(int))
+    conditions = np.vstack([*rows, np.zeros((0, 3 * len(body.nodes)))])
+    if origin is None:
+        origin = body.nodes[np.unique(equations // 3)].mean(axis=0) if len(equations) else body.centre
+    names = tuple(f.name for f in frames if _stands(f, hold, equations))
+    if not names and len(equations) + len(conditions) == 6:
+        # Six directions of nodes say what a rigid motion is, and hold no interface: conditions as any others.
+        units = np.zeros((len(equations), 3 * len(body.nodes)))
+        units[range(len(equations)), equations] = 1.0
+        conditions = np.vstack([units, conditions])
+        equations = equations[:0]
+    return Reference(origin, equations, conditions, names)
+
+
+def _stands(frame: Frame, hold: Mapping[Any, Any], equations: Array) -> bool:
+    if frame.kind == "average":
+        return set(hold.get(frame.name, "")) == set(DIRECTIONS) and frame.turns
+    return bool(np.isin(frame.equations, equations).all())
+
+
+def spread(frame: Frame, body: Solid) -> Array:
+    """Rows over all equations that give the freedoms of a frame."""
+    rows = np.zeros((len(frame.freedoms), 3 * len(body.nodes)))
+    rows[:, frame.equations] = frame.freedoms
+    return rows
+
+
+def _completed(found: Reference, frames: list[Frame], body: Solid) -> Reference:
+    """Nodes on a line leave the turn about it free: the frame that is farthest from the line takes it out."""
+    free = free_motions(found, body)
+    if free.shape[1] == 0:
+        return found
+    moved = [spread(frame, body)[:3] for frame in frames] if free.shape[1] == 1 else []
+    motions = [(rows, rows @ body.rigid @ free[:, 0]) for rows in moved]
+    rows, motion = max(motions, key=lambda entry: np.linalg.norm(entry[1]), default=(None, np.zeros(3)))
+    far = np.linalg.norm(motion)
+    if rows is not None and far > ON_A_LINE:
+        return Reference(found.origin, found.held, np.vstack([found.rows, motion / far @ rows]), found.names)
+    raise DeclarationError(
+        f"hold leaves {free.shape[1]} of the six rigid motions of the body free (too few nodes, or nodes on a line): hold "
+        'more, as {"hinge": "xyz", "tip": "z"}'
+    )
+
+
+def free_motions(found: Reference, body: Solid) -> Array:
+    """Combinations of `body.rigid` that a reference frame leaves free, shape (6, d)."""
+    conditions = np.vstack([body.rigid[found.held], found.rows @ body.rigid])
+    return null_space(conditions)
+
+
+def null_space(rows: Array) -> Array:
+    """Orthonormal columns that rows @ columns cuts to 0, up to nodes that are as good as on a line."""
+    _, values, directions = np.linalg.svd(np.linalg.qr(np.vstack([rows, np.zeros((rows.shape[1],) * 2)]), mode="r"))
+    return directions[values <= ON_A_LINE * max(values.max(), np.finfo(float).tiny)].T

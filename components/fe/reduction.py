@@ -1,0 +1,141 @@
+"""From mass and stiffness matrices to a reduced body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from acausal import DeclarationError
+from components.fe import checks
+from components.fe.arrays import Array
+from components.fe.bases import basis as basis_of
+from components.fe.frames import Reference
+from components.fe.interface import Frame, frames_of
+from components.fe.invariants import ROUNDING, invariants
+from components.fe.reduced_body import Interface, NodalField, ReducedBody
+from components.fe.solid import Solid
+
+
+def reduce_body(
+    M: Any,
+    K: Any,
+    nodes: Any,
+    *,
+    frames: Mapping[str, Any],
+    hold: Any = "mean-axis",
+    modes: int = 10,
+    basis: str = "held",
+    damping: Any = 0.0,
+    frequency: float | None = None,
+) -> ReducedBody:
+    """Reduce a free solid body to a few modes in a floating reference frame.
+
+    Parameters
+    ----------
+    M, K : sparse matrix or array, shape (3 N, 3 N)
+        Mass in kg and stiffness in N/m of the free body; equations in the order x, y, z of each node. M may be
+        semi-definite; its 3 x 3 blocks must be multiples of the unit matrix.
+    nodes : array_like, shape (N, 3)
+        Places of the nodes in m. Their axes are those of the reference frame and of all frames.
+    frames : mapping from str to nodes
+        Frames where the body is connected: a name and the indices of its nodes, counted from 0. A frame follows the
+        average of its nodes with equal weights; where it is held by the reference frame, each of its nodes is held.
+        `rigid(nodes)` joins the nodes rigidly, `average(nodes, weights)` always averages.
+    hold : str, (int, int, int) or mapping
+        What the reference frame is fixed to, that is, where the modes have no displacement:
+
+        - a frame of `frames`. If its nodes are on a line, as those of a hinge, the turn about it is taken out by the
+          frame that is farthest from the line: it cannot leave the plane through itself and the line;
+        - "mean-axis": the modes have neither momentum nor angular momentum (Buckens); the origin is the centre of mass;
+        - (i, j, k): node i is the origin, node j stays on the line from i to j, node k in the plane of the three
+          (Vlasenko and Kasper 2008, equations (99) to (103));
+        - directions by frames or nodes, as {"hinge": "xyz", "tip": "z"} or {0: "xyz", 2: "xyz", 4: "xyz", 53: "z"}.
+    modes : int
+        Number of modes, of a Craig-Bampton basis with its static ones. Not looked at where there is a frequency bound.
+    basis : str
+        - "held": modes of the body whose reference frame is held;
+        - "free": modes of the free body, less the motion of the reference frame, where a frame that it holds is held on
+          average; the same as "held" for "mean-axis";
+        - "craig-bampton": modes with all frames held, and a static mode for each freedom of a frame against the
+          reference frame (Craig and Bampton 1968): exact under slow forces on the frames.
+
+        All are made orthogonal, in the order of their frequencies with the reference frame held.
+    damping : float or array_like, shape (n,)
+        Part of critical damping of each of these modes.
+    frequency : float, optional
+        Take all modes up to this frequency in Hz (of a Craig-Bampton basis: with all frames held), instead of a number.
+
+    Returns
+    -------
+    ReducedBody
+        With nodes and modes at nodes for results at nodes.
+
+    Raises
+    ------
+    DeclarationError
+        If matrices, nodes or frames cannot be, see `components.fe.checks`, or there are not as many modes.
+
+    Examples
+    --------
+    >>> M, K, nodes = box((0.1, 0.015, 0.01), (8, 2, 1), "hex8", E=1e7, nu=0.49, rho=17333)
+    >>> rod = reduce_body(M, K, nodes, frames={"hinge": [0, 2, 4], "tip": [50]}, hold="hinge", modes=9)
+    """
+    _numbers(modes, frequency)
+    body = checks.solid(M, K, nodes)
+    found = frames_of(frames, body.nodes, body.empty)
+    wanted = None if frequency is not None else int(modes)
+    shapes, squares, held = basis_of(basis, hold, found, body, wanted, frequency or np.inf)
+    if not len(squares):
+        raise DeclarationError(f"no mode lies below {frequency} Hz")
+    if wanted is not None and len(squares) < wanted:
+        raise DeclarationError(f"there are {len(squares)} modes with mass, fewer than modes={wanted}")
+    shapes, squares = shapes[:, :wanted], squares[:wanted]
+    return _reduced(body, shapes, squares, held, found, damping, getattr(nodes, "cells", {}))
+
+
+def _numbers(modes: Any, frequency: Any) -> None:
+    if isinstance(modes, bool) or not isinstance(modes, int | np.integer) or modes < 1:
+        raise DeclarationError(f"modes is a whole number from 1 on, not {modes!r}")
+    if frequency is not None and not (isinstance(frequency, int | float | np.number) and 0 < frequency < np.inf):
+        raise DeclarationError(f"frequency is a positive bound in Hz, not {frequency!r}")
+
+
+def _reduced(
+    body: Solid, shapes: Array, squares: Array, held: Reference, frames: list[Frame], damping: Any, cells: Any
+) -> ReducedBody:
+    n, count = len(squares), len(body.nodes)
+    ratios = np.broadcast_to(np.asarray(damping, dtype=float), (n,)) if np.ndim(damping) == 0 else np.asarray(damping)
+    if ratios.shape != (n,) or not (np.isfinite(ratios) & (ratios >= 0)).all():
+        raise DeclarationError(
+            f"damping is a part of critical damping, 0 or more, for all or each of {n} modes, not {damping!r}"
+        )
+    places, modes = body.nodes - held.origin, shapes.reshape(count, 3, n)
+    integrals = invariants(body.mass, places, modes)
+    return ReducedBody(
+        **asdict(integrals),
+        M=np.eye(n),
+        K=np.diag(squares),
+        D=np.diag(2 * ratios * np.sqrt(squares)),
+        interfaces=tuple(_interface(frame, shapes, held, body) for frame in frames),
+        origin=held.origin,
+        nodal=NodalField(places, modes, cells),
+    )
+
+
+def _interface(frame: Frame, shapes: Array, held: Reference, body: Solid) -> Interface:
+    n = shapes.shape[1]
+    place = frame.place - held.origin
+    place = np.where(np.abs(place) > ROUNDING * body.size, place, 0.0)
+    if frame.name in held.names:
+        # Nodes on a line that are all held stand for the reference frame itself; a single node has no turn at all.
+        return Interface(
+            frame.name, frame.place - held.origin, np.zeros((3, n)), np.zeros((3, n)), len(frame.nodes) > 1
+        )
+    maps = frame.maps @ shapes[frame.equations]
+    size = ROUNDING * np.abs(shapes).max(axis=0)
+    displacement = np.where(np.abs(maps[:3]) > size, maps[:3], 0.0)
+    rotation = np.where(np.abs(maps[3:]) > size / frame.radius, maps[3:], 0.0)
+    return Interface(frame.name, place, displacement, rotation, frame.turns)

@@ -1,0 +1,59 @@
+"""A free plate with masses at its corners, pushed at one end or tumbling (paper on reconfigured inertial frames)."""
+
+from functools import cache
+from math import pi
+
+import acausal as ac
+from acausal import Model, Scalar, connect, fixed, output, parameter, part, piecewise, sin, structural, time
+from components import World, WorldForce
+from components.fe import FEBody, ReducedBody, box, read_npz, reduce_body
+
+SIZE, COUNTS, REST = (1, 0.05, 0.01), (100, 5, 1), fixed((0, 0, 0))
+PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}  # from the middle of the lower face
+
+
+@cache
+def plate(mesh: str, modes: int) -> ReducedBody:
+    """The plate, made once in a process: free modes, in the axes in which they have no momentum."""
+    if mesh in ("hex20", "tet10"):
+        M, K, nodes = box(SIZE, COUNTS, mesh, E=7e10, nu=0.33, rho=2700)
+        corners = (abs(abs(2 * nodes - SIZE) - SIZE) < 1e-9).all(axis=1)
+        M.setdiag(M.diagonal() + corners.repeat(3) * 1.0)  # kg
+        nodes = nodes - (0.5, 0.025, 0)
+    else:
+        M, K, nodes = read_npz(mesh, length=1e-3, mass=1e3)
+    frames = {name: [((nodes - place) ** 2).sum(axis=1).argmin()] for name, place in PLACES.items()}
+    return reduce_body(M, K, nodes, frames=frames, hold="mean-axis", modes=modes)
+
+
+class FEPlate(Model):
+    """Plate without gravity, its centre of mass at the origin of the world at first; half a sine pushes at its end."""
+
+    stop_time = 0.3
+    formulations = (ac.Formulation("modes", refine={"modes": (5, 10, 20)}, exact=True),)
+    modes: int = structural("number of modes", default=10, minimum=1)
+    mesh: str = structural("hex20, tet10, or a .npz file with nodes, K and mass in mm, N, Mg", default="hex20")
+    load: str = structural("what pushes", default="pulse", choices=("pulse", "none"))
+    spin: tuple = structural("angular velocity at the start in rad/s", default=(0, 0, 0), shape=(3,))
+    damping: Scalar = parameter("damping of the modes, of critical", unit="1", default=0.05, minimum=0)
+    world, push = World(gravity=None), WorldForce()
+    P1_x, P1_y, P1_z = (output(f"{axis} of the corner P1, in the world", unit="m") for axis in "xyz")
+    w_x, w_y, w_z = (output(f"angular velocity about {axis} of the plate", unit="rad/s") for axis in "xyz")
+
+    @part
+    def body(self):
+        start: dict = {"angles_fixed": True, "r_0": REST, "v_0": REST, "w_a": fixed(tuple(self.spin))}
+        return FEBody(reduced=plate(str(self.mesh), self.modes), damping_ratio=self.damping, **start)
+
+    def connections(self):
+        yield connect(self.body.end, self.push.frame_b)
+
+    def equations(self):
+        force = piecewise((50 / 2**0.5 * sin(pi * time / 0.1), time < 0.1), 0) if self.load == "pulse" else 0
+        yield self.push.force == (force, 0, force)
+        yield self.body.P1.r_0 == (self.P1_x, self.P1_y, self.P1_z)
+        yield self.body.w_a == (self.w_x, self.w_y, self.w_z)
+
+
+if __name__ == "__main__":
+    ac.simulate(FEPlate(), stop_time=FEPlate.stop_time).plot("P1_x", "P1_z", path="fe-plate.png")
