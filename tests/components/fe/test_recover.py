@@ -122,7 +122,10 @@ def test_stress_of_a_clamped_beam() -> None:
     points = nodes.stress(E=2e11, nu=0.0)["hexahedron20"]
     assert points.shape == (2, 16, 8, 6)
     plain = von_mises(stress[away])
-    assert np.abs(plain[np.abs(z[away]) > 0.0099] - np.abs(expected[away][np.abs(z[away]) > 0.0099])).max() < 0.02 * plain.max()
+    assert (
+        np.abs(plain[np.abs(z[away]) > 0.0099] - np.abs(expected[away][np.abs(z[away]) > 0.0099])).max()
+        < 0.02 * plain.max()
+    )
 
 
 def test_files_for_paraview(tmp_path: Path) -> None:

@@ -25,7 +25,9 @@ def bent(points: np.ndarray, nu: float = STEEL.nu) -> np.ndarray:
 def test_constant_stress(element: str) -> None:
     rng = np.random.default_rng(1)
     points, cells = mesh(SIZE, COUNTS, element)
-    points = points + (0.01 * rng.normal(size=points.shape) if element == "hex8" else 0.02 * np.sin(3 * points[:, [1, 2, 0]]))
+    points = points + (
+        0.01 * rng.normal(size=points.shape) if element == "hex8" else 0.02 * np.sin(3 * points[:, [1, 2, 0]])
+    )
     ((kind, members),) = cells.items()
     slope = rng.normal(size=(3, 3))
     strain = (slope + slope.T) / 2
@@ -68,7 +70,9 @@ def test_energy() -> None:
 
 def test_other_elements() -> None:
     points, cells = mesh(SIZE, COUNTS, "hex8")
-    with pytest.raises(DeclarationError, match="stresses are known of elements hexahedron, hexahedron20, tetra10, not of wedge"):
+    with pytest.raises(
+        DeclarationError, match="stresses are known of elements hexahedron, hexahedron20, tetra10, not of wedge"
+    ):
         operator("wedge", points, cells["hexahedron"], STEEL)
     nodes = box(SIZE, COUNTS, "hex8", E=1e9, nu=0.3, rho=1e3)[2]
     assert np.array_equal(nodes.cells["hexahedron"], cells["hexahedron"])
