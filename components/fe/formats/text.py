@@ -13,6 +13,9 @@ from acausal import DeclarationError
 from acausal.result import read_text, shown_name
 
 
+LARGEST = 10**12  # number of a node or an element that a program has
+
+
 def wrong(path: str | Path, why: str, line: int | None = None) -> DeclarationError:
     """Return the error that says what is wrong in a file, and in which line (counted from 1)."""
     place = shown_name(path) if line is None else f"{shown_name(path)}, line {line}"

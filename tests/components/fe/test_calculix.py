@@ -43,6 +43,13 @@ WRONG = {
     "rotation": ("dof", lambda s: s.replace("2.3", "2.4", 1), "node 2 has a freedom 4 that is no displacement"),
     "equation_twice": ("dof", lambda s: s.replace("2.3", "2.2", 1), "an equation stands twice"),
     "word_for_an_equation": ("dof", lambda s: s.replace("2.3", "x.3", 1), "line 6: a line holds node.direction"),
+    "huge": ("dof", lambda s: s.replace("2.3", f"{10**20}.3", 1), "no node has the number 1000"),
+    "node_of_huge_number": (
+        "inp",
+        lambda s: s.replace("\n5,", f"\n{10**20},", 1),
+        "line 6: numbers of nodes are positive",
+    ),
+    "node_zero": ("inp", lambda s: s.replace("\n5,", "\n0,", 1), "line 6: numbers of nodes are positive"),
     "shell": ("dof", lambda s: s.replace("1.1\n", "900.1\n", 1), "only solid elements are read"),
     "no_node": ("inp", lambda s: s.replace("\n5,", "\n905,", 1), "node 5 has equations or elements, but no place"),
     "node_without_number": (
