@@ -12,7 +12,6 @@ import numpy as np
 from acausal import DeclarationError
 from acausal.result import read_text, shown_name
 
-
 LARGEST = 10**12  # number of a node or an element that a program has
 
 
