@@ -29,7 +29,7 @@ class FEPendulum(Model):
         ac.Formulation("rigid", {"formulation": "rigid"}),
     )
     formulation: str = structural("kind of rod", default="elastic", choices=("elastic", "rigid"))
-    modes: int = structural("number of modes of the elastic rod", default=9, minimum=1)
+    modes: int = structural("number of modes of the elastic rod", default=9, minimum=1, maximum=152)
     world, hinge = World(g=9.81, n=(0, 0, -1)), Revolute(n=(0, 1, 0), phi=fixed(0), w=fixed(0))
     tip_z: Scalar = output("height of the tip above the hinge, in the world", unit="m")
     tip_vz: Scalar = output("its rate", unit="m/s")

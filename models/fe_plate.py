@@ -1,15 +1,14 @@
 """A free plate with masses at its corners, pushed at one end or tumbling (paper on reconfigured inertial frames)."""
 
 from functools import cache
-
-import numpy as np
+from math import pi
 
 import acausal as ac
 from acausal import Model, Scalar, connect, fixed, output, parameter, part, piecewise, sin, structural, time
 from components import World, WorldForce
 from components.fe import FEBody, ReducedBody, box, read_npz, reduce_body
 
-SIZE, COUNTS = np.array([1, 0.05, 0.01]), (100, 5, 1)
+SIZE, COUNTS, REST = (1, 0.05, 0.01), (100, 5, 1), fixed((0, 0, 0))
 PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}  # from the middle of the lower face
 
 
@@ -18,12 +17,12 @@ def plate(mesh: str, modes: int) -> ReducedBody:
     """The plate, made once in a process: free modes, in the axes in which they have no momentum."""
     if mesh in ("hex20", "tet10"):
         M, K, nodes = box(SIZE, COUNTS, mesh, E=7e10, nu=0.33, rho=2700)
-        corners = np.isclose(np.abs(nodes - SIZE / 2), SIZE / 2).all(axis=1)
-        M.setdiag(M.diagonal() + 1.0 * np.repeat(corners, 3))  # 1 kg each
-        nodes = nodes - SIZE * (0.5, 0.5, 0)
+        corners = (abs(abs(2 * nodes - SIZE) - SIZE) < 1e-9).all(axis=1)
+        M.setdiag(M.diagonal() + corners.repeat(3) * 1.0)  # kg
+        nodes = nodes - (0.5, 0.025, 0)
     else:
         M, K, nodes = read_npz(mesh, length=1e-3, mass=1e3)
-    frames = {name: [int(np.argmin(np.linalg.norm(nodes - place, axis=1)))] for name, place in PLACES.items()}
+    frames = {name: [((nodes - place) ** 2).sum(axis=1).argmin()] for name, place in PLACES.items()}
     return reduce_body(M, K, nodes, frames=frames, hold="mean-axis", modes=modes)
 
 
@@ -37,29 +36,21 @@ class FEPlate(Model):
     load: str = structural("what pushes", default="pulse", choices=("pulse", "none"))
     spin: tuple = structural("angular velocity at the start in rad/s", default=(0, 0, 0), shape=(3,))
     damping: Scalar = parameter("damping of the modes, of critical", unit="1", default=0.05, minimum=0)
-    world = World(gravity=None)
+    world, push = World(gravity=None), WorldForce()
     P1_x, P1_y, P1_z = (output(f"{axis} of the corner P1, in the world", unit="m") for axis in "xyz")
     w_x, w_y, w_z = (output(f"angular velocity about {axis} of the plate", unit="rad/s") for axis in "xyz")
 
     @part
     def body(self):
-        start: dict = {
-            "angles_fixed": True,
-            "r_0": fixed((0, 0, 0)),
-            "v_0": fixed((0, 0, 0)),
-            "w_a": fixed(tuple(self.spin)),
-        }
+        start: dict = {"angles_fixed": True, "r_0": REST, "v_0": REST, "w_a": fixed(tuple(self.spin))}
         return FEBody(reduced=plate(str(self.mesh), self.modes), damping_ratio=self.damping, **start)
-
-    @part
-    def push(self):
-        along = piecewise((50 / 2**0.5 * sin(np.pi * time / 0.1), time < 0.1), 0) if self.load == "pulse" else 0
-        return WorldForce(force=(along, 0, along))
 
     def connections(self):
         yield connect(self.body.end, self.push.frame_b)
 
     def equations(self):
+        force = piecewise((50 / 2**0.5 * sin(pi * time / 0.1), time < 0.1), 0) if self.load == "pulse" else 0
+        yield self.push.force == (force, 0, force)
         yield self.body.P1.r_0 == (self.P1_x, self.P1_y, self.P1_z)
         yield self.body.w_a == (self.w_x, self.w_y, self.w_z)
 

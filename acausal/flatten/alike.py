@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
 from typing import Any
@@ -143,7 +144,7 @@ class Alike:
                 if isinstance(declared, f.Part | f.Outer):
                     key.append(id(value) if isinstance(declared, f.Outer) else _count(value))
                 elif not isinstance(value, Expr):
-                    key.append(_plain(value))
+                    key.append(_datum(value) if isinstance(declared, f.Structural) else _plain(value))
                 elif not isinstance(declared, f.Variable):
                     key.append((value.unit, value.shape, _entries(value.sx, entries)))
                 elif declared.causality == "discrete":
@@ -184,6 +185,15 @@ def _plain(value: Any) -> Hashable:
     if type(value) in (list, tuple):
         return type(value), tuple(map(_plain, value))
     return type(value), id(value)
+
+
+def _datum(value: Any) -> Hashable:
+    """What is equal for equal structural values: by their own word where they are compared by more than their identity."""
+    if type(value).__hash__ not in (None, object.__hash__) and not isinstance(value, tuple):
+        with suppress(TypeError):  # a frozen record of arrays cannot be hashed
+            hash(value)
+            return type(value), value
+    return _plain(value)
 
 
 def _entries(sx: ca.SX, found: _Entries) -> Hashable:

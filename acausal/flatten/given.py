@@ -13,6 +13,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.flatten.numeric import is_symbolic, misshapen, numeric
 from acausal.flatten.origin import Origin, value_origin, with_place
+from acausal.flatten.structural import structural_value
 from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
@@ -125,22 +126,7 @@ class Given:
 
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         where = f"`{name}` of {self._origin(bound, name).owner}"
-        value = self._given(bound, name, declared)
-        if is_symbolic(value):
-            raise DeclarationError(
-                f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
-                "later. Give numbers, or declare the parameter that it follows from by structural(...)."
-            )
-        if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
-            raise DeclarationError(f"{where} is {value!r}; it must be {one_of(declared.choices)}.")
-        if declared.minimum is not None and not (isinstance(value, int | float) and value >= declared.minimum):
-            raise DeclarationError(f"{where} is {value!r}; it must be a number of at least {declared.minimum:g}.")
-        whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-        if type(declared.default) is int and value is not None and not whole:
-            raise DeclarationError(f"{where} is {value!r}; it must be a whole number.")
-        if isinstance(declared.shape, tuple):
-            value = numeric(value, declared.shape, where)
-        return value
+        return structural_value(bound, declared, self._given(bound, name, declared), where)
 
     def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
         origin = self._origin(bound, name)
@@ -209,11 +195,6 @@ class Given:
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path, value.shape)
 
 
-def _is(value: Any, choice: Any) -> bool:
-    """Whether a value is a choice; arrays are none."""
-    return value is choice or (np.ndim(value) == 0 and bool(value == choice))
-
-
 def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:
     """Return the shape that a field declares, that of a scalar where it declares none."""
     shape = declared.shape(owner) if callable(declared.shape) else declared.shape or ()
@@ -231,13 +212,6 @@ def unit_of(declared: f.Field, owner: Component) -> Any:
     if unit is None or isinstance(unit, str):
         return None if unit is None else parse(unit)
     return tuple(parse(u) for u in unit)
-
-
-def one_of(choices: tuple[Any, ...]) -> str:
-    """Write choices for a message."""
-    if choices and all(isinstance(c, bool) for c in choices):
-        return " or ".join(map(repr, choices))
-    return f"one of {', '.join(map(repr, choices))}"
 
 
 def _zeros_of(bound: Component) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import AcausalError
+from acausal.language import data
 from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.no_expression import decimal_point
@@ -141,10 +142,29 @@ def _wrong_value(field: f.Field) -> str:
             return f"default={shown(default)} must be a number{decimal_point(default)}."
         mend = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
         return f"default={shown(default)} must be a number.{mend}"
+    if isinstance(field, f.Structural) and (wrong := _wrong_class(field)):
+        return wrong
     choices = field.choices if isinstance(field, f.Structural) else None
     plain = isinstance(default, str | bool | int | float | None)
     if choices is not None and plain and default is not f.MISSING and default not in choices:
         return f"default={shown(default)} is not one of its choices, {', '.join(map(repr, choices))}."
+    return ""
+
+
+def _wrong_class(field: f.Structural) -> str:
+    """What is wrong with the class and the bounds of a structural parameter."""
+    cls, most, default = field.cls, field.maximum, field.default
+    if cls is not None and not isinstance(cls, type):
+        return f"cls={shown(cls)} must be a class, such as cls=int."
+    if inspect.isfunction(most) and not _takes_self(most):
+        return "a maximum that is computed is a function of the component: maximum=lambda s: 2 * s.n."
+    if isinstance(most, f.Deferrable):
+        return f"the maximum depends on another field: write a function, maximum=lambda s: s.{shown(most)}."
+    if most is not None and not inspect.isfunction(most) and not data.fits(most, float):
+        return f"maximum={shown(most)} must be a number, or a function of the component."
+    said = default not in (None, f.MISSING) if isinstance(default, str | int | float | None) else False
+    if cls is not None and said and not (data.fits(default, cls) or (isinstance(default, str) and data.loads(cls))):
+        return f"default={shown(default)} must be {data.expected(cls, optional=False)}."
     return ""
 
 

@@ -56,7 +56,9 @@ def structural(
     *,
     default: Any = MISSING,
     choices: Sequence[Any] | None = None,
+    cls: type | None = None,
     minimum: float | None = None,
+    maximum: float | Callable[[Any], float] | None = None,
     shape: Shape = None,
     refine: Callable[[Any], bool] | None = None,
     doc: str = "",
@@ -71,8 +73,14 @@ def structural(
         Value where none is given; a function of the component for one that depends on other structural parameters.
     choices : sequence, optional
         The allowed values.
+    cls : type, optional
+        Class of the value, int for a whole number. None is allowed as well where it is the default. Where the class reads
+        files, `load(path)`, the name of a file stands for what it holds. Data that are compared, in a journal or a study,
+        have `==` and a short `repr`.
     minimum : float, optional
         The least allowed value.
+    maximum : float or callable, optional
+        The greatest allowed value; a function of the component for one that depends on other structural parameters.
     shape : tuple of int, optional
         Shape of an array of numbers.
     refine : callable, optional
@@ -82,7 +90,18 @@ def structural(
         More about it, for the docstring of the class alone.
     """
     allowed = _allowed(choices) if choices else None
-    return Structural(description, None, shape, default, choices=allowed, minimum=minimum, refine=refine, doc=doc)
+    return Structural(
+        description,
+        None,
+        shape,
+        default,
+        choices=allowed,
+        cls=cls,
+        minimum=minimum,
+        maximum=maximum,
+        refine=refine,
+        doc=doc,
+    )
 
 
 @told
@@ -235,11 +254,7 @@ def port(connector: Any, description: str = "") -> Any:
 
 @told
 def ports(make: Callable[[Any], Any]) -> Any:
-    """Decorate a method that makes ports by their names from structural values: a dict of connectors.
-
-    Each is a port of the component, `body.tip` for the name "tip"; all of them are read by the name of the method, as a
-    dict.
-    """
+    """Decorate a method that makes ports from structural values, a dict of connectors by name: `body.tip` for "tip"."""
     return Family(_described(make, "ports"), make=make, is_port=True)
 
 

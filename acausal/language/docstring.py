@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal.language import data
 from acausal.language import fields as f
 
 WIDTH = 100
@@ -47,7 +48,7 @@ def _entry(cls: Any, name: str, field: f.Field) -> str:
 
 
 def _type(cls: Any, name: str, field: f.Field) -> str:
-    choices = field.choices if isinstance(field, f.Structural) else None
+    choices, kind = (field.choices, field.cls) if isinstance(field, f.Structural) else (None, None)
     if choices and set(choices) != {True, False}:
         *most, last = (_shown(choice) for choice in choices)
         return f"{', '.join(most)} or {last}" if most else last
@@ -55,6 +56,8 @@ def _type(cls: Any, name: str, field: f.Field) -> str:
     plain = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
     if choices or plain in PLAIN:
         return "bool" if choices else plain
+    if kind is not None:
+        return kind.__name__ + " or str" * data.loads(kind)
     more = " or expression of time" if isinstance(field, f.Variable) else ""
     if field.shape is None:
         return "object"
@@ -71,8 +74,10 @@ def _unit(field: f.Field) -> str:
 def _bound(field: f.Field) -> str:
     if getattr(field, "positive", False):
         return "positive"
-    least = getattr(field, "minimum", None)
-    return "" if least is None else f"at least {least:g}"
+    least, most = getattr(field, "minimum", None), getattr(field, "maximum", None)
+    bounds = [word for word, end in (("at least", least), ("at most", most)) if isinstance(end, int | float)]
+    ends = [end for end in (least, most) if isinstance(end, int | float)]
+    return ", ".join(f"{word} {end:g}" for word, end in zip(bounds, ends, strict=True))
 
 
 def _default(value: Any) -> str:

@@ -157,7 +157,9 @@ class Structural(Field):
     """Fixes sizes and equations; a plain Python value in an instance."""
 
     choices: tuple[Any, ...] | None = None
+    cls: type | None = None
     minimum: float | None = None
+    maximum: float | Callable[[Any], float] | None = None
     effect: bool = False
     tries: tuple[Any, ...] | None = None
     refine: Callable[[Any], bool] | None = None

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.arguments import refused
@@ -179,4 +181,5 @@ def shown(value: Any, otherwise: str = "...") -> str:
 
 def shown_or_kind(value: Any) -> str:
     """Return a value as it is written in code, its kind where that is long."""
-    return shown(value, f"a {type(value).__name__}")
+    kind = f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
+    return shown(value, kind)

@@ -17,7 +17,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component, Path
 from acausal.language.expression import Equation, Expr
 from acausal.language.functions import time
-from acausal.language.values import shown
+from acausal.language.values import shown, shown_or_kind
 from acausal.result.unknown import unknown
 from acausal.symbols import vec
 
@@ -254,7 +254,7 @@ def not_readable(path: str, value: Any) -> str:
     if isinstance(value, Component):
         kind = type(value).__name__
         return f"`{path}` is a part ({kind}); name one of its variables, such as `{path}.{_example([value])}`."
-    return f"`{path}` is structural and does not vary with time; its value is {value!r}."
+    return f"`{path}` is structural and does not vary with time; its value is {shown_or_kind(value)}."
 
 
 def _example(parts: list[Component]) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel, ready
 from acausal.errors import DeclarationError, SimulationError
 from acausal.flatten.instantiate import Instantiation
+from acausal.flatten.structural import largest
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
@@ -60,6 +61,7 @@ class Runs:
                 f"accuracy chooses `{path}`, which is fixed in a compiled model. Give the model itself, "
                 f'simulate(model, accuracy=...), or compile with parameters={{"{_beam(path)}.adaptive": False}}.'
             )
+        self.greatest = max((most for _, most in self.adaptive.values()), default=float("inf"))
         self.compiled: dict[int, tuple[CompiledModel, np.ndarray]] = {}
         self.results: dict[Numerics, Result | SimulationError] = {}
         self.done: list[dict[str, Any]] = []
@@ -67,6 +69,7 @@ class Runs:
 
     def __call__(self, numerics: Numerics) -> Result | SimulationError:
         """Return the result of a run with these numerics, or how it failed."""
+        numerics = replace(numerics, number=int(min(numerics.number, self.greatest)))
         if numerics not in self.results:
             compiled, p = self._compile(numerics.number)
             how = {"tolerance": numerics.tolerance, "method": numerics.method, "max_order": numerics.max_order}
@@ -80,7 +83,7 @@ class Runs:
 
     def sizes(self, number: int) -> dict[str, int]:
         """Return elements or volumes by path."""
-        return {path: max(number, least) for path, least in self.adaptive.items()}
+        return {path: int(min(max(number, least), most)) for path, (least, most) in self.adaptive.items()}
 
     def seconds(self) -> dict[str, float]:
         """Return seconds of compiling and solving, all runs together."""
@@ -109,16 +112,21 @@ class Runs:
         )
 
 
-def adaptive(tree: Component, whatever: bool = False) -> dict[str, int]:
-    """Return path and least value of every number of elements that accuracy may choose, or of all, whatever it may."""
+def adaptive(tree: Component, whatever: bool = False) -> dict[str, tuple[int, float]]:
+    """Return path and bounds of every number of elements that accuracy may choose, or of all, whatever it may."""
     return {
-        join(component._path, name): int(declared.minimum or 1)
+        join(component._path, name): (int(declared.minimum or 1), _most(component, declared))
         for component in walk(tree)
         for name, declared in component.fields.items()
         if isinstance(declared, f.Structural)
         and declared.refine is not None
         and (whatever or declared.refine(component))
     }
+
+
+def _most(component: Component, declared: f.Structural) -> float:
+    found = largest(component, declared)
+    return float("inf") if found is None else found
 
 
 def _beam(path: str) -> str:

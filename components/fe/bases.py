@@ -139,9 +139,10 @@ def _independent(rows: Array, known: Array | None = None) -> Array:
     """The rows that depend neither on those before them nor on the known ones."""
     basis: list[Array] = []
     kept = []
+    nothing = np.finfo(float).eps * np.linalg.norm(rows, axis=1).max(initial=0.0)
     for row in [*([] if known is None else known), *rows]:
         size = np.linalg.norm(row)
-        rest = row / size if size > 0 else row
+        rest = row / size if size > nothing else 0.0 * row
         for _ in range(2):
             for direction in basis:
                 rest = rest - direction * (direction @ rest)

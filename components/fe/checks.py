@@ -17,9 +17,9 @@ from components.fe.solid import Solid, rigid_motions
 SYMMETRY = 1e-8
 # Blocks of the mass matrix that are so far from multiples of the unit matrix falsify the equations by as much.
 BLOCKS = 1e-7
-# Rigid motions: force of a node by the forces of its neighbours; coordinates have six or seven digits, of a place that
-# may lie a hundred elements away.
-RIGID = 1e-4
+# Rigid motions: force of a node by the forces of its neighbours. Turns know coordinates, which have six or seven digits,
+# of a place that may lie a hundred elements away.
+MOVE, TURN = 1e-7, 1e-4
 # A negative eigenvalue, by the largest; one nearer to 0 shows as a negative mode.
 INDEFINITE = 1e-9
 LANCZOS = 80
@@ -153,7 +153,7 @@ def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     shift = motions[:, :, 3:]
     done[:, :, 3:] -= np.einsum("nda,nat->ndt", done[:, :, :3], shift)
     move, turn = np.abs(done[:, :, :3]).max(axis=2).ravel(), np.abs(done[:, :, 3:]).max(axis=2).ravel()
-    bad = ((move > RIGID * pushes) | (turn > RIGID * turns)).reshape(-1, 3).any(axis=1)
+    bad = ((move > MOVE * pushes) | (turn > TURN * turns)).reshape(-1, 3).any(axis=1)
     if not bad.any():
         return
     missing = np.flatnonzero(empty)

@@ -25,10 +25,10 @@ from acausal import (
     structural,
     variable,
 )
+from components.fe.chosen import critical_damping, nominal, with_modes
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
 from components.fe.reduced_body import Interface, ReducedBody
-from components.fe.source import body_of, critical_damping, with_modes
 from components.frame import Frame, move
 from components.moving_body import MovingBody
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
@@ -49,12 +49,14 @@ class FEBody(MovingBody):
 
     ends = ("frame_a", "frame_b")
     reduced: Any = structural(
-        "the body", doc="What `reduce_body` returns, or the path of the .npz file to which it was saved."
+        "the body", cls=ReducedBody, doc="What `reduce_body` returns, or the .npz file to which it was saved."
     )
     modes: int = structural(
         "number of modes",
-        default=lambda s: body_of(s.reduced).n,
+        default=lambda s: s.reduced.n,
+        cls=int,
         minimum=0,
+        maximum=lambda s: s.reduced.n,
         refine=lambda s: s.adaptive,
         doc="The first ones of the body are taken, all if not given; 0 leaves a rigid body.",
     )
@@ -111,8 +113,11 @@ class FEBody(MovingBody):
         shape=lambda s: (s.modes,),
         unit="m",
         select=PREFER,
+        nominal=lambda s: nominal(s._body)[0],
     )
-    qd: Any = variable("der(q)", shape=lambda s: (s.modes,), unit="m/s", select=PREFER)
+    qd: Any = variable(
+        "der(q)", shape=lambda s: (s.modes,), unit="m/s", select=PREFER, nominal=lambda s: nominal(s._body)[1]
+    )
     qdd: Any = variable("der(qd)", shape=lambda s: (s.modes,), unit="m/s2")
     # Unknowns of their own, as otherwise every mode would meet every other one in the derivatives of their power.
     frame_force: Any = variable(
@@ -135,7 +140,7 @@ class FEBody(MovingBody):
     @property
     def reference(self) -> Any:
         """The reference frame."""
-        return getattr(self, self._held.name) if self._held else self.ref
+        return self.frames[self._held.name] if self._held else self.ref
 
     def connections(self):
         yield self.free_root(self.reference)
@@ -153,7 +158,7 @@ class FEBody(MovingBody):
             if np.any(interface.rotation):
                 R, G = rodrigues_rotation(theta), rodrigues_rate(theta)
             yield from move(ref, frame, r, R)
-            f_k, t_k = (as_expr([x[k, j] for j in range(3)]) for x in (self.frame_force, self.frame_torque))
+            f_k, t_k = self.frame_force[k], self.frame_torque[k]
             yield f_k == resolve1(R, frame.f)
             yield t_k == G.T @ frame.t
             f, t = f + f_k, t + resolve1(R, frame.t) + cross(r, f_k)
@@ -193,7 +198,7 @@ class FEBody(MovingBody):
 
     @property
     def _body(self) -> ReducedBody:
-        return with_modes(body_of(self.reduced), self.modes)
+        return with_modes(self.reduced, self.modes)
 
     @property
     def _held(self) -> Interface | None:
@@ -204,12 +209,12 @@ class FEBody(MovingBody):
     @property
     def _moving(self) -> list[tuple[Interface, Any]]:
         """Interfaces beside the reference frame, and their frames."""
-        return [(i, getattr(self, i.name)) for i in self._body.interfaces if i is not self._held]
+        return [(i, self.frames[i.name]) for i in self._body.interfaces if i is not self._held]
 
     @property
     def _points(self) -> list[tuple[Interface, Any]]:
         """Interfaces that hold not every rotation, and their frames."""
-        return [(i, getattr(self, i.name)) for i in self._body.interfaces if not i.turns]
+        return [(i, self.frames[i.name]) for i in self._body.interfaces if not i.turns]
 
     @property
     def _inertia(self) -> ModalInertia:

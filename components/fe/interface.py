@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -132,7 +133,7 @@ def frame(name: str, nodes: Any, places: Array) -> Frame:
     at = places[list(spider.nodes)]
     place = shares @ at
     arms = at - place
-    _, spread, directions = np.linalg.svd(np.sqrt(shares)[:, None] * arms, full_matrices=True)
+    _, spread, directions = np.linalg.svd(np.linalg.qr(np.sqrt(shares)[:, None] * arms, mode="r"))
     spread = np.concatenate([spread, np.zeros(3)])[:3]
     radius = float(np.linalg.norm(spread)) or 1.0
     # Moments of the weights about the principal lines through the place: the nodes hold a turn about a line that they
@@ -163,7 +164,7 @@ def frames_of(frames: Mapping[str, Any], places: Array, empty: Array) -> list[Fr
         raise DeclarationError(f'frames maps names to nodes, as {{"tip": [53]}}, which {frames!r} does not')
     found = []
     for name, nodes in frames.items():
-        if not isinstance(name, str) or not name.isidentifier():
+        if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
             raise DeclarationError(f"a frame is a port, and needs a name as Python has them, not {name!r}")
         made = frame(name, nodes, places)
         if empty[made.nodes].any():

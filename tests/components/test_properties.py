@@ -19,6 +19,7 @@ from components import (
     Body,
     TwoFrames,
     World,
+    fe,
     rotational,
 )
 from components.flange import TwoFlanges
@@ -28,6 +29,7 @@ from tests.components.scenes.bodies import (
     OnBodyCylinder,
     OnBodyRod,
     OnBodyShape,
+    OnFEBody,
     OnFixed,
     OnRotation,
     OnSubstructuredBeam,
@@ -82,6 +84,7 @@ SCENES: dict[str, type[Scene]] = {
     "WorldTorque": OnWorldTorque,
     "FlexibleBeam": OnBeam,
     "SubstructuredBeam": OnSubstructuredBeam,
+    "fe.FEBody": OnFEBody,
     "rotational.Spring": OnShaftSpring,
     "rotational.Damper": OnShaftDamper,
     "rotational.SpringDamper": OnShaftSpringDamper,
@@ -108,15 +111,17 @@ BASES |= {"rotational.TwoFlanges", "rotational.Slipping"}
 
 
 def exported() -> dict[str, type]:
-    """All component, connector and record classes that components and components.rotational export."""
+    """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
     found |= {f"rotational.{name}": getattr(rotational, name) for name in rotational.__all__}
+    found |= {f"fe.{name}": getattr(fe, name) for name in fe.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}
 
 
 EXPORTED = exported()
-SIDED = [name for name in SCENES if issubclass(EXPORTED[name], TwoFrames | TwoFlanges)]
+SIDED = [name for name in SCENES if issubclass(EXPORTED[name], TwoFrames | TwoFlanges) or name == "fe.FEBody"]
 DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
+DISSIPATING |= {"fe.FEBody"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {"rotational.Position", "rotational.Speed"}
@@ -239,6 +244,8 @@ def test_documented(name):
 
 DIMENSIONLESS = {
     ("Orientation", "T"),
+    ("FEBody", "damping_ratio"),
+    ("FEBody", "stiffness"),
     ("Frame", "Q"),
     ("Spherical", "Q"),
     ("Friction", "mode"),

@@ -21,7 +21,7 @@ def line_mass(length: float, elements: int) -> np.ndarray:
 
 
 class TwoBricks:
-    """Two bricks, off the axes of their frame, that deform in `modes` random fields with a random stiffness."""
+    """Two bricks, off the axes of their frame, that deform far in `modes` random fields with a random stiffness."""
 
     def __init__(self, modes: int, seed: int) -> None:
         rng = np.random.default_rng(seed)
@@ -29,11 +29,11 @@ class TwoBricks:
         turn = Rotation.from_rotvec([0.4, -0.3, 0.7]).as_matrix()
         self.nodes = np.stack([g.ravel() for g in grid], axis=1) @ turn.T + [0.3, -0.2, 0.1]
         self.masses = DENSITY * reduce(np.kron, (line_mass(s, k) for s, k in zip(SIZE, COUNTS, strict=True)))
-        self.fields = 0.3 * rng.normal(size=(len(self.nodes), 3, modes))
+        self.fields = rng.normal(size=(len(self.nodes), 3, modes))
         root = rng.normal(size=(modes, modes))
-        self.K = 1e4 * root @ root.T
+        self.K = 100 * root @ root.T
         self.state = {k: rng.normal(size=3) for k in ("x", "angles", "v", "rates", "acceleration", "second")}
-        self.q, self.qd, self.qdd = 0.3 * rng.normal(size=(3, modes))
+        self.q, self.qd, self.qdd = [[0.3], [1], [1]] * rng.normal(size=(3, modes))
         self.modes = modes
 
     def moments(self) -> dict[str, Any]:

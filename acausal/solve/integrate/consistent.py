@@ -57,7 +57,7 @@ class _Needed:
         terms = local.magnitudes(np.abs(np.concatenate([x, z])))[self.rows]
         found = np.zeros(len(self.unknowns))
         if self.entries.size:
-            with np.errstate(divide="ignore", invalid="ignore"):
+            with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
                 least = np.fmin.reduceat(terms / np.abs(local.entries[self.entries]), self.first)
             found[self.columns] = np.where(np.isfinite(least), least, 0.0)
         return found

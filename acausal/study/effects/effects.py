@@ -13,10 +13,11 @@ from acausal.compiler import compile, model_of, values_of
 from acausal.errors import DeclarationError, SimulationError
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
+from acausal.language.data import same
 from acausal.policy import POLICY
 from acausal.simulation.asked import check_choice
 from acausal.study.effects.cheapest import cheapest, search
-from acausal.study.effects.listing import Effect, fullest, same
+from acausal.study.effects.listing import Effect, fullest
 from acausal.study.effects.result import Effects
 from acausal.study.effects.rows import ALL, EffectRow, Interaction, interaction, row
 from acausal.study.effects.variants import Choices, Variants
@@ -116,7 +117,7 @@ def effects(
             f"{type(model).__name__} has no effects: none of its fields, and none of its parts', is an effect(...)."
         )
     case = Case(tolerance=tolerance, method=method)
-    job = Job(pack(model), case, stop, intervals, names, repeats, limit, initial)
+    job = Job(pack(model), case, stop, intervals, names, repeats, limit, initial, type(model).__module__)
     with executor_of(executor, workers) as where:
         variants = Variants(model, given, job, where, progress)
         return _Study(variants, found, full, accuracy).result(pairs)

@@ -10,6 +10,7 @@ from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.tree import join, members
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.data import same
 
 
 @dataclass(frozen=True)
@@ -96,11 +97,6 @@ def fitting(model: Component, settings: Mapping[str, Any]) -> dict[str, Any]:
         known = set(Instantiation(model, kept).settable())
         kept |= {p: value for p, value in settings.items() if _depth(p) == depth and p in known}
     return kept
-
-
-def same(a: Any, b: Any) -> bool:
-    """Return whether two choices are one."""
-    return a is b or a == b
 
 
 def _listed(component: Component, owners: frozenset[str]) -> Iterator[Effect]:

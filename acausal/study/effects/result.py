@@ -8,10 +8,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from acausal.language.data import same
 from acausal.policy import POLICY
 from acausal.result.files import whole
 from acausal.result.tables import Table, write_csv
-from acausal.study.effects.listing import Effect, same
+from acausal.study.effects.listing import Effect
 from acausal.study.effects.rows import ALL, EffectRow, Interaction, as_fast
 from acausal.study.effects.tables import brief_changes, changes, columns, number, sets, together
 

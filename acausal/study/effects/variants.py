@@ -32,7 +32,7 @@ def fingerprint(job: Job) -> str:
         What would be measured.
     """
     try:
-        compiled = compile(unpack(job.model), parameters=job.case.settings)
+        compiled = compile(unpack(job.model), parameters=job.values)
         shown = ca.vertcat(*[find(compiled.tree, name).column for name in job.outputs])
         outputs = ca.Function("outputs", compiled.arguments, [compiled.reduced.resolve(ca.densify(shown))])
     except AcausalError:
@@ -70,7 +70,7 @@ class Variants:
 
     def fingerprints(self, wanted: Iterable[Choices]) -> list[str]:
         """Return the fingerprint of each variant."""
-        return list(self.executor.map(fingerprint, [replace(self.job, case=self._case(choices)) for choices in wanted]))
+        return list(self.executor.map(fingerprint, [self.job.of(self._case(choices)) for choices in wanted]))
 
     def measure(self, wanted: Iterable[Choices], what: str, tolerance: float | None = None) -> list[Measurement]:
         """Measure variants.

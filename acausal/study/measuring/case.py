@@ -5,13 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from acausal.language.data import plain
 from acausal.policy import POLICY
+from acausal.study.measuring.shipping import pack, unpack
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +49,20 @@ class Case:
     @cached_property
     def structure(self) -> str:
         """Text that is the same for cases that share a compiled model, in every session."""
-        return json.dumps(_plain(self.settings), sort_keys=True)
+        return json.dumps(plain(self.settings), sort_keys=True)
 
     @cached_property
     def key(self) -> str:
         """Hash of everything in the case, the same in every session."""
-        return hashlib.sha256(json.dumps(_plain(asdict(self)), sort_keys=True).encode()).hexdigest()
+        return hashlib.sha256(
+            json.dumps(plain({f.name: getattr(self, f.name) for f in fields(self)}), sort_keys=True).encode()
+        ).hexdigest()
+
+    def told(self) -> Case:
+        """Return a case that is equal to this one, without its settings."""
+        found = replace(self, settings={})
+        vars(found).update(key=self.key, structure=self.structure)
+        return found
 
     def __str__(self) -> str:
         words = [self.formulation, self.size, f"tolerance {self.tolerance:.0e}"]
@@ -89,6 +99,11 @@ class Job:
         Seconds after which a run is stopped.
     initial : str, optional
         As of `simulate`.
+    home : str
+        Module of the class of the model.
+    settings : bytes
+        Those of the case, from `pack`: classes of the user's own file among them are those of the model. Empty where the
+        case has them itself.
     """
 
     model: bytes
@@ -99,6 +114,17 @@ class Job:
     repeats: int = 1
     limit: float = 60.0
     initial: str | None = None
+    home: str = ""
+    settings: bytes = b""
+
+    def of(self, case: Case) -> Job:
+        """Return the job of another case, as it is sent."""
+        return replace(self, case=case.told(), settings=pack(dict(case.settings), self.home))
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Values by path, as `compile` takes them."""
+        return unpack(self.settings) if self.settings else self.case.settings
 
 
 @dataclass(frozen=True)
@@ -146,14 +172,3 @@ class Measurement:
     method: str = ""
     constraints: str = ""
     error: str = ""
-
-
-def _plain(value: Any) -> Any:
-    """Turn settings into what JSON knows, whatever kind of array or number they are."""
-    if isinstance(value, Mapping):
-        return {str(k): _plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
-    return value if value is None or isinstance(value, bool | int | float | str) else repr(value)

@@ -8,15 +8,17 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from acausal.errors import DeclarationError, ExportError
-from acausal.flatten.tree import walk
+from acausal.flatten.tree import join, walk
 from acausal.language.component import Component
+from acausal.language.data import plain
+from acausal.language.fields import Structural
 from acausal.result import check_writable, read_text
 from acausal.result.files import whole
 from acausal.study.measuring.case import Case, Measurement
@@ -83,8 +85,8 @@ class Journal:
         measurement : Measurement
             Of a case that is not in the journal yet.
         """
-        document = {POINT: measurement.case.key, **asdict(measurement), "times": measurement.times.tolist()}
-        del document["case"]
+        told = {name: getattr(measurement, name) for name in KINDS}
+        document = {POINT: measurement.case.key, **told, "times": measurement.times.tolist()}
         document["values"] = {name: np.asarray(column).tolist() for name, column in measurement.values.items()}
         self._write(document)
 
@@ -151,15 +153,35 @@ def identity(model: Component, trees: Iterable[Component], **options: Any) -> di
     classes = {cls for tree in trees for part in walk(tree) for cls in type(part).__mro__}
     files = {getattr(sys.modules.get(cls.__module__), "__file__", None) for cls in classes}
     digest = hashlib.sha256()
-    for name in sorted(file for file in files if file):
+    # A script that is typed in, or read from standard input, has the name of a file that there is not.
+    for name in sorted(file for file in files if file and Path(file).is_file()):
         digest.update(Path(name).read_bytes())
     return {
         "version": importlib.metadata.version("acausal"),
         "model": type(model).__qualname__,
         "source": digest.hexdigest(),
-        "values": {name: repr(value) for name, value in sorted(model._values.items())},
-        **options,
+        "values": _given(model),
+        "data": _data(trees),
+        **plain(options),
     }
+
+
+def _given(value: Any) -> Any:
+    """What a model was given, parts with what these were given."""
+    if isinstance(value, Component):
+        return {"": type(value).__qualname__, **{name: _given(v) for name, v in sorted(value._values.items())}}
+    return [_given(v) for v in value] if isinstance(value, list | tuple) else plain(value)
+
+
+def _data(trees: Iterable[Component]) -> dict[str, list[Any]]:
+    """What the models hold of data at each path, also where the name of a file was given for it."""
+    found: dict[str, list[Any]] = {}
+    for part in (part for tree in trees for part in walk(tree)):
+        for name, declared in part.fields.items():
+            if isinstance(declared, Structural) and declared.cls not in (None, int, float, str, bool):
+                values, value = found.setdefault(join(part._path, name), []), plain(getattr(part, name))
+                values += [value] * (value not in values)
+    return found
 
 
 def _read(line: str) -> Any:

@@ -99,7 +99,7 @@ def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
 def _compiled(job: Job) -> CompiledModel:
     """Compile a case, or take what another case with the same structure left."""
     key = (hashlib.sha256(job.model).digest(), job.case.structure)
-    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.case.settings)
+    found = _COMPILED.pop(key, None) or compile(unpack(job.model), parameters=job.values)
     _COMPILED[key] = found
     while len(_COMPILED) > KEPT:
         del _COMPILED[next(iter(_COMPILED))]

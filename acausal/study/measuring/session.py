@@ -54,9 +54,11 @@ class Session:
             if kept is not None:
                 self.found[case] = kept
         self._tell(what)
-        for measurement in run([replace(self.job, case=c) for c in new if c not in self.found], self.executor):
-            self.journal.add(measurement)
-            self.found[measurement.case] = measurement
+        own = {case: case for case in new if case not in self.found}
+        for measurement in run([self.job.of(case) for case in own], self.executor):
+            case = own[measurement.case]
+            self.found[case] = replace(measurement, case=case)
+            self.journal.add(self.found[case])
             self._tell(what)
         return [self.found[case] for case in cases]
 

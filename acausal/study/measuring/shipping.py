@@ -13,31 +13,32 @@ from typing import Any
 import casadi as ca
 import cloudpickle
 
-from acausal.language.component import Component
 from acausal.language.fields import MISSING
 from acausal.language.shipped import symbols, text
 from acausal.locks import alone
 
 
 @alone
-def pack(model: Component) -> bytes:
-    """Turn a model that is not built into bytes.
+def pack(model: Any, home: str = "") -> bytes:
+    """Turn a model that is not built, or values that are given to one, into bytes.
 
     Classes of a user's own file, and of files beside it, go along; those of packages are imported by the receiver.
 
     Parameters
     ----------
-    model : Component
+    model : Component or object
         An instance, such as SpinUp(omega=4).
+    home : str
+        Module of the class of the model; not needed for a model itself.
     """
     stream = io.BytesIO()
-    with _by_value(sys.modules[type(model).__module__]):
+    with _by_value(sys.modules[home or type(model).__module__]):
         _Pickler(stream).dump(model)
     return stream.getvalue()
 
 
-def unpack(data: bytes) -> Component:
-    """Return the model in this process.
+def unpack(data: bytes) -> Any:
+    """Return the model, or the values, in this process.
 
     Parameters
     ----------

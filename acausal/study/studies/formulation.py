@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.tree import join, members
+from acausal.flatten.structural import largest
+from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.component import Component
+from acausal.language.data import same
 
 # Where a model does not say which numbers of elements to try: its own, twice and four times as many.
 MULTIPLES = (1, 2, 4)
@@ -29,6 +32,8 @@ class Formulation:
         Structural parameters, effects or parameters by path that select it.
     refine : mapping of str to sequence of int
         Numbers of elements by path, from coarse to fine; those of several paths advance together.
+    most : mapping of str to int
+        The greatest of these numbers where there is one, as there are only so many modes of a body; a study finds them.
     exact : bool
         True if it comes to the geometrically exact solution in the limit: a reference is made from it.
 
@@ -41,6 +46,7 @@ class Formulation:
     settings: Mapping[str, Any] = field(default_factory=dict)
     refine: Mapping[str, Sequence[int]] = field(default_factory=dict)
     exact: bool = False
+    most: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         lengths = {len(sizes) for sizes in self.refine.values()}
@@ -51,20 +57,28 @@ class Formulation:
 
     @property
     def steps(self) -> int:
-        """Number of sizes."""
-        return len(next(iter(self.refine.values()), (0,)))
+        """Number of sizes, without those that only repeat the greatest."""
+        count = len(next(iter(self.refine.values()), (0,)))
+        while count > 1 and self.most and self._sizes(count - 1) == self._sizes(count - 2):
+            count -= 1
+        return count
 
     def at(self, step: int) -> tuple[dict[str, Any], str]:
-        """Return settings and label of a size; beyond the last one, sizes double.
+        """Return settings and label of a size; beyond the last one, sizes double as long as there are greater ones.
 
         Parameters
         ----------
         step : int
             0 is the coarsest.
         """
-        last = self.steps - 1
-        sizes = {path: n[min(step, last)] * 2 ** max(0, step - last) for path, n in self.refine.items()}
+        sizes = self._sizes(step)
         return {**self.settings, **sizes}, " + ".join(map(str, dict.fromkeys(sizes.values())))
+
+    def _sizes(self, step: int) -> dict[str, int]:
+        return {
+            path: min(n[min(step, len(n) - 1)] * 2 ** max(0, step + 1 - len(n)), self.most.get(path, sys.maxsize))
+            for path, n in self.refine.items()
+        }
 
 
 def with_and_without(*formulations: Formulation, **switches: str) -> tuple[Formulation, ...]:
@@ -107,11 +121,35 @@ def formulations_of(model: Component, given: Mapping[str, Any]) -> tuple[Formula
     """
     declared: Sequence[Formulation] = getattr(type(model), "formulations", ())
     found = [form for form in declared if _agrees(form, given)]
-    return tuple(_with(form, given) for form in found or _derived(model, given))
+    return tuple(within(model, given, _with(form, given)) for form in found or _derived(model, given))
+
+
+def within(model: Component, given: Mapping[str, Any], form: Formulation) -> Formulation:
+    """Return a formulation with the greatest of the numbers that it refines, where the model has one.
+
+    Parameters
+    ----------
+    model : Component
+        Not built.
+    given : mapping of str to value
+        What the user fixed.
+    form : Formulation
+        Of this model.
+    """
+    if not form.refine:
+        return form
+    most: dict[str, int] = {}
+    for component in walk(Instantiation(model, {**given, **form.at(0)[0]}).root):
+        for name, declared in component.fields.items():
+            path = join(component._path, name)
+            if path in form.refine and isinstance(declared, f.Structural):
+                greatest = largest(component, declared)
+                most |= {} if greatest is None else {path: int(greatest)}
+    return replace(form, most={**most, **form.most})
 
 
 def _agrees(form: Formulation, given: Mapping[str, Any]) -> bool:
-    return all(path not in given or given[path] == value for path, value in form.settings.items())
+    return all(path not in given or same(given[path], value) for path, value in form.settings.items())
 
 
 def _with(form: Formulation, given: Mapping[str, Any]) -> Formulation:
@@ -127,15 +165,37 @@ def _derived(model: Component, given: Mapping[str, Any]) -> Iterator[Formulation
         if not _agrees(Formulation("", own), given):
             continue
         tree = Instantiation(model, {**given, **own}).root
-        refine = {path: tuple(n * k for k in MULTIPLES) for path, n in _elements(tree)}
-        yield Formulation("as given" if kind is None else str(kind), own, refine)
+        yield Formulation("as given" if kind is None else str(kind), own, _refinement(tree))
 
 
-def _elements(component: Component) -> Iterator[tuple[str, int]]:
-    """Paths and values of the topmost numbers of elements below a component."""
+def _refinement(tree: Component) -> dict[str, tuple[int, ...]]:
+    """Return the sizes by path, without first ones that are the same throughout."""
+    found = {path: _multiples(n, least, most) for path, n, least, most in _elements(tree)}
+    steps = list(zip(*found.values(), strict=True))
+    while len(steps) > 1 and steps[0] == steps[1]:
+        del steps[0]
+    return {path: sizes[len(sizes) - len(steps) :] for path, sizes in found.items()}
+
+
+def _multiples(n: int, least: int, most: float | None) -> tuple[int, ...]:
+    """Return multiples of a number, or where there are no more, parts of it as well."""
+    found = sorted({n * k if most is None else min(n * k, int(most)) for k in MULTIPLES})
+    while len(found) < len(MULTIPLES):
+        found.insert(0, min(max(found[0] // 2, least), found[0]))
+    return tuple(found)
+
+
+def _elements(component: Component) -> Iterator[tuple[str, int, int, float | None]]:
+    """Paths, values and bounds of the topmost numbers of elements below a component."""
     own = [n for n, d in component.fields.items() if isinstance(d, f.Structural) and d.refine is not None]
     for name in own:
-        yield join(component._path, name), getattr(component, name)
+        declared: Any = component.fields[name]
+        most = largest(component, declared)
+        value = getattr(component, name)
+        if value is None:  # all that there are
+            value = most
+        if value is not None:
+            yield join(component._path, name), int(value), int(declared.minimum or 1), most
     if own:
         return
     for member in members(component):

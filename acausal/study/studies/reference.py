@@ -183,6 +183,8 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     forms = tuple(form for *_, form in pairs)
     why = _failed(runs) if len(forms) < min(n, 2) else ""
     tighten = tolerance > max(asked, elements / 3) and state.tolerance / STUDY.tighter >= STUDY.least
+    if not tighten and all(a.case == b.case for a, b, _ in pairs):
+        why = why or "there are no greater numbers of elements"
     after = (
         _State(forms, state.tolerance / STUDY.tighter, state.level)
         if tighten

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from acausal.language.data import same
 from acausal.policy import POLICY
 from acausal.study.measuring.case import Case, Measurement
 from acausal.study.measuring.deviation import deviations, worst
@@ -147,7 +148,9 @@ def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
     if made is None:
         return form.exact
     own = {path: value for path, value in case.settings.items() if path not in (*form.settings, *form.refine)}
-    return (form.exact or form.name == made.formulation) and all(made.settings.get(p, v) == v for p, v in own.items())
+    return (form.exact or form.name == made.formulation) and all(
+        same(made.settings.get(p, v), v) for p, v in own.items()
+    )
 
 
 def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float:

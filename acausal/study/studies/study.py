@@ -37,7 +37,7 @@ from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.pool import executor_of
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import pack
-from acausal.study.studies.formulation import Formulation, formulations_of
+from acausal.study.studies.formulation import Formulation, formulations_of, within
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
@@ -224,7 +224,8 @@ def study(
     check_shares(1e-4, accuracy=accuracy)
     _check(initial, workers, journal)
     table = None if reference is None else read_csv(reference, "the reference")
-    forms = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    asked = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
+    forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in asked]
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
     grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied)
     compiled = compile(model, given)
@@ -232,7 +233,7 @@ def study(
     if constraints is None and compiled.constraints.size and len(forms) == 1 and not forms[0].refine:
         grid = replace(grid, constraints=("states", "projection"))
     trees = [Instantiation(model, case.settings).root for case in grid.structures(given)]
-    job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial)
+    job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial, type(model).__module__)
     known = None if table is None else matching(table, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
     kept = Journal(journal, identity(model, trees, **common))

@@ -13,6 +13,8 @@ from components.fe.elements.material import Material
 from components.fe.nodes import Nodes
 
 NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10}
+# Bricks that are integrated at once: 9 kB each.
+BATCH = 20_000
 # Kinds of a mesh that are no solids: its surfaces, lines and points.
 FLAT = ("vertex", "line", "triangle", "quad")
 
@@ -100,7 +102,8 @@ def _joined(solids: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
 def _bricks(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[Any, np.ndarray]:
     from scipy.sparse import csr_array
 
-    mass, stiffness = brick.matrices(points, cells, material)
+    parts = [brick.matrices(points, some, material) for some in np.array_split(cells, len(cells) // BATCH + 1)]
+    mass, stiffness = (np.concatenate(both) for both in zip(*parts, strict=True))
     rows, columns = np.repeat(cells, 8, axis=1).ravel(), np.tile(cells, 8).ravel()
 
     def sparse(values: np.ndarray) -> Any:

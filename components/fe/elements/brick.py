@@ -95,7 +95,7 @@ def integrals(points: np.ndarray, cells: np.ndarray, material: Material) -> tupl
         volume = np.linalg.det(np.einsum("eia,ix->eax", corners, slopes(at)))
         if (volume <= 0).any():
             wrong = int(np.flatnonzero(volume <= 0)[0])
-            raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
+            raise DeclarationError(f"the brick of nodes {cells[wrong].tolist()} is turned inside out or folded")
         both, weight = gradients(corners, at)
         mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
         products += np.einsum("e,eia,ejb->abeij", weight, both, both)

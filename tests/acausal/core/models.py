@@ -9,12 +9,12 @@ import acausal as ac
 
 
 def jacobian(model: ac.CompiledModel) -> ca.Function:
-    """Return values and Jacobian of the equations that are integrated."""
+    """Return values and Jacobian of the equations that are integrated, with places for the rates of all states."""
     r = model.reduced
     values = ca.vertcat(r.running.ode, r.running.alg)
-    return ca.Function(
-        "equations", model.arguments[:-1], [ca.densify(values), ca.jacobian(values, ca.vertcat(r.x, r.z))]
-    )
+    J, states = ca.jacobian(values, ca.vertcat(r.x, r.z)), list(range(model.nx))
+    J = ca.project(J, J.sparsity() + ca.Sparsity.triplet(*J.shape, states, states))
+    return ca.Function("equations", model.arguments[:-1], [ca.densify(values), J])
 
 
 def points(model: ac.CompiledModel, n: int, seed: int = 0) -> list[np.ndarray]:

@@ -76,6 +76,8 @@ CASES = {
     "squeezer": Case(SCENES["squeezer"], lambda _, t: squeezers.simulate(t)[:, :7]),
     "bricard": Case(SCENES["bricard"], lambda _, t: bricards.point(t)),
     "governor": Case(SCENES["governor"], lambda _, t: governor.simulate(t)[:, :3]),
+    "fe-pendulum": Case(SCENES["fe-pendulum"], tight(tolerance=1e-11)),
+    "fe-plate": Case(SCENES["fe-plate"], tight(tolerance=1e-11)),
     "car-axis": Case(SCENES["car-axis"], lambda _, t: axles.simulate(t)[:, :4]),
     "spin-up": Case(SpinUp, tight(tolerance=1e-11)),
     "free-vibration": Case(FreeVibration, lambda _, t: released(t, 10)[:, None]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -17,8 +18,9 @@ from acausal.flatten import attributes, given, variables
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.units import parse
+from components.fe import ReducedBody
 from components.rotational import Torque
-from models import SCENES, CarAxis, SliderCrank
+from models import SCENES, CarAxis, FEPlate, SliderCrank
 
 MUCH = 2.0**10  # a power of 2 changes no digit
 COUNTS = ("steps", "factorisations", "residual_evaluations")
@@ -41,6 +43,23 @@ def scaled(value: Any, factor: Any) -> Any:
     return value * factor if number and np.any(factor != 1) else value
 
 
+def body_in(body: ReducedBody, units: tuple[float, ...]) -> ReducedBody:
+    """A body in other units; its modes have none."""
+    length, mass, second = units
+    frames = [replace(frame, place=length * frame.place, rotation=frame.rotation / length) for frame in body.interfaces]
+    return replace(
+        body,
+        mass=mass * body.mass,
+        **{name: mass * length * getattr(body, name) for name in ("first_moment", "modal_second")},
+        second_moment=mass * length**2 * body.second_moment,
+        **{name: mass * getattr(body, name) for name in ("modal_first", "modal_products", "M")},
+        K=mass / second**2 * body.K,
+        D=mass / second * body.D,
+        interfaces=tuple(frames),
+        nodal=None,
+    )
+
+
 @contextmanager
 def measured_in(units: tuple[float, ...]) -> Iterator[None]:
     """Take all numbers that models, components and their defaults state in SI in other units."""
@@ -53,6 +72,8 @@ def measured_in(units: tuple[float, ...]) -> Iterator[None]:
 
     def parameter(self: Any, bound: Any, name: str, declared: Any) -> Any:
         value = given_value(self, bound, name, declared)
+        if isinstance(value, ReducedBody):
+            return body_in(value, units)
         default = bound._class_values.get(name, declared.default)
         if bound._values.get(name, f.MISSING) is f.MISSING and (callable(default) or isinstance(default, f.Deferrable)):
             return value  # of others, which are scaled
@@ -67,6 +88,8 @@ def measured_in(units: tuple[float, ...]) -> Iterator[None]:
 
     def attribute(value: Any, shape: Any, variable: Expr, what: str) -> Expr:
         found, factor = start(value, shape, variable, what), scale(variable.unit, units)
+        if what == "nominal" and variable.name in ("body.q", "body.qd"):
+            return found  # follows from the body, which is scaled
         if not found.sx.is_constant():
             factor = factor / scale(found.unit, units) if what == "nominal" else 1.0
         return Expr(found.sx * (ca.DM(factor) if np.ndim(factor) else factor), found.unit)
@@ -98,7 +121,16 @@ def scene(name: str, units: tuple[float, ...]) -> Any:
             yield from (self.xl == self.left.r_0[0], self.yl == self.left.r_0[1])
             yield from (self.xr == self.right.r_0[0], self.yr == self.right.r_0[1])
 
-    return {"slider-crank": Crank, "car-axis": Axis}.get(name, SCENES[name])()
+    class Plate(FEPlate):
+        def equations(self):
+            force = piecewise(
+                (50 / 2**0.5 * mass * length / second**2 * sin(10 * np.pi / second * time), time < 0.1 * second), 0
+            )
+            yield self.push.force == (force, 0, force)
+            yield self.body.P1.r_0 == (self.P1_x, self.P1_y, self.P1_z)
+            yield self.body.w_a == (self.w_x, self.w_y, self.w_z)
+
+    return {"slider-crank": Crank, "car-axis": Axis, "fe-plate": Plate}.get(name, SCENES[name])()
 
 
 @cache

@@ -134,6 +134,7 @@ def test_matrices_that_cannot_be(name):
 FRAMES = {
     "no mapping": ([1, 2], "frames maps names to nodes"),
     "no name": ({"a b": [1]}, "needs a name as Python has them, not 'a b'"),
+    "keyword": ({"in": [1]}, "needs a name as Python has them, not 'in'"),
     "number": ({3: [1]}, "needs a name as Python has them, not 3"),
     "not there": ({"tip": [24]}, "frame 'tip' names node 24, but nodes are counted from 0 to 23"),
     "negative": ({"tip": [-1]}, "frame 'tip' names node -1"),

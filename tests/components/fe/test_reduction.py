@@ -380,3 +380,49 @@ def test_nodes_on_a_line_and_points():
     np.testing.assert_array_equal(edge.rotation[1], 0)
     assert np.abs(edge.rotation[[0, 2]]).max() > 0
     assert reduce_body(M, K, nodes, frames={"point": [7]}, modes=3).interfaces[0].turns is False
+
+
+@pytest.mark.parametrize("basis", BASES)
+@pytest.mark.parametrize("hold", ["left", "mean-axis", "inner"])
+def test_frames_may_share_nodes(hold, basis):
+    """A frame inside of another, held or not, adds no condition that is there already."""
+    M, K, nodes = block()
+    left, right = face(nodes, 0, 0), face(nodes, 0, -1)
+    frames = {
+        "left": left,
+        "right": rigid(right),
+        "corner": right[0],
+        "line": right[:2],
+        "same": right,
+        "inner": left[:4],
+    }
+    body = reduce_body(M, K, nodes, frames=frames, hold=hold, basis=basis, modes=16)
+    found = {frame.name: frame for frame in body.interfaces}
+    size = np.abs(body.nodal.modes).max()
+    np.testing.assert_allclose(found["same"].displacement, found["right"].displacement, atol=1e-9 * size)
+    np.testing.assert_allclose(found["same"].rotation, found["right"].rotation, atol=1e-7 * size)
+    arm = nodes[right[0]] - nodes[right].mean(axis=0)
+    moved = found["right"].displacement + np.cross(found["right"].rotation.T, arm).T
+    np.testing.assert_allclose(found["corner"].displacement, moved, atol=1e-7 * size)
+    if hold == "left" and basis != "free":
+        assert found["inner"].turns
+        assert not found["inner"].displacement.any()
+        assert not found["inner"].rotation.any()
+    u = body.nodal.modes.reshape(-1, 16)
+    np.testing.assert_allclose(u.T @ (M @ u), np.eye(16), atol=1e-10)
+
+
+def test_a_slender_rod_is_no_mechanism():
+    """Aspect 2000: clamped and free, against Euler and Bernoulli, to what the last digit of the stiffness leaves.
+
+    omega^2 is 6e-15 of the largest eigenvalue.
+    """
+    from components.fe import box
+
+    E, rho, h = 7e10, 2700.0, 0.004
+    M, K, nodes = box((8.0, h, h), (100, 1, 1), "hex20", E=E, nu=0.0, rho=rho)
+    unit = np.sqrt(E * h**2 / 12 / (rho * 8.0**4)) / (2 * np.pi)
+    frames = {"root": face(nodes, 0, 0)}
+    for hold, root in (("root", 1.8751040687), ("mean-axis", 4.7300407449)):
+        body = reduce_body(M, K, nodes, frames=frames, hold=hold, modes=4)
+        np.testing.assert_allclose(body.frequencies[:2], root**2 * unit, rtol=1e-2)

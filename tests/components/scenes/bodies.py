@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -19,6 +21,7 @@ from components import (
     Spring,
     SubstructuredBeam,
 )
+from components.fe import FEBody, ReducedBody, box, reduce_body
 from tests.components.scenes.scene import INERTIA, RUBBER, SHIFT, SPIN, OnSpherical, Plain, Scene
 
 
@@ -102,6 +105,24 @@ class OnBeam(Scene):
 
     def graph(self):
         yield from self.path(self.joint, self.before, self.it, self.after)
+
+
+class OnFEBody(OnSpherical):
+    """Turned round, its second end is at the joint, and it lies the other way."""
+
+    @part
+    def it(self):
+        return FEBody(reduced=rod(self.turned), damping_ratio=0.02)
+
+
+@cache
+def rod(turned: bool) -> ReducedBody:
+    """A rubber rod in the frame of its first end; where it is turned round, that is its end far from the origin."""
+    size = (0.5, 0.04, 0.03)
+    M, K, nodes = box(size, (4, 1, 1), "hex8", E=6e7, nu=0.3, rho=1000.0)
+    first, last = (np.flatnonzero(np.isclose(nodes[:, 0], x)) for x in (0, size[0]))
+    frames = {"frame_a": last, "frame_b": first} if turned else {"frame_a": first, "frame_b": last}
+    return reduce_body(M, K, nodes, frames=frames, hold="frame_b" if turned else "frame_a", modes=4)
 
 
 class OnSubstructuredBeam(OnBeam):

@@ -1,9 +1,9 @@
 """Values of parameters and options that cannot be."""
 
 import acausal as ac
-from acausal import Model, chain, fixed
+from acausal import Component, Model, chain, fixed, parameter, structural
 from components import Body, BodyShape, FixedTranslation, FlexibleBeam, Revolute, World
-from tests.errors.broken.models import SECTION, Pendulum
+from tests.errors.broken.models import SECTION, Decay, Pendulum
 
 
 def beam(**values):
@@ -143,3 +143,62 @@ def unknown_method(repaired):
 
 def unknown_initial(repaired):
     run(initial="guesses" if repaired else "guess")
+
+
+class Spectrum:
+    """Frequencies of a body."""
+
+    def __init__(self, *frequencies):
+        self.frequencies = frequencies
+
+    def __repr__(self):
+        return f"Spectrum{self.frequencies}"
+
+
+class Modal(Component):
+    spectrum = structural("frequencies of the modes", cls=Spectrum)
+    modes = structural("number of modes", default=None, cls=int, maximum=lambda s: len(s.spectrum.frequencies))
+
+    def equations(self):
+        yield from ()
+
+
+def modal(**values):
+    class M(Decay):
+        body = Modal(**{"spectrum": Spectrum(1.0, 2.0), **values})
+
+    ac.compile(M())
+
+
+def number_for_data(repaired):
+    modal(**{} if repaired else {"spectrum": 3})
+
+
+def file_name_for_data_without_files(repaired):
+    modal(**{} if repaired else {"spectrum": "body.npz"})
+
+
+def half_a_mode(repaired):
+    modal(modes=2 if repaired else 2.5)
+
+
+def more_modes_than_there_are(repaired):
+    modal(modes=2 if repaired else 3)
+
+
+def data_that_are_missing(repaired):
+    class M(Decay):
+        body = Modal(spectrum=Spectrum(1.0)) if repaired else Modal()
+
+    ac.compile(M())
+
+
+def three_dimensional_parameter(repaired):
+    class M(Decay):
+        cube = parameter("products", shape=lambda s: (2, 2) if repaired else (2, 2, 2), default=[[1, 1], [1, 1]])
+
+    ac.compile(M())
+
+
+def array_of_one_entry_for_a_scalar(repaired):
+    weigh((1.0,)[0] if repaired else (1.0,))

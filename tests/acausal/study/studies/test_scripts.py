@@ -82,6 +82,47 @@ def test_scripts(tmp_path, text):
     assert done.stdout.count("once") == ("print('once')" in text)
 
 
+def test_a_script_from_standard_input(tmp_path):
+    (tmp_path / "crane.py").write_text(CRANE)
+    (tmp_path / "beside_the_crane.py").write_text(BESIDE)
+    done = subprocess.run(
+        [sys.executable],
+        input=SCRIPTS["its own, without a guard"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(tmp_path)])},
+        check=False,
+        timeout=120,
+    )
+    assert done.stdout.split()[-1:] == ["2"], done.stderr
+
+
+DATA = """
+import numpy as np
+
+class Rate:
+    def __init__(self, value):
+        self.value = value
+    def __repr__(self):
+        return f"Rate({self.value})"
+
+class Own(crane.Crane):
+    rate = ac.structural("rate", cls=Rate)
+    def equations(self):
+        yield ac.der(self.y) == -self.rate.value * self.y
+        yield self.x == 2 * self.y
+
+model = Own(rate=Rate(1.0))
+"""
+
+
+def test_data_of_classes_of_a_script(tmp_path):
+    options = "tolerances=(1e-4,), workers=1, repeats=1, switches={'rate': [Rate(1.0), Rate(2.0)]}"
+    done = run(tmp_path, HEAD + DATA + RUN.format(what="study", options=options))
+    assert done.stdout.split()[-1:] == ["2"], done.stderr
+
+
 @pytest.mark.slow
 def test_a_script_in_another_folder(tmp_path):
     done = run(tmp_path, SCRIPTS["without a guard"], elsewhere=True)

@@ -1,0 +1,102 @@
+"""What a structural parameter may be: of its class, one of its choices, within its bounds."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import AcausalError, DeclarationError
+from acausal.flatten.numeric import is_symbolic, numeric
+from acausal.flatten.origin import Origin, with_place
+from acausal.language import data
+from acausal.language import fields as f
+from acausal.language.component import Component
+from acausal.language.values import shown_or_kind
+
+
+def structural_value(bound: Component, declared: f.Structural, given: Any, where: str) -> Any:
+    """Return the value of a structural parameter as the component uses it.
+
+    Parameters
+    ----------
+    bound : Component
+        Under construction, with the structural parameters that bounds depend on.
+    declared : Structural
+        The field.
+    given : object
+        As it is given; the name of a file stands for what the class of the field loads from it.
+    where : str
+        What it is the value of, for messages.
+
+    Raises
+    ------
+    DeclarationError
+        If it cannot be of this field.
+    """
+    value: Any = given
+    if is_symbolic(value):
+        raise DeclarationError(
+            f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
+            "later. Give numbers, or declare the parameter that it follows from by structural(...)."
+        )
+    if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {one_of(declared.choices)}.")
+    if value is None and declared.default is None:
+        return None
+    if declared.cls is not None:
+        value = _of_class(value, declared, where)
+    if wrong := _out_of_bounds(value, declared, largest(bound, declared)):
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {wrong}.")
+    if isinstance(declared.shape, tuple):
+        value = numeric(value, declared.shape, where)
+    return value
+
+
+def _out_of_bounds(value: Any, declared: f.Structural, most: float | None) -> str:
+    """Say what a number must be instead, "" if it is right."""
+    least, is_number = declared.minimum, data.fits(value, float)
+    if least is not None and not (is_number and value >= least):
+        return f"a number of at least {least:g}"
+    if type(declared.default) is int and not data.fits(value, int):
+        return "a whole number"
+    return f"a number of at most {most:g}" if most is not None and not (is_number and value <= most) else ""
+
+
+def largest(bound: Component, declared: f.Structural) -> float | None:
+    """Return the largest value that a structural parameter may have, None where there is none."""
+    most: Any = declared.maximum
+    return with_place(lambda: most(bound), Origin.of(bound, f"maximum of {declared.name}")) if callable(most) else most
+
+
+def one_of(choices: tuple[Any, ...]) -> str:
+    """Write choices for a message."""
+    if choices and all(isinstance(c, bool) for c in choices):
+        return " or ".join(map(repr, choices))
+    return f"one of {', '.join(map(shown_or_kind, choices))}"
+
+
+def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
+    """Return a value of the class of a field, read from a file where the class reads one."""
+    cls: Any = declared.cls
+    try:
+        found = data.read(value, cls)
+    except AcausalError as error:
+        raise DeclarationError(f"{where}: {error}") from None
+    except (OSError, ValueError, KeyError, EOFError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise DeclarationError(f"{where}: {os.fspath(value)!r} holds no {cls.__name__}: {why.rstrip('.')}.") from error
+    if not data.fits(found, cls):
+        wanted = data.expected(cls, optional=declared.default is None)
+        raise DeclarationError(f"{where} is {_written(found)}; it must be {wanted}.")
+    return found
+
+
+def _is(value: Any, choice: Any) -> bool:
+    """Whether a value is a choice; arrays are none."""
+    return value is choice or (np.ndim(value) == 0 and data.same(value, choice))
+
+
+def _written(value: Any) -> str:
+    return f"the class {value.__name__}" if isinstance(value, type) else shown_or_kind(value)

@@ -1,0 +1,87 @@
+"""Values that are data: what they are called, whether two are one, and what a journal says of one."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import pickle
+from collections.abc import Mapping
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.language.written import in_code
+
+
+def same(a: Any, b: Any) -> bool:
+    """Return whether two values are one, arrays and what holds arrays entry by entry."""
+    if a is b:
+        return True
+    with suppress(ValueError, TypeError):  # Python cannot decide on arrays
+        return bool(a == b)
+    return plain(a) == plain(b)
+
+
+def plain(value: Any) -> Any:
+    """Return what JSON knows of a value: equal for equal values, in every process.
+
+    Data that write themselves in a few letters, as those with a digest do, are their text; others have the digest of
+    what a pickle of them holds.
+    """
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    if text := in_code(repr(value), ""):
+        return text
+    with suppress(Exception):  # a function in a function, or what holds one
+        return f"{type(value).__qualname__} {hashlib.sha256(pickle.dumps(value)).hexdigest()}"
+    return repr(value)
+
+
+def expected(cls: type, optional: bool) -> str:
+    """Say what a value of a class is called, and what stands for one."""
+    what = {int: "a whole number", float: "a number", str: "a text", bool: "True or False"}.get(cls)
+    what = what or f"{'an' if cls.__name__[0] in 'AEIOU' else 'a'} {cls.__name__}"
+    if loads(cls):
+        what += ", or the name of a file of one"
+    return f"{what}{', or None' if optional else ''}"
+
+
+def fits(value: Any, cls: type) -> bool:
+    """Return whether a value is of a class, among numbers as a user would say: True is no number, 2 is one with a point."""
+    if cls in (int, float):
+        kinds = (int, np.integer) if cls is int else (int, float, np.integer, np.floating)
+        return isinstance(value, kinds) and not isinstance(value, bool)
+    return isinstance(value, cls)
+
+
+def read(value: Any, cls: type) -> Any:
+    """Return a value, or what the file that it names holds if the class of the field reads files by `load(path)`."""
+    is_name = isinstance(value, str | os.PathLike) and not isinstance(value, cls)
+    if not (is_name and loads(cls)):
+        return value
+    path = Path(value).expanduser()
+    try:
+        state = path.stat()
+    except OSError:
+        return cls.load(path)  # type: ignore[attr-defined]  # which says what is wrong
+    return _held(cls, path.resolve(), state.st_mtime_ns, state.st_size)
+
+
+@lru_cache(maxsize=8)
+def _held(cls: Any, path: Path, *state: int) -> Any:
+    """What a file holds, read once: a study builds its model many times."""
+    return cls.load(path)
+
+
+def loads(cls: type) -> bool:
+    """Return whether a class reads files: it has `load(path)`."""
+    return callable(getattr(cls, "load", None))
