@@ -89,6 +89,14 @@ def test_frequencies(folder: Path, name: str, end: str) -> None:
         assert body.mass == pytest.approx(7850 * 0.1 * 0.015 * 0.01, rel=1e-12)
 
 
+def test_units(folder: Path) -> None:
+    """In mm, N, Mg the numbers of a file mean 1e3 kg and 1e3 N/m."""
+    plain, scaled = read_calculix(folder / "c3d8i"), read_calculix(folder / "c3d8i", length=1e-3, mass=1e3)
+    assert abs(scaled[0] - 1e3 * plain[0]).max() == 0
+    assert abs(scaled[1] - 1e3 * plain[1]).max() < 1e-12 * abs(plain[1]).max()
+    assert np.abs(scaled[2] - 1e-3 * plain[2]).max() < 1e-17
+
+
 def test_held_nodes_are_named(folder: Path) -> None:
     M, K, nodes = read_calculix(folder / "c3d10_held")
     with pytest.raises(DeclarationError, match=r"held") as caught:
