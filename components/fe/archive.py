@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 import zipfile
 import zlib
 from pathlib import Path
@@ -11,23 +9,15 @@ from pathlib import Path
 import numpy as np
 
 from acausal import DeclarationError
+from acausal.result.files import whole
 
 FORMAT = "acausal reduced body 1"
 
 
 def write(path: Path, content: dict[str, np.ndarray]) -> None:
-    """Write to a file beside `path`, and give it that name when it is complete."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez_compressed(file, format=np.array(FORMAT), entries=np.array(len(content)), **content)  # pyright: ignore
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        os.unlink(name)
-        raise
+    """Write a file that takes the place of an old one when it is complete; ExportError where it cannot be written."""
+    with whole(path, "wb") as file:
+        np.savez_compressed(file, format=np.array(FORMAT), entries=np.array(len(content)), **content)  # pyright: ignore
 
 
 def read(path: Path) -> dict[str, np.ndarray]:

@@ -224,6 +224,11 @@ class ReducedBody:
             File; one that exists is replaced when the new one is complete.
         nodal : bool
             Whether nodes and modes at nodes go along, where there are any.
+
+        Raises
+        ------
+        ExportError
+            If the file cannot be written.
         """
         content = dict(self._arrays())
         if nodal and self.nodal is not None:

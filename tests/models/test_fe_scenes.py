@@ -101,7 +101,7 @@ def test_tumbling_plate(method):
         spin, load, damping = (2, -6, 3), "none", 0.0
 
     Tumbling.method = method
-    assert (plate("plate_tumbling", Tumbling(mesh=PLATE), 1e-8) < (1e-5, 1e-5)).all()
+    assert (plate("plate_tumbling", Tumbling(mesh=PLATE), 1e-8) < (2e-5, 1e-5)).all()
 
 
 @pytest.mark.parametrize("mesh", ["hex20", "tet10"])

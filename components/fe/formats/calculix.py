@@ -9,7 +9,7 @@ import numpy as np
 
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices, condensed, from_entries, placed
-from components.fe.formats.text import table, text_of, whole_numbers, wrong
+from components.fe.formats.text import LARGEST, table, text_of, whole_numbers, wrong
 from components.fe.nodes import Nodes
 
 SUFFIXES = (".inp", ".sti", ".mas", ".dof")
@@ -89,6 +89,8 @@ def _equations(path: Path) -> tuple[np.ndarray, np.ndarray]:
         name, point, direction = entry.strip().partition(".")
         if not (point and name.isdecimal() and direction.isdecimal()):
             raise wrong(path, f"a line holds node.direction, such as 12.3, not `{entry.strip()[:60]}`", line)
+        if int(name) > LARGEST:
+            raise wrong(path, f"no node has the number {name[:60]}", line)
         if direction not in ("1", "2", "3"):
             raise wrong(
                 path, f"node {name} has a freedom {direction} that is no displacement; only solids are read", line

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from components.fe.formats.text import number, text_of, wrong
+from components.fe.formats.text import LARGEST, number, text_of, wrong
 
 DEEPEST = 20  # files that include one another
 # Solid elements: their name in the deck begins so, name in meshio, nodes; the orders of nodes are the same.
@@ -186,14 +186,17 @@ def _node(path: Path, line: int, entries: list[str]) -> tuple[int, np.ndarray]:
         place = np.array([number(entry) for entry in (*entries[1:4], "", "", "")[:3]])
     except ValueError:
         raise wrong(path, f"a node is given as number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
-    if name <= 0:
-        raise wrong(path, f"numbers of nodes are positive, not {name}", line)
+    if not 0 < name <= LARGEST:
+        raise wrong(path, f"numbers of nodes are positive, and not as large as {entries[0][:60]}", line)
     return name, place
 
 
 def _integers(path: Path, line: int, entries: list[str]) -> list[int]:
     try:
-        return [int(entry) for entry in entries if entry]
+        numbers = [int(entry) for entry in entries if entry]
+        if any(abs(number) > LARGEST for number in numbers):
+            raise ValueError
+        return numbers
     except ValueError:
         shown = ", ".join(entries)[:60]
         raise wrong(path, f"an element is given as number, node, node, ..., not `{shown}`", line) from None

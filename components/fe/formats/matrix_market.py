@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,10 +14,11 @@ import scipy.sparse as sp
 from acausal import DeclarationError
 from acausal.result import shown_name
 from components.fe.formats.matrices import Matrices
-from components.fe.formats.text import wrong
+from components.fe.formats.text import numbers_in, text_of, whole_numbers, wrong
 
 PARTS = ("M", "K", "nodes")
 ENDS = (".mtx", ".mtx.gz")
+KINDS = {"coordinate": 3, "array": 2}  # with the numbers that say how large the matrix is
 BANNER = "%%MatrixMarket"
 
 
@@ -97,20 +99,62 @@ def _one(folder: Path, begin: str, part: str) -> Path:
 
 
 def _read(path: Path) -> Any:
-    from scipy.io import mminfo, mmread
+    """The matrix of a file, sparse or dense as it is there; the other triangle of a symmetric one included."""
+    lines = _text(path).split("\n")
+    words = lines[0].lower().split()
+    if len(words) != 5 or words[0] != BANNER.lower() or words[1] != "matrix":
+        raise wrong(path, f"a file in the Matrix Market format begins with `{BANNER} matrix ...`", 1)
+    kind, entries, symmetry = words[2:]
+    if kind not in KINDS or entries not in ("real", "integer", "double") or symmetry not in ("general", "symmetric"):
+        shown = " ".join(words[2:])
+        raise wrong(path, f"a real matrix, general or symmetric, is expected, not `{shown_name(shown)}`", 1)
+    head = next((k for k, line in enumerate(lines) if k and line.strip() and not line.startswith("%")), len(lines) - 1)
+    sizes = lines[head].split()
+    if len(sizes) != KINDS[kind] or not all(size.isdecimal() for size in sizes):
+        raise wrong(
+            path,
+            f"the size of the matrix is given as {KINDS[kind]} whole numbers, not `{shown_name(lines[head])}`",
+            head + 1,
+        )
+    shape, symmetric = (int(sizes[0]), int(sizes[1])), symmetry == "symmetric"
+    if symmetric and shape[0] != shape[1]:
+        raise wrong(path, f"a symmetric matrix is square, not {sizes[0]} x {sizes[1]}", head + 1)
+    row = "row, column, value" if kind == "coordinate" else "value"
+    values = numbers_in(path, "\n".join(lines[head + 1 :]), row, above=head + 1)
+    dense = shape[0] * (shape[0] + 1) // 2 if symmetric else shape[0] * shape[1]
+    count = int(sizes[2]) if kind == "coordinate" else dense
+    if len(values) != count:
+        raise wrong(path, f"there are {len(values)} entries, where the heading says {count}; the file may be cut off")
+    if kind == "array":
+        return _dense(values[:, 0], shape, symmetric)
+    values = values.reshape(-1, 3)
+    rows, columns = whole_numbers(path, values[:, :2], "row and column").T - 1
+    outside = (rows < 0) | (columns < 0) | (rows >= shape[0]) | (columns >= shape[1])
+    if outside.any():
+        at = f"({rows[outside][0] + 1}, {columns[outside][0] + 1})"
+        raise wrong(path, f"an entry stands at {at}, outside of the matrix of {sizes[0]} x {sizes[1]}")
+    below = symmetric & (rows != columns)
+    rows, columns = np.concatenate([rows, columns[below]]), np.concatenate([columns, rows[below]])
+    return sp.coo_array((np.concatenate([values[:, 2], values[below, 2]]), (rows, columns)), shape)
 
+
+def _text(path: Path) -> str:
+    what = "a matrix in the Matrix Market format"
+    if path.suffix != ".gz":
+        return text_of(path, what)
     try:
-        kind, symmetry = mminfo(path)[4:6]
-        if kind not in ("real", "integer") or symmetry not in ("general", "symmetric"):
-            raise wrong(path, f"a real matrix, general or symmetric, is expected, not a {kind}, {symmetry} one")
-        matrix: Any = mmread(path)
-    except (ValueError, OverflowError, MemoryError, EOFError, zlib.error) as error:
-        raise wrong(path, f"this is no file in the Matrix Market format, or not whole: {error}".rstrip(". ")) from None
-    except OSError as error:
-        raise DeclarationError(f"cannot read {shown_name(path)}: {error.strerror or error}.") from None
-    matrix = matrix if sp.issparse(matrix) else np.asarray(matrix)
-    if not np.isfinite(matrix.data if sp.issparse(matrix) else matrix).all():
-        raise wrong(path, "there are entries that are not finite numbers")
+        return gzip.decompress(path.read_bytes()).decode("latin-1")
+    except (OSError, EOFError, zlib.error) as error:
+        raise wrong(path, f"this is no compressed file, or not whole: {error}") from None
+
+
+def _dense(values: np.ndarray, shape: tuple[int, int], symmetric: bool) -> np.ndarray:
+    """A matrix given by columns, or by those of its lower triangle."""
+    if not symmetric:
+        return values.reshape(shape, order="F")
+    columns, rows = np.triu_indices(shape[0])
+    matrix = np.zeros(shape)
+    matrix[rows, columns] = matrix[columns, rows] = values
     return matrix
 
 

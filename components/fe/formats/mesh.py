@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,11 @@ from components.fe.elements.assembly import FLAT
 from components.fe.formats.foreign import existing, package, read_by
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices
-from components.fe.formats.text import wrong
+from components.fe.formats.text import text_of, wrong
 from components.fe.nodes import Nodes
 
+NASTRAN = (".bdf", ".fem", ".nas")
+TECPLOT = (".dat", ".tec")
 Cells = dict[str, np.ndarray]
 
 
@@ -26,7 +29,7 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
     Parameters
     ----------
     path : str or Path
-        Any file that meshio reads (.msh, .vtu, .vtk, .med, .unv, .bdf, ...), or a deck of Abaqus or CalculiX (.inp), with
+        Any file that meshio reads (.msh, .vtu, .vtk, .med, .bdf, ...), or a deck of Abaqus or CalculiX (.inp), with
         tetrahedra of 10, bricks of 20 or bricks of 8 nodes; these get incompatible modes. Surfaces, lines and points, and
         nodes of no solid element, are passed over.
     E, nu, rho : float
@@ -70,6 +73,13 @@ def _deck(path: Path) -> tuple[np.ndarray, Cells, np.ndarray | None]:
 
 
 def _mesh(path: Path) -> tuple[np.ndarray, Cells, np.ndarray | None]:
+    if path.suffix.lower() in TECPLOT:  # at one that is cut off meshio would read for ever
+        raise wrong(path, "meshes of Tecplot are not read; take .vtu, .msh or .med")
+    if path.suffix.lower() in NASTRAN and not re.search(
+        r"^ENDDATA", text_of(path, "bulk data of Nastran"), re.MULTILINE
+    ):
+        # meshio would look for it for ever.
+        raise wrong(path, "no line begins with ENDDATA: this is no bulk data of Nastran, or not whole")
     meshio = package("meshio", "fe", "reading a mesh")
     said = io.StringIO()
 

@@ -12,6 +12,8 @@ import numpy as np
 from acausal import DeclarationError
 from acausal.result import read_text, shown_name
 
+LARGEST = 10**12  # number of a node or an element that a program has
+
 
 def wrong(path: str | Path, why: str, line: int | None = None) -> DeclarationError:
     """Return the error that says what is wrong in a file, and in which line (counted from 1)."""
@@ -43,7 +45,7 @@ def text_of(path: str | Path, what: str) -> str:
 
 
 def table(path: str | Path, what: str, row: str, comments: str | None = None) -> np.ndarray:
-    """Return a table of finite numbers, a row for each line.
+    """Return a table of finite numbers that a file holds, a row for each line.
 
     Parameters
     ----------
@@ -65,21 +67,28 @@ def table(path: str | Path, what: str, row: str, comments: str | None = None) ->
     DeclarationError
         If a line holds anything else, or the last one has no end: programs write whole lines, so the file was cut off.
     """
-    text, columns = text_of(path, what), row.count(",") + 1
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a file of comments alone: an empty table
-            values = np.loadtxt(io.StringIO(text.replace(",", " ")), ndmin=2, comments=comments)
-    except ValueError:
-        values = None
-    if values is None or (values.size and values.shape[1] != columns) or not np.isfinite(values).all():
-        raise _first_wrong(path, text, row, columns, comments)
+    text = text_of(path, what)
+    values = numbers_in(path, text, row, comments)
     if not values.size:
         raise wrong(path, f"there is no line of {what} in the file: {row}")
     if not text.endswith("\n"):
         raise wrong(
             path, f"the last line has no end, so the file seems to be cut off: `{_shown(text.splitlines()[-1])}`"
         )
+    return values
+
+
+def numbers_in(path: str | Path, text: str, row: str, comments: str | None = None, above: int = 0) -> np.ndarray:
+    """Return the table of finite numbers in a text, see `table`; `above` lines of the file stand above it."""
+    columns = row.count(",") + 1
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a text of comments alone: an empty table
+            values = np.loadtxt(io.StringIO(text.replace(",", " ")), ndmin=2, comments=comments)
+    except ValueError:
+        values = None
+    if values is None or (values.size and values.shape[1] != columns) or not np.isfinite(values).all():
+        raise _first_wrong(path, text, row, comments, above)
     return values
 
 
@@ -100,8 +109,9 @@ def number(text: str) -> float:
     return value
 
 
-def _first_wrong(path: str | Path, text: str, row: str, columns: int, comments: str | None) -> DeclarationError:
-    for place, line in enumerate(text.splitlines(), 1):
+def _first_wrong(path: str | Path, text: str, row: str, comments: str | None, above: int) -> DeclarationError:
+    columns = row.count(",") + 1
+    for place, line in enumerate(text.splitlines(), above + 1):
         words = line.replace(",", " ").split()
         if not words or (comments and words[0].startswith(comments)):
             continue

@@ -57,6 +57,13 @@ def test_round_trip(tmp_path: Path, labels: bool, triangle: bool) -> None:
         assert np.array_equal(found[2].cells["hexahedron20"], PLAIN.cells["hexahedron20"])
 
 
+def test_units(tmp_path: Path) -> None:
+    found = read_abaqus(write(tmp_path), length=1e-3, mass=1e3)
+    assert abs(found[0] - 1e3 * M).max() < 1e-12
+    assert abs(found[1] - 1e3 * K).max() < 1e-12 * abs(K).max()
+    assert np.abs(found[2] - 1e-3 * PLAIN).max() < 1e-15
+
+
 def test_held_nodes_are_named(tmp_path: Path) -> None:
     path = write(tmp_path, held=(0, 1, 2, 33, 34, 35))
     found = read_abaqus(path)

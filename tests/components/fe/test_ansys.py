@@ -13,7 +13,9 @@ from components.fe import assemble, read_ansys, reduce_body
 from tests.components.fe.samples import frequencies
 
 examples = pytest.importorskip(
-    "ansys.mapdl.reader.examples", reason="ansys-mapdl-reader, the extra ansys, is not installed: it brings vtk, 150 MB"
+    "ansys.mapdl.reader.examples",
+    reason="ansys-mapdl-reader, the extra ansys, is not installed: it brings vtk, 140 MB",
+    exc_type=ImportError,
 )
 LENGTH, MASS = 0.0254, 0.45359237 * 9.80665 / 0.0254  # inch and pound-force s2/inch
 E, NU, RHO = 16.9e6, 0.31, 4.1408e-4

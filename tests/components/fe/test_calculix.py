@@ -43,6 +43,13 @@ WRONG = {
     "rotation": ("dof", lambda s: s.replace("2.3", "2.4", 1), "node 2 has a freedom 4 that is no displacement"),
     "equation_twice": ("dof", lambda s: s.replace("2.3", "2.2", 1), "an equation stands twice"),
     "word_for_an_equation": ("dof", lambda s: s.replace("2.3", "x.3", 1), "line 6: a line holds node.direction"),
+    "huge": ("dof", lambda s: s.replace("2.3", f"{10**20}.3", 1), "no node has the number 1000"),
+    "node_of_huge_number": (
+        "inp",
+        lambda s: s.replace("\n5,", f"\n{10**20},", 1),
+        "line 6: numbers of nodes are positive",
+    ),
+    "node_zero": ("inp", lambda s: s.replace("\n5,", "\n0,", 1), "line 6: numbers of nodes are positive"),
     "shell": ("dof", lambda s: s.replace("1.1\n", "900.1\n", 1), "only solid elements are read"),
     "no_node": ("inp", lambda s: s.replace("\n5,", "\n905,", 1), "node 5 has equations or elements, but no place"),
     "node_without_number": (
@@ -80,6 +87,14 @@ def test_frequencies(folder: Path, name: str, end: str) -> None:
         body = reduce_body(M, K, nodes, frames={"end": [0, 1, 2, 3]}, modes=10)
         assert body.frequencies == pytest.approx(want[6:], rel=1e-6)
         assert body.mass == pytest.approx(7850 * 0.1 * 0.015 * 0.01, rel=1e-12)
+
+
+def test_units(folder: Path) -> None:
+    """In mm, N, Mg the numbers of a file mean 1e3 kg and 1e3 N/m."""
+    plain, scaled = read_calculix(folder / "c3d8i"), read_calculix(folder / "c3d8i", length=1e-3, mass=1e3)
+    assert abs(scaled[0] - 1e3 * plain[0]).max() == 0
+    assert abs(scaled[1] - 1e3 * plain[1]).max() < 1e-12 * abs(plain[1]).max()
+    assert np.abs(scaled[2] - 1e-3 * plain[2]).max() < 1e-17
 
 
 def test_held_nodes_are_named(folder: Path) -> None:

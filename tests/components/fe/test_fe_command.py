@@ -76,7 +76,11 @@ def test_the_same_body_from_every_file(tmp_path: Path) -> None:
 
 
 def test_nastran(tmp_path: Path) -> None:
-    op4 = pytest.importorskip("pyyeti.nastran.op4", reason="pyyeti, the extra nastran, is not installed")
+    op4 = pytest.importorskip(
+        "pyyeti.nastran.op4",
+        reason="pyyeti, the extra nastran, is not installed: it brings numba, 70 MB",
+        exc_type=ImportError,
+    )
     M, K, nodes = BODY
     op4.write(str(tmp_path / "a.op4"), ["KGG", "MGG"], [sp.coo_matrix(K), sp.coo_matrix(M)])
     lines = [f"GRID*   {k + 1:16d}{0:16d}{x:16.9E}{y:16.9E}\n*       {z:16.9E}" for k, (x, y, z) in enumerate(nodes)]

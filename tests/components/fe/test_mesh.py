@@ -38,7 +38,7 @@ def test_round_trip(tmp_path: Path, element: str, kind: str) -> None:
 
 def test_deck_with_cards_of_gmsh(tmp_path: Path) -> None:
     """Surfaces and lines under names that meshio does not know, elements over two lines without a comma at the end."""
-    M, K, nodes = box((0.1, 0.02, 0.03), (2, 1, 1), "hex20", **STEEL)
+    _, K, nodes = box((0.1, 0.02, 0.03), (2, 1, 1), "hex20", **STEEL)
     text = deck(nodes, KINDS, **STEEL).replace(",\n", "\n")
     text = text.replace("*ELEMENT", "*ELEMENT, type=CPS6, ELSET=Surface1\n900, 1, 2, 3, 4, 5, 6\n*ELEMENT", 1)
     path = tmp_path / "gmsh.inp"
@@ -56,6 +56,8 @@ def test_deck_with_cards_of_gmsh(tmp_path: Path) -> None:
         ("a.vtu", b"", "not a mesh that meshio reads"),
         ("a.vtk", bytes(range(256)), "not a mesh that meshio reads"),
         ("a.xyz", b"1 2 3\n", "not a mesh that meshio reads"),
+        ("a.bdf", b"BEGIN BULK\nGRID,1,,0.,0.,0.\n", "no line begins with ENDDATA"),
+        ("a.dat", b"TITLE\n", "meshes of Tecplot are not read"),
         ("a.inp", b"hello", "no line begins with a keyword"),
         ("a.inp", b"*NODE\n1, 0, 0, 0\n", "there are no solid elements"),
         ("a.inp", b"*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D10\n1, 1, 1, 1\n", "has 3 nodes, fewer than a C3D10"),

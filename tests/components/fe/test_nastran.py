@@ -11,8 +11,12 @@ import scipy.sparse as sp
 from acausal import DeclarationError
 from components.fe import box, read_nastran
 
-op4 = pytest.importorskip("pyyeti.nastran.op4", reason="pyyeti, the extra nastran, is not installed")
-bulk = pytest.importorskip("pyyeti.nastran.bulk")
+op4 = pytest.importorskip(
+    "pyyeti.nastran.op4",
+    reason="pyyeti, the extra nastran, is not installed: it brings numba, 70 MB",
+    exc_type=ImportError,
+)
+bulk = pytest.importorskip("pyyeti.nastran.bulk", exc_type=ImportError)
 M, K, NODES = box((0.1, 0.02, 0.03), (2, 1, 1), "hex20", E=7e10, nu=0.33, rho=2700)
 NUMBERS = 7 * np.arange(len(NODES)) + 5
 # Of meshio's node in the order of Nastran: edges between the faces come before those of the second face.

@@ -116,11 +116,12 @@ def test_a_file_is_written_whole_or_not_at_all(body, tmp_path, monkeypatch):
     path = tmp_path / "rod.npz"
     body.first(3).save(path)
 
-    def full(*_, **__):
-        raise OSError("no space left")
+    def full(file, **_):
+        file.write(b"half of it")
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(OSError, match="no space"):
+    monkeypatch.setattr(np, "savez_compressed", full)
+    with pytest.raises(ac.ExportError, match=r"cannot write .*rod\.npz: No space left"):
         body.save(path)
     monkeypatch.undo()
     assert ReducedBody.load(path) == body.first(3)
