@@ -114,6 +114,7 @@ def test_values_of_another_kind(values, message):
 def test_values_that_fit(modes):
     result = ac.simulate(Decays(), stop_time=1, tolerance=1e-8, parameters={"body.modes": modes})
     n = 3 if modes is None else int(modes)
+    assert type(Instantiation(Decays(), {"body.modes": modes}).root.body.modes) in (int, type(None))
     np.testing.assert_allclose(result["body.q"][-1], np.exp(-THREE.values[:n]), rtol=1e-6)
 
 
