@@ -11,7 +11,6 @@ from acausal import Component, Connector, Vector3, as_expr, cross, der, flow, po
 from components.orientation import (
     Orientation,
     from_quaternion,
-    inverse_rotation,
     quaternion_equations,
     resolve1,
     resolve2,
@@ -92,19 +91,27 @@ def move(frame_a: Any, frame_b: Any, r: Any, R: Any, offset: Any = None) -> Iter
     With dr, ddr the derivatives of r seen from frame_a and T, w those of R:
     v_b = T (v_a + w_a x r + dr), z_b = T z_a + der(w) + (T w_a) x w,
     a_b = T (a_a + z_a x r + w_a x (w_a x r) + 2 w_a x dr + ddr).
+    Where frame_b is nearer to the root, the same is solved for the motion of frame_a. The motion of frame_a relative to
+    frame_b would hold products of T and r, whose derivatives take as many operations again where these depend on many
+    coordinates.
     """
-    if not rooted(frame_a, frame_b):
-        offset = None if offset is None else -resolve2(R, offset)
-        frame_a, frame_b, r, R = frame_b, frame_a, -resolve2(R, r), inverse_rotation(R)
-    a, b = frame_a, frame_b
-    w_a = a.R.w
-    dr = _der(r)
-    yield b.r_0 == a.r_0 + resolve1(a.R, r if offset is None else r + offset)
-    yield b.R.T == R.T @ a.R.T
-    yield b.R.w == resolve2(R, w_a) + R.w
-    yield b.v == resolve2(R, a.v + cross(w_a, r) + dr)
-    yield b.z == resolve2(R, a.z) + cross(resolve2(R, w_a), R.w) + _der(R.w)
-    yield b.a == resolve2(R, a.a + cross(a.z, r) + cross(w_a, cross(w_a, r)) + 2 * cross(w_a, dr) + _der(dr))
+    a, b, w_a, dr = frame_a, frame_b, frame_a.R.w, _der(r)
+    shifted = r if offset is None else r + offset
+    along = cross(a.z, r) + cross(w_a, cross(w_a, r)) + 2 * cross(w_a, dr) + _der(dr)
+    if rooted(a, b):
+        yield b.r_0 == a.r_0 + resolve1(a.R, shifted)
+        yield b.R.T == R.T @ a.R.T
+        yield b.R.w == resolve2(R, w_a) + R.w
+        yield b.v == resolve2(R, a.v + cross(w_a, r) + dr)
+        yield b.z == resolve2(R, a.z) + cross(resolve2(R, w_a), R.w) + _der(R.w)
+        yield b.a == resolve2(R, a.a + along)
+    else:
+        yield a.r_0 == b.r_0 - resolve1(a.R, shifted)
+        yield a.R.T == R.T.T @ b.R.T
+        yield w_a == resolve1(R, b.R.w - R.w)
+        yield a.v == resolve1(R, b.v) - cross(w_a, r) - dr
+        yield a.z == resolve1(R, b.z - cross(b.R.w, R.w) - _der(R.w))
+        yield a.a == resolve1(R, b.a) - along
 
 
 def _der(x: Any) -> Any:

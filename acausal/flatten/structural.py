@@ -35,7 +35,7 @@ def structural_value(bound: Component, declared: f.Structural, given: Any, where
     DeclarationError
         If it cannot be of this field.
     """
-    value: Any = given
+    value: Any = given.item() if isinstance(given, np.generic) else given
     if is_symbolic(value):
         raise DeclarationError(
             f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "

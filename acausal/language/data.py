@@ -20,9 +20,17 @@ def same(a: Any, b: Any) -> bool:
     """Return whether two values are one, arrays and what holds arrays entry by entry."""
     if a is b:
         return True
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b)
+    if _is_listed(a) and _is_listed(b):
+        return len(a) == len(b) and all(map(same, a, b))
     with suppress(ValueError, TypeError):  # Python cannot decide on arrays
         return bool(a == b)
     return plain(a) == plain(b)
+
+
+def _is_listed(value: Any) -> bool:
+    return isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
 def plain(value: Any) -> Any:
@@ -31,12 +39,13 @@ def plain(value: Any) -> Any:
     Data that write themselves in a few letters, as those with a digest do, are their text; others have the digest of
     what a pickle of them holds.
     """
+    if isinstance(value, np.ndarray | np.generic):  # among these are kinds of float that compare as arrays do
+        found = value.tolist()
+        return repr(found) if isinstance(found, np.generic) else plain(found)
     if value is None or isinstance(value, bool | int | float | str):
         return value
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
     if isinstance(value, list | tuple):
         return [plain(v) for v in value]
     if text := in_code(repr(value), ""):

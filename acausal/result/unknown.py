@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from acausal.flatten.tree import walk
+from acausal.flatten.tree import members, walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
 from acausal.language.functions import PENDING, Pending
@@ -13,6 +13,7 @@ from acausal.result.files import shown_name
 
 FILES = (".png", ".svg", ".pdf", ".csv")
 MOST = 10_000  # statements of one component that are read
+LISTED = 8  # names that are listed
 
 
 def unknown(path: str, known: list[str], tree: Component | None = None, kind: str = "") -> str:
@@ -41,11 +42,23 @@ def unknown(path: str, known: list[str], tree: Component | None = None, kind: st
         else kind
     )
     mend = missing(path, known, kind)
+    if mend == "." and tree:
+        mend = _nearest_part(path, tree)
     if plain in known and plain != path and "]." not in path:
         mend = f"; indices are whole numbers in brackets, such as `{plain}[0]`."
     if path.endswith(FILES):
         mend = "; the name of a file is given by path=..."
     return f"there is no `{shown_name(path)}` in the model{mend}"
+
+
+def _nearest_part(path: str, tree: Component) -> str:
+    """Name the parts and ports of the last part on the way to a path that there is."""
+    inside = [c for c in walk(tree) if c._path and path.startswith((f"{c._path}.", f"{c._path}["))]
+    if not inside:
+        return "."
+    owner = max(inside, key=lambda c: len(c._path))
+    names = [c._path[len(owner._path) + 1 :] for c in members(owner)]
+    return f"; {owner!r} has {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else '.'}" if names else "."
 
 
 def _of_derivative(name: str, known: list[str], tree: Component | None) -> str:

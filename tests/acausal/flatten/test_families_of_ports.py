@@ -108,6 +108,11 @@ def test_ports_are_named_in_connections_equations_and_results(compiled, plain):
     assert list(result.to_dataframe("star.tip.r_0").columns) == ["time", *(f"star.tip.r_0[{k}]" for k in range(3))]
     with pytest.raises(DeclarationError, match=r"`star.tpi.r_0` in the model; did you mean `star.tip.r_0`"):
         result["star.tpi.r_0"]
+    for path in ("star.edge.r_0", "star.edge.R.T"):
+        with pytest.raises(
+            DeclarationError, match=rf"no `{path}` in the model; star \(Star\) has hinge, tip, arms\[0\]"
+        ):
+            result[path]
     with pytest.raises(DeclarationError, match=r"`star.tip` is a part \(Frame\); name one of its variables"):
         result["star.tip"]
 
