@@ -219,6 +219,14 @@ def runs_bar(wanted: bool) -> Iterator[Callable[[int, int, str], None] | None]:
 
 
 @contextmanager
+def steps_bar(wanted: bool, total: int) -> Iterator[Callable[[str], None]]:
+    """Give a function that shows on the terminal which of a few steps begins, or nothing where there is no terminal."""
+    with _bar(wanted) as show:
+        done = iter(range(total))
+        yield lambda what: show(next(done), total, what) if show else None
+
+
+@contextmanager
 def _bar(wanted: bool) -> Iterator[Callable[[float, float, str], None] | None]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn

@@ -70,7 +70,7 @@ def whole(path: str | Path, mode: str = "w") -> Iterator[IO[Any]]:
                 temporary.unlink()
 
 
-def read_text(path: str | Path, what: str = "") -> str:
+def read_text(path: str | Path, what: str = "", encoding: str = "utf-8-sig") -> str:
     """Return what is in a text file.
 
     Parameters
@@ -79,6 +79,8 @@ def read_text(path: str | Path, what: str = "") -> str:
         Name of the file.
     what : str
         What it is, for messages.
+    encoding : str
+        Of the text.
 
     Raises
     ------
@@ -93,7 +95,7 @@ def read_text(path: str | Path, what: str = "") -> str:
         if source.is_char_device() or source.is_block_device():
             _refuse(verb, path, "it is a device, not a file")
         try:
-            return source.read_text(encoding="utf-8-sig")
+            return source.read_text(encoding=encoding)
         except UnicodeDecodeError:
             _refuse(verb, path, "it is not a text in UTF-8")
 

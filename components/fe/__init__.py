@@ -1,5 +1,7 @@
 """Bodies from mass and stiffness matrices of any finite-element program."""
 
+from typing import TYPE_CHECKING, Any
+
 from components.fe.elements import assemble, box
 from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
@@ -12,11 +14,54 @@ __all__ = [
     "FEBody",
     "Interface",
     "NodalField",
+    "NodalResult",
     "ReducedBody",
     "assemble",
     "average",
     "box",
+    "read_abaqus",
+    "read_ansys",
+    "read_calculix",
+    "read_matrix_market",
+    "read_mesh",
+    "read_nastran",
     "read_npz",
+    "read_sid",
     "reduce_body",
     "rigid",
+    "rows_of",
+    "write_sid",
 ]
+
+if TYPE_CHECKING:
+    from components.fe.formats.abaqus import read_abaqus
+    from components.fe.formats.ansys import read_ansys
+    from components.fe.formats.calculix import read_calculix
+    from components.fe.formats.matrix_market import read_matrix_market
+    from components.fe.formats.mesh import read_mesh
+    from components.fe.formats.nastran import read_nastran
+    from components.fe.formats.sid import read_sid, write_sid
+    from components.fe.nodes import rows_of
+    from components.fe.recover import NodalResult
+
+# What models do not use: it loads scipy.sparse.
+_LATER = {
+    "NodalResult": "recover",
+    "read_abaqus": "formats.abaqus",
+    "read_ansys": "formats.ansys",
+    "read_calculix": "formats.calculix",
+    "read_matrix_market": "formats.matrix_market",
+    "read_mesh": "formats.mesh",
+    "read_nastran": "formats.nastran",
+    "read_sid": "formats.sid",
+    "rows_of": "nodes",
+    "write_sid": "formats.sid",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
+from components.fe.nodes import named
 from components.fe.solid import Solid, rigid_motions
 
 # Of the larger entries that an entry stands beside. Files have 13 digits and more.
@@ -54,11 +55,13 @@ def solid(M: Any, K: Any, nodes: Any) -> Solid:
     mass = _masses(M)
     stiff, heavy = K.diagonal().reshape(-1, 3), mass.diagonal()
     empty = (stiff == 0).all(axis=1)
-    _rigid(K, places, empty)
+    _rigid(K, nodes, places, empty)
     soft = np.flatnonzero((empty & (heavy > 0)) | (~empty & (stiff == 0).any(axis=1)))
     if len(soft):
-        raise DeclarationError(f"node {soft[0]} has mass or neighbours, but no stiffness in every direction")
-    _one_piece(K, places, empty)
+        raise DeclarationError(
+            f"node {named(nodes, soft[:1])} has mass or neighbours, but no stiffness in every direction"
+        )
+    _one_piece(K, nodes, places, empty)
     for A, name in ((K, "stiffness"), (mass, "mass")):
         if _lowest_share(A) < -INDEFINITE:
             raise DeclarationError(f"the {name} matrix is indefinite: it has a negative eigenvalue beyond rounding")
@@ -135,7 +138,7 @@ def _masses(M: Any) -> Any:
     return mean
 
 
-def _rigid(K: Any, places: Array, empty: Array) -> None:
+def _rigid(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     """K must leave the six rigid motions free."""
     entries = K.tocoo()
     row, column = entries.row // 3, entries.col // 3
@@ -156,20 +159,16 @@ def _rigid(K: Any, places: Array, empty: Array) -> None:
     missing = np.flatnonzero(empty)
     if len(missing):
         raise DeclarationError(
-            f"rigid motions are missing: equations of nodes {_some(missing)} are not in the matrices, as if they were held; "
-            "write the matrices of the free body"
+            f"rigid motions are missing: equations of nodes {named(nodes, missing)} are not in the matrices, as if "
+            "they were held; write the matrices of the free body"
         )
     raise DeclarationError(
-        f"rigid motions are missing: the stiffness matrix resists them at nodes {_some(np.flatnonzero(bad))}; is something held "
-        "or grounded there, or are nodes and equations in different orders?"
+        f"rigid motions are missing: the stiffness matrix resists them at nodes {named(nodes, np.flatnonzero(bad))}; is "
+        "something held or grounded there, or are nodes and equations in different orders?"
     )
 
 
-def _some(indices: Array) -> str:
-    return ", ".join(str(k) for k in indices[:6]) + (f" and {len(indices) - 6} more" if len(indices) > 6 else "")
-
-
-def _one_piece(K: Any, places: Array, empty: Array) -> None:
+def _one_piece(K: Any, nodes: Any, places: Array, empty: Array) -> None:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -185,7 +184,7 @@ def _one_piece(K: Any, places: Array, empty: Array) -> None:
         )
         raise DeclarationError(
             f"more than six rigid motions: the body is {len(kinds)} pieces that nothing joins, with nodes "
-            f"{_some(used[first])}{double}"
+            f"{named(nodes, used[first])}{double}"
         )
 
 

@@ -154,7 +154,7 @@ def _completed(found: Reference, frames: list[Frame], body: Solid) -> Reference:
     if rows is not None and far > ON_A_LINE:
         return Reference(found.origin, found.held, np.vstack([found.rows, motion / far @ rows]), found.names)
     raise DeclarationError(
-        f"what hold holds leaves {free.shape[1]} rigid motions of the body free (too few nodes, or nodes on a line): hold "
+        f"hold leaves {free.shape[1]} of the six rigid motions of the body free (too few nodes, or nodes on a line): hold "
         'more, as {"hinge": "xyz", "tip": "z"}'
     )
 

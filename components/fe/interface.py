@@ -133,7 +133,7 @@ def frame(name: str, nodes: Any, places: Array) -> Frame:
     at = places[list(spider.nodes)]
     place = shares @ at
     arms = at - place
-    _, spread, directions = np.linalg.svd(np.sqrt(shares)[:, None] * arms, full_matrices=True)
+    _, spread, directions = np.linalg.svd(np.linalg.qr(np.sqrt(shares)[:, None] * arms, mode="r"))
     spread = np.concatenate([spread, np.zeros(3)])[:3]
     radius = float(np.linalg.norm(spread)) or 1.0
     # Moments of the weights about the principal lines through the place: the nodes hold a turn about a line that they

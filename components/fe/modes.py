@@ -16,8 +16,9 @@ from components.fe.solid import Solid
 
 # Freedoms up to which, or share of modes from which on, all modes are computed at once.
 DENSE, SHARE = 600, 0.25
-# Of the largest eigenvalue that the diagonals suggest: less is the rounding of a motion without stiffness.
-NOTHING = 1e-14
+# A motion has no stiffness that has so many times what rounding leaves of the rigid ones, or less than the last digit of
+# the largest eigenvalue. (Pieces on a hinge: 0.01 to 0.2 of that digit; a rod of aspect 2000: 20.)
+NOTHING = 100.0
 # Frequencies that differ by less are one, whose modes are any turned among themselves.
 EQUAL = 1e-7
 # Modes beyond those asked for, so that a pair of equal frequencies is complete before it is cut.
@@ -114,9 +115,12 @@ class System:
         return found
 
     @cached_property
-    def stiffest(self) -> float:
-        """Size of the largest eigenvalue in 1/s2."""
-        return float(self.stiffness.diagonal().max() / self.mass.diagonal().mean())
+    def nothing(self) -> float:
+        """Eigenvalue in 1/s2 of a motion without stiffness, at most: rounding, also that of files with few digits."""
+        stiffest = self.stiffness.diagonal().max() / self.mass.diagonal().mean()
+        motions, body = self.body.rigid, self.body
+        rigid = np.sum(motions * (body.stiffness @ motions), axis=0) / np.sum(motions * body.weigh(motions), axis=0)
+        return max(np.finfo(float).eps * float(stiffest), NOTHING * float(np.abs(rigid).max()))
 
 
 def _moves(frame: Frame, body: Solid) -> Array:
@@ -128,7 +132,8 @@ def _moves(frame: Frame, body: Solid) -> Array:
 
 def _mechanism() -> DeclarationError:
     return DeclarationError(
-        "more than six rigid motions: parts of the body move without stiffness, as pieces that only a hinge or a node joins"
+        "more than six rigid motions: parts of the body move without stiffness beyond rounding, as pieces that only a hinge "
+        "or a node joins"
     )
 
 
@@ -236,8 +241,8 @@ def lowest(flexibility: Flexibility, count: int) -> tuple[Array, Array]:
     found = _all(flexibility, count) if size <= DENSE or count > SHARE * size else _some(flexibility, count)
     # Once more, so that what has no mass, and what rounding left of the conditions, is gone.
     shapes, squares = orthogonal(system, flexibility.relative(flexibility.apply(system.mass @ found)))
-    if len(squares) and squares[0] < NOTHING * system.stiffest:
-        if squares[0] > -NOTHING * system.stiffest:
+    if len(squares) and squares[0] < system.nothing:
+        if squares[0] > -system.nothing:
             raise _mechanism()
         raise DeclarationError(f"the stiffness matrix is indefinite: a mode has omega^2 = {squares[0]:.3g} 1/s2")
     return shapes, squares

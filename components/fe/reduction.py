@@ -93,7 +93,7 @@ def reduce_body(
     if wanted is not None and len(squares) < wanted:
         raise DeclarationError(f"there are {len(squares)} modes with mass, fewer than modes={wanted}")
     shapes, squares = shapes[:, :wanted], squares[:wanted]
-    return _reduced(body, shapes, squares, held, found, damping)
+    return _reduced(body, shapes, squares, held, found, damping, getattr(nodes, "cells", {}))
 
 
 def _numbers(modes: Any, frequency: Any) -> None:
@@ -104,7 +104,7 @@ def _numbers(modes: Any, frequency: Any) -> None:
 
 
 def _reduced(
-    body: Solid, shapes: Array, squares: Array, held: Reference, frames: list[Frame], damping: Any
+    body: Solid, shapes: Array, squares: Array, held: Reference, frames: list[Frame], damping: Any, cells: Any
 ) -> ReducedBody:
     n, count = len(squares), len(body.nodes)
     ratios = np.broadcast_to(np.asarray(damping, dtype=float), (n,)) if np.ndim(damping) == 0 else np.asarray(damping)
@@ -121,7 +121,7 @@ def _reduced(
         D=np.diag(2 * ratios * np.sqrt(squares)),
         interfaces=tuple(_interface(frame, shapes, held, body) for frame in frames),
         origin=held.origin,
-        nodal=NodalField(places, modes),
+        nodal=NodalField(places, modes, cells),
     )
 
 

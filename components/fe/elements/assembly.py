@@ -10,8 +10,11 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.elements import brick, quadratic
 from components.fe.elements.material import Material
+from components.fe.nodes import Nodes
 
 NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10}
+# Bricks that are integrated at once: 9 kB each.
+BATCH = 20_000
 # Kinds of a mesh that are no solids: its surfaces, lines and points.
 FLAT = ("vertex", "line", "triangle", "quad")
 
@@ -35,8 +38,8 @@ def assemble(
     -------
     M, K : sparse matrix, shape (3 N, 3 N)
         Mass in kg and stiffness in N/m, equations in the order x, y, z of each node.
-    nodes : array, shape (N, 3)
-        The points.
+    nodes : Nodes, shape (N, 3)
+        The points, with the elements as `nodes.cells`.
 
     Raises
     ------
@@ -55,7 +58,8 @@ def assemble(
     count = len(points)
     mass, blocks = csr_array((count, count)), np.full((3, 3), csr_array((count, count)), dtype=object)
     used = np.zeros(count, dtype=bool)
-    for kind, members in _solids(cells, count):
+    solids = _solids(cells, count)
+    for kind, members in solids:
         used[members] = True
         parts = _bricks if kind == "hexahedron" else lambda *a, kind=kind: quadratic.matrices(kind, *a)
         own, stiffness = parts(points, members, material)
@@ -67,7 +71,7 @@ def assemble(
         )
     order = np.arange(3 * count).reshape(3, count).T.ravel()  # from x of all, y of all, z of all
     K = csr_array(bmat(blocks.tolist(), format="csr"))[order][:, order]
-    return csr_array(kron(mass, np.eye(3), format="csr")), (K + K.T) / 2, points
+    return csr_array(kron(mass, np.eye(3), format="csr")), (K + K.T) / 2, Nodes(points, cells=_joined(solids))
 
 
 def _solids(cells: Any, count: int) -> list[tuple[str, np.ndarray]]:
@@ -91,10 +95,15 @@ def _solids(cells: Any, count: int) -> list[tuple[str, np.ndarray]]:
     return found
 
 
+def _joined(solids: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    return {kind: np.concatenate([m for other, m in solids if other == kind]) for kind, _ in solids}
+
+
 def _bricks(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[Any, np.ndarray]:
     from scipy.sparse import csr_array
 
-    mass, stiffness = brick.matrices(points, cells, material)
+    parts = [brick.matrices(points, some, material) for some in np.array_split(cells, len(cells) // BATCH + 1)]
+    mass, stiffness = (np.concatenate(both) for both in zip(*parts, strict=True))
     rows, columns = np.repeat(cells, 8, axis=1).ravel(), np.tile(cells, 8).ravel()
 
     def sparse(values: np.ndarray) -> Any:

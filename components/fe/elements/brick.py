@@ -49,23 +49,54 @@ def matrices(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple
     stiffness : array, shape (elements, 8, 3, 8, 3)
         In N/m.
     """
-    corners = points[cells]
-    centre = np.einsum("eia,ix->eax", corners, slopes(np.zeros(3)))
-    size, volume = np.linalg.inv(centre), np.linalg.det(centre)
-    mass = np.zeros((len(cells), 8, 8))
-    gradients = np.zeros((3, 3, len(cells), 11, 11))
-    for at in POINTS:
-        jacobian = np.einsum("eia,ix->eax", corners, slopes(at))
-        weight = np.linalg.det(jacobian)
-        if (weight <= 0).any():
-            wrong = int(np.flatnonzero(weight <= 0)[0])
-            raise DeclarationError(f"brick {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
-        mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
-        own = np.einsum("ix,exa->eia", slopes(at), np.linalg.inv(jacobian))
-        bubbles = -2 * at[None, :, None] * size * (volume / weight)[:, None, None]
-        both = np.concatenate([own, bubbles], axis=1)
-        gradients += np.einsum("e,eia,ejb->abeij", weight, both, both)
-    full = material.stiffness(gradients).transpose(2, 3, 0, 4, 1).reshape(len(cells), 33, 33)
+    mass, full = integrals(points, cells, material)
     corner, cross, inner = full[:, :24, :24], full[:, :24, 24:], full[:, 24:, 24:]
     condensed = corner - cross @ np.linalg.solve(inner, cross.transpose(0, 2, 1))
     return mass, condensed.reshape(len(cells), 8, 3, 8, 3)
+
+
+def incompatible(points: np.ndarray, cells: np.ndarray, material: Material) -> np.ndarray:
+    """Amplitudes of the incompatible modes by displacements of the corners, shape (elements, 3, 3, 8, 3)."""
+    _, full = integrals(points, cells, material)
+    return -np.linalg.solve(full[:, 24:, 24:], full[:, 24:, :24]).reshape(len(cells), 3, 3, 8, 3)
+
+
+def gradients(corners: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Gradients of shape functions and incompatible modes at a point of the reference cube, and the weight of volume.
+
+    Parameters
+    ----------
+    corners : array, shape (elements, 8, 3)
+        Places in m.
+    at : array, shape (3,)
+        From -1 to 1.
+
+    Returns
+    -------
+    gradients : array, shape (elements, 11, 3)
+        In 1/m.
+    weight : array, shape (elements,)
+        Determinant of the Jacobian in m3.
+    """
+    centre = np.einsum("eia,ix->eax", corners, slopes(np.zeros(3)))
+    jacobian = np.einsum("eia,ix->eax", corners, slopes(at))
+    weight = np.linalg.det(jacobian)
+    own = np.einsum("ix,exa->eia", slopes(at), np.linalg.inv(jacobian))
+    bubbles = -2 * at[None, :, None] * np.linalg.inv(centre) * (np.linalg.det(centre) / weight)[:, None, None]
+    return np.concatenate([own, bubbles], axis=1), weight
+
+
+def integrals(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[np.ndarray, np.ndarray]:
+    """Masses of pairs of nodes, shape (elements, 8, 8), and stiffness with incompatible modes, (elements, 33, 33)."""
+    corners = points[cells]
+    mass = np.zeros((len(cells), 8, 8))
+    products = np.zeros((3, 3, len(cells), 11, 11))
+    for at in POINTS:
+        volume = np.linalg.det(np.einsum("eia,ix->eax", corners, slopes(at)))
+        if (volume <= 0).any():
+            wrong = int(np.flatnonzero(volume <= 0)[0])
+            raise DeclarationError(f"the brick of nodes {cells[wrong].tolist()} is turned inside out or folded")
+        both, weight = gradients(corners, at)
+        mass += material.rho * weight[:, None, None] * np.outer(shapes(at), shapes(at))
+        products += np.einsum("e,eia,ejb->abeij", weight, both, both)
+    return mass, material.stiffness(products).transpose(2, 3, 0, 4, 1).reshape(len(cells), 33, 33)

@@ -55,7 +55,7 @@ def matrices(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
     volumes = basis.mapping.detDF(basis.X)
     if (volumes <= 0).any():
         wrong = int(np.flatnonzero((volumes <= 0).any(axis=1))[0])
-        raise DeclarationError(f"element {wrong} is turned inside out or folded: nodes {cells[wrong].tolist()}")
+        raise DeclarationError(f"the {kind} of nodes {cells[wrong].tolist()} is turned inside out or folded")
 
     def assembled(form: Any) -> Any:
         local = BilinearForm(form).assemble(basis).tocoo()

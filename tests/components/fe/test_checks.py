@@ -161,7 +161,7 @@ def test_weights_that_cannot_be(weights):
 
 HOLDS = {
     "no frame": ("hinge", "hold names 'hinge', but the frames are tip, left, line"),
-    "a point": ("tip", "leaves 3 rigid motions of the body free"),
+    "a point": ("tip", "leaves 3 of the six rigid motions of the body free"),
     "collinear": ((0, 1, 0), "lie on a line"),
     "on a line": ((0, 6, 12), "the nodes 0, 6, 12 of the reference frame lie on a line"),
     "two nodes": ((0, 1), "hold is a frame"),
@@ -169,8 +169,8 @@ HOLDS = {
     "not there": ((0, 1, 24), "hold names 24, but nodes are counted from 0 to 23"),
     "directions": ({"left": "xw"}, "letters of \"xyz\", not 'xw'"),
     "no directions": ({"left": ""}, 'letters of "xyz"'),
-    "too few": ({"left": "xy"}, "leaves 1 rigid motions of the body free"),
-    "nothing": ({}, "leaves 6 rigid motions"),
+    "too few": ({"left": "xy"}, "leaves 1 of the six rigid motions of the body free"),
+    "nothing": ({}, "leaves 6 of the six rigid motions"),
     "a node": ({0: "xyz", "line": "z"}, "rigid motions of the body free"),
     "a number": (5, "hold is a frame"),
     "none": (None, "hold is a frame"),
@@ -191,7 +191,7 @@ def test_a_line_alone_is_no_reference_frame():
     M, K, nodes = rod()
     with pytest.raises(
         ac.DeclarationError,
-        match=r'leaves 1 rigid motions of the body free .*: hold more, as \{"hinge": "xyz", "tip": "z"\}',
+        match=r'leaves 1 of the six rigid motions of the body free .*: hold more, as \{"hinge": "xyz", "tip": "z"\}',
     ):
         reduce_body(M, K, nodes, frames={"hinge": [0, 2, 4]}, hold="hinge")
 

@@ -109,11 +109,11 @@ def test_beam_of_the_spin_up(count, worst):
 
 def test_a_mesh_of_two_kinds_and_a_mesh_turned_inside_out():
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "hex8")
-    with pytest.raises(ac.DeclarationError, match="brick 0 is turned inside out or folded"):
+    with pytest.raises(ac.DeclarationError, match=r"the brick of nodes \[.*\] is turned inside out or folded"):
         assemble(points, {"hexahedron": cells["hexahedron"][:, [4, 5, 6, 7, 0, 1, 2, 3]]}, **STEEL)
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "tet10")
     order = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]
-    with pytest.raises(ac.DeclarationError, match="element 0 is turned inside out or folded"):
+    with pytest.raises(ac.DeclarationError, match=r"the tetra10 of nodes \[.*\] is turned inside out or folded"):
         assemble(points, {"tetra10": cells["tetra10"][:, order]}, **STEEL)
     flat = {"triangle6": np.zeros((2, 6), dtype=int), "vertex": np.zeros((1, 1), dtype=int)}
     M, *_ = assemble(points, {**cells, **flat}, **STEEL)
@@ -152,6 +152,26 @@ def test_meshes_that_cannot_be(cells, message):
     points, _ = mesh((1.0, 1.0, 1.0), (1, 1, 1), "hex8")
     with pytest.raises(ac.DeclarationError, match=message):
         assemble(points, cells, **STEEL)
+
+
+def test_bricks_in_batches(monkeypatch):
+    from components.fe.elements import assembly
+
+    whole = box((3.0, 2.0, 1.0), (3, 2, 2), "hex8", **STEEL)
+    monkeypatch.setattr(assembly, "BATCH", 5)
+    parts = box((3.0, 2.0, 1.0), (3, 2, 2), "hex8", **STEEL)
+    assert abs(whole[0] - parts[0]).max() == 0
+    assert abs(whole[1] - parts[1]).max() == 0
+
+
+def test_two_elements_with_an_edge_but_not_the_node_on_it():
+    points, cells = mesh((2.0, 1.0, 1.0), (2, 1, 1), "hex20")
+    torn = cells["hexahedron20"].copy()
+    shared = np.intersect1d(*torn)
+    middle = next(k for k in shared if k in torn[1][8:])
+    torn[1][torn[1] == middle] = len(points)
+    with pytest.raises(ac.DeclarationError, match="shares an edge with another, but not the node on it"):
+        assemble(np.vstack([points, points[middle]]), {"hexahedron20": torn}, **STEEL)
 
 
 def test_nodes_of_no_element_are_named():

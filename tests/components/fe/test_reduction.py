@@ -410,3 +410,47 @@ def test_frames_may_share_nodes(hold, basis):
         assert not found["inner"].rotation.any()
     u = body.nodal.modes.reshape(-1, 16)
     np.testing.assert_allclose(u.T @ (M @ u), np.eye(16), atol=1e-10)
+
+
+def test_a_slender_rod_is_no_mechanism():
+    """Aspect 2000: clamped and free, against Euler and Bernoulli, to what the last digit of the stiffness leaves.
+
+    omega^2 is 6e-15 of the largest eigenvalue.
+    """
+    from components.fe import box
+
+    E, rho, h = 7e10, 2700.0, 0.004
+    M, K, nodes = box((8.0, h, h), (100, 1, 1), "hex20", E=E, nu=0.0, rho=rho)
+    unit = np.sqrt(E * h**2 / 12 / (rho * 8.0**4)) / (2 * np.pi)
+    frames = {"root": face(nodes, 0, 0)}
+    for hold, root in (("root", 1.8751040687), ("mean-axis", 4.7300407449)):
+        body = reduce_body(M, K, nodes, frames=frames, hold=hold, modes=4)
+        np.testing.assert_allclose(body.frequencies[:2], root**2 * unit, rtol=1e-2)
+
+
+@pytest.mark.parametrize("basis", ["held", "craig-bampton"])
+def test_a_rigid_frame_may_be_held_in_one_direction(basis):
+    """It then slides and turns as a whole."""
+    M, K, nodes = block()
+    left, right = face(nodes, 0, 0), face(nodes, 0, -1)
+    frames = {"left": left, "right": rigid(right)}
+    body = reduce_body(M, K, nodes, frames=frames, hold={"left": "xyz", "right": "z"}, basis=basis, modes=8)
+    frame = body.interfaces[1]
+    size = np.abs(body.nodal.modes).max()
+    assert not frame.displacement[2].any()
+    assert np.abs(frame.rotation).max(axis=1).min() > 0
+    arms = nodes[right] - nodes[right].mean(axis=0)
+    moved = frame.displacement + np.cross(frame.rotation.T[:, None], arms).transpose(1, 2, 0)
+    np.testing.assert_allclose(body.nodal.modes[right], moved, atol=1e-7 * size)
+    motions = bodies.rigid(arms)
+    rows = np.zeros((len(motions), 3 * len(nodes)))
+    rows[:, (3 * right[:, None] + range(3)).ravel()] = np.eye(len(motions)) - motions @ np.linalg.pinv(motions)
+    mean = np.zeros((1, 3 * len(nodes)))
+    mean[0, 3 * right + 2] = 1.0
+    held = units((3 * left[:, None] + range(3)).ravel(), 3 * len(nodes))
+    squares, _ = bodies.constrained(M, K, np.vstack([rows, mean, held]))
+    if basis == "held":
+        np.testing.assert_allclose(body.frequencies, hertz(squares[:8]), rtol=1e-8)
+    else:
+        assert (body.frequencies > hertz(squares[:8]) * (1 - 1e-9)).all()
+        np.testing.assert_allclose(body.frequencies[0], hertz(squares[0]), rtol=1e-2)

@@ -1,0 +1,187 @@
+"""`python -m components.fe reduce FILE`: from the matrices of an FE program, or a mesh, to a reduced body."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from acausal import DeclarationError
+from acausal.cli.common import Quiet, running
+from acausal.cli.output import check_outputs, steps_bar
+from acausal.cli.streams import ended, tolerant
+from acausal.cli.values import pair, value_of
+from acausal.result import shown_name
+from components.fe import ReducedBody, read_mesh, read_sid, reduce_body
+from components.fe.formats.kinds import SID, reader_of
+from components.fe.nodes import rows_of
+
+MODES = 10
+SHOWN = 20  # modes in the table
+
+app = typer.Typer(
+    help="Bodies from matrices of FE programs.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+@app.callback()
+def commands() -> None:
+    """Bodies from matrices of FE programs."""
+
+
+@app.command("reduce")
+def reduce(
+    file: Annotated[
+        str,
+        typer.Argument(
+            help="Matrices: .npz, CalculiX .sti, Abaqus _STIF1.mtx, Matrix Market .mtx, Ansys .full, Nastran .op4 (their other "
+            "files beside it); a SID; or a mesh.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[str, typer.Option(help="Write the reduced body.", metavar="body.npz", show_default=False)],
+    frames: Annotated[
+        list[str] | None,
+        typer.Option("--frame", metavar="NAME=I,J,K", help="A frame at these nodes, counted from 0; may be repeated."),
+    ] = None,
+    by_number: Annotated[
+        bool, typer.Option("--by-number", help="I, J, K are the numbers that nodes have in the file.")
+    ] = False,
+    hold: Annotated[
+        str,
+        typer.Option(metavar="NAME|mean-axis|I,J,K", help="What the reference frame is fixed to: a frame, or nodes."),
+    ] = "mean-axis",
+    modes: Annotated[
+        int | None, typer.Option(metavar="N", help=f"Number of modes; {MODES} if not given.", show_default=False)
+    ] = None,
+    frequency: Annotated[
+        float | None, typer.Option(metavar="HZ", help="All modes up to here, instead of a number.", show_default=False)
+    ] = None,
+    basis: Annotated[str, typer.Option(metavar="held|free|craig-bampton", help="Which modes.")] = "held",
+    damping: Annotated[float, typer.Option(metavar="R", help="Of every mode, as a part of the critical one.")] = 0.0,
+    length: Annotated[float, typer.Option(metavar="S", help="Unit of length of the file in m: 1e-3 for mm.")] = 1.0,
+    mass: Annotated[
+        float, typer.Option(metavar="S", help="Unit of mass of the file in kg: 1e3 for mm, N and Mg.")
+    ] = 1.0,
+    material: Annotated[
+        str | None,
+        typer.Option(metavar="E,NU,RHO", help="Of a mesh: in Pa, 1 and kg/m3.", show_default=False),
+    ] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Reduce the matrices of a body to a few modes, for `FEBody(reduced="body.npz")`."""
+    with running(quiet=quiet), steps_bar(not quiet, 3) as show:
+        check_outputs((file,), out=out)
+        if Path(out).suffix.lower() != ".npz":
+            raise DeclarationError(f"--out takes a file of numpy, body.npz, not `{shown_name(out)}`.")
+        scales = {"length": _scale("--length", length), "mass": _scale("--mass", mass)}
+        show("reading")
+        if Path(file).suffix.lower() in SID:
+            _unused(f"the SID {shown_name(file)} is reduced already", frame=frames, modes=modes, material=material)
+            body = read_sid(file, **scales)
+        else:
+            M, K, nodes = _matrices(file, material, scales)
+            places = _frames(frames or [], nodes, by_number)
+            held = _hold(hold, places, nodes, by_number)
+            show("reducing")
+            body = reduce_body(
+                M,
+                K,
+                nodes,
+                frames=places,
+                hold=held,
+                modes=MODES if modes is None else modes,
+                frequency=frequency,
+                basis=basis,
+                damping=damping,
+            )
+        show("writing")
+        body.save(out)
+        if not quiet:
+            typer.echo(_summary(body, out))
+
+
+def main() -> None:
+    """Run the command line."""
+    tolerant()
+    try:
+        app(prog_name="python -m components.fe")
+    except SystemExit as end:
+        sys.exit(ended(end.code))
+
+
+def _matrices(file: str, material: str | None, scales: dict[str, float]) -> tuple[Any, Any, Any]:
+    read = reader_of(file)
+    if read is not None:
+        _unused(f"the matrices of {shown_name(file)} hold it", material=material)
+        return read(file, **scales)
+    if material is None:
+        raise DeclarationError(f"{shown_name(file)} is no file of matrices; of a mesh give --material E,NU,RHO too.")
+    numbers = value_of(material, "--material")
+    if not (isinstance(numbers, tuple) and len(numbers) == 3 and all(isinstance(x, int | float) for x in numbers)):
+        raise DeclarationError(f"--material takes E,NU,RHO, such as 2.1e11,0.3,7850, not `{shown_name(material)}`.")
+    E, nu, rho = numbers
+    if scales["mass"] != 1:
+        raise DeclarationError("--mass says nothing about a mesh, whose --material is in Pa and kg/m3; leave it out.")
+    return read_mesh(file, E=E, nu=nu, rho=rho, length=scales["length"])
+
+
+def _frames(texts: list[str], nodes: Any, by_number: bool) -> dict[str, list[int]]:
+    found: dict[str, list[int]] = {}
+    for text in texts:
+        name, value = pair(text, "--frame takes NAME=I,J,K, such as --frame hinge=0,2,4")
+        if name in found:
+            raise DeclarationError(f"--frame gives `{shown_name(name)}` twice; leave one out.")
+        if not name.isidentifier():
+            raise DeclarationError(f"--frame: `{shown_name(name)}` is no name of a frame; take letters and digits.")
+        found[name] = _nodes(value, f"--frame {name}", nodes, by_number)
+    if not found:
+        raise DeclarationError("a body is connected at frames: give --frame NAME=I,J,K once or several times.")
+    return found
+
+
+def _hold(text: str, frames: dict[str, list[int]], nodes: Any, by_number: bool) -> Any:
+    if text in frames or text == "mean-axis":
+        return text
+    if text[:1].isdigit():
+        return tuple(_nodes(text, "--hold", nodes, by_number))
+    known = ", ".join([*frames, "mean-axis"])
+    raise DeclarationError(f"--hold takes one of {known}, or three nodes I,J,K, not `{shown_name(text)}`.")
+
+
+def _nodes(text: str, option: str, nodes: Any, by_number: bool) -> list[int]:
+    try:
+        numbers = [int(part) for part in text.split(",")]
+    except ValueError:
+        raise DeclarationError(f"{option} takes nodes, such as 0,2,4, not `{shown_name(text)}`.") from None
+    return rows_of(nodes, numbers) if by_number else numbers
+
+
+def _scale(option: str, value: float) -> float:
+    if not 0 < value < float("inf"):
+        raise DeclarationError(f"{option} is a unit in SI, a positive number such as 1e-3, not {value:g}.")
+    return value
+
+
+def _unused(why: str, **options: Any) -> None:
+    idle = [name for name, given in options.items() if given]
+    if idle:
+        raise DeclarationError(f"--{idle[0]} has no use here: {why}; leave it out.")
+
+
+def _summary(body: ReducedBody, out: str) -> str:
+    lines = [
+        f"{shown_name(out)}: {body.n} modes, {body.mass:.6g} kg, frames {', '.join(i.name for i in body.interfaces)}"
+    ]
+    lines += [f"  mode {b + 1:3d}  {f:12.6g} Hz" for b, f in enumerate(body.frequencies[:SHOWN])]
+    return "\n".join([*lines, f"  ... ({body.n} in all)"] if body.n > SHOWN else lines)
+
+
+if __name__ == "__main__":
+    main()

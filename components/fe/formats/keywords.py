@@ -1,0 +1,199 @@
+"""Keyword decks, the input files of Abaqus and CalculiX: blocks, nodes, elements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from components.fe.formats.text import number, text_of, wrong
+
+DEEPEST = 20  # files that include one another
+# Solid elements: their name in the deck begins so, name in meshio, nodes; the orders of nodes are the same.
+SOLIDS = (
+    ("C3D4", "tetra", 4),
+    ("C3D10", "tetra10", 10),
+    ("C3D6", "wedge", 6),
+    ("C3D15", "wedge15", 15),
+    ("C3D8", "hexahedron", 8),
+    ("C3D20", "hexahedron20", 20),
+)
+# Cards that make nodes, or move them, or turn their equations.
+GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "SYSTEM", "TRANSFORM")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A keyword line and the data lines below it.
+
+    Parameters
+    ----------
+    keyword : str
+        In capitals, without the star.
+    options : dict
+        Values by their names in capitals; "" for options without one.
+    path, line : Path, int
+        Where the keyword stands.
+    data : list of (int, list of str)
+        Line number and entries of each data line.
+    """
+
+    keyword: str
+    options: dict[str, str]
+    path: Path
+    line: int
+    data: list[tuple[int, list[str]]] = field(default_factory=list)
+
+
+def blocks(path: str | Path, depth: int = 0) -> Iterator[Block]:
+    """Yield the blocks of a deck; included files take the place of *INCLUDE.
+
+    Raises
+    ------
+    DeclarationError
+        If a file cannot be read or holds no keyword.
+    """
+    if depth > DEEPEST:
+        raise wrong(path, f"files include one another more than {DEEPEST} times")
+    begun = False
+    for block in _of_one_file(Path(path)):
+        begun = True
+        if block.keyword == "INCLUDE":
+            yield from blocks(_beside(block), depth + 1)
+        else:
+            yield block
+    if not begun:
+        raise wrong(path, "this is no input file of Abaqus or CalculiX: no line begins with a keyword such as *NODE")
+
+
+def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
+    """Return the positions (3,) of the nodes of a deck by their numbers, in the deck's unit of length.
+
+    Raises
+    ------
+    DeclarationError
+        If there are none, if a line is wrong, or if cards make, move or turn nodes, which is not followed.
+    """
+    found: dict[int, np.ndarray] = {}
+    for block in deck:
+        if block.keyword in GENERATING:
+            raise wrong(
+                block.path, f"*{block.keyword} is not read; write all nodes in global x, y, z under *NODE", block.line
+            )
+        if block.keyword != "NODE":
+            continue
+        if block.options.get("SYSTEM", "R").upper() != "R":
+            raise wrong(block.path, "nodes in cylindrical or spherical coordinates are not read", block.line)
+        for path, line, entries in _data(block):
+            name, place = _node(path, line, entries)
+            if name in found and not np.array_equal(found[name], place):
+                raise wrong(path, f"node {name} is given twice, at different places", line)
+            found[name] = place
+    if not found:
+        where = deck[0].path if deck else ""
+        raise wrong(where, "there is no node under *NODE in this file")
+    return found
+
+
+def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
+    """Yield type and node numbers of each element of a deck; the type in capitals.
+
+    Raises
+    ------
+    DeclarationError
+        If a line is wrong, or an element lacks nodes.
+    """
+    for block in deck:
+        if block.keyword != "ELEMENT":
+            continue
+        kind, entries = block.options.get("TYPE", "").upper(), []
+        _, needed = solid(kind)
+        for path, line, more in _data(block):
+            entries += _integers(path, line, more)
+            if more[-1] and len(entries) > needed:  # else it continues on the next line
+                yield kind, entries[1:]
+                entries = []
+        if entries:
+            raise wrong(block.path, f"the last element has {len(entries) - 1} nodes, fewer than a {kind}", block.line)
+
+
+def solid(kind: str) -> tuple[str, int]:
+    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for anything else."""
+    family = next((kind[: len(start)] for start, _, _ in SOLIDS[::-1] if kind.startswith(start)), "")
+    return next(((name, count) for start, name, count in SOLIDS if start == family), ("", 0))
+
+
+def cells_of(found: Iterable[tuple[str, list[int]]], rows: Mapping[int, int]) -> dict[str, list[list[int]]]:
+    """Return the solid elements of a deck by meshio's names, with rows instead of numbers of nodes."""
+    cells: dict[str, list[list[int]]] = {}
+    for kind, names in found:
+        name, count = solid(kind)
+        if name and len(names) == count and all(node in rows for node in names):
+            cells.setdefault(name, []).append([rows[node] for node in names])
+    return cells
+
+
+def _of_one_file(path: Path) -> Iterator[Block]:
+    block, started = None, ""
+    for place, line in enumerate(text_of(path, "an input file of Abaqus or CalculiX").splitlines(), 1):
+        line = line.strip()
+        if not line or line.startswith("**"):
+            continue
+        if not line.startswith("*") and not started:
+            if block is not None:
+                block.data.append((place, [entry.strip() for entry in line.split(",")]))
+            continue
+        started += line
+        if line.endswith(","):  # continues on the next line
+            continue
+        if block is not None:
+            yield block
+        block, started = _block(path, place, started), ""
+    if block is not None:
+        yield block
+
+
+def _block(path: Path, line: int, text: str) -> Block:
+    name, *options = (part.strip() for part in text[1:].split(","))
+    pairs = (option.partition("=") for option in options if option)
+    values = {key.strip().upper(): value.strip().strip("\"'") for key, _, value in pairs}
+    return Block(" ".join(name.upper().split()), values, path, line)
+
+
+def _beside(block: Block) -> Path:
+    name = block.options.get("INPUT", "")
+    if not name:
+        raise wrong(block.path, f"*{block.keyword} lacks INPUT=file", block.line)
+    return block.path.parent / name
+
+
+def _data(block: Block) -> Iterator[tuple[Path, int, list[str]]]:
+    """Yield the data lines of a block, those of the file that it names included."""
+    if "INPUT" in block.options:
+        path = _beside(block)
+        for place, line in enumerate(text_of(path, f"data of *{block.keyword}").splitlines(), 1):
+            if line.strip() and not line.startswith("*"):
+                yield path, place, [entry.strip() for entry in line.split(",")]
+    for place, entries in block.data:
+        yield block.path, place, entries
+
+
+def _node(path: Path, line: int, entries: list[str]) -> tuple[int, np.ndarray]:
+    try:
+        name = int(entries[0])
+        place = np.array([number(entry) for entry in (*entries[1:4], "", "", "")[:3]])
+    except ValueError:
+        raise wrong(path, f"a node is given as number, x, y, z, not `{', '.join(entries)[:60]}`", line) from None
+    if name <= 0:
+        raise wrong(path, f"numbers of nodes are positive, not {name}", line)
+    return name, place
+
+
+def _integers(path: Path, line: int, entries: list[str]) -> list[int]:
+    try:
+        return [int(entry) for entry in entries if entry]
+    except ValueError:
+        shown = ", ".join(entries)[:60]
+        raise wrong(path, f"an element is given as number, node, node, ..., not `{shown}`", line) from None

@@ -1,0 +1,133 @@
+"""Matrices of Nastran: an OP4 file, and the nodes of the bulk data."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from components.fe.formats.foreign import existing, package, read_by
+from components.fe.formats.matrices import Matrices, mirrored
+from components.fe.formats.text import wrong
+from components.fe.nodes import Nodes
+
+DECKS = (".bdf", ".dat", ".nas", ".blk")
+FREEDOMS = 6  # of a grid point
+# Elements: name in meshio by the number of nodes; a hexahedron has the edges of its second face last.
+CARDS = {
+    "CTETRA": {4: ("tetra", range(4)), 10: ("tetra10", range(10))},
+    "CHEXA": {8: ("hexahedron", range(8)), 20: ("hexahedron20", (*range(12), *range(16, 20), *range(12, 16)))},
+    "CPENTA": {6: ("wedge", range(6)), 15: ("wedge15", (*range(9), *range(12, 15), *range(9, 12)))},
+}
+
+
+def read_nastran(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Matrices:
+    """Return mass and stiffness matrix and nodes of a Nastran job: KGG and MGG of an OP4 file, and its bulk data.
+
+    The unit of time is the second: K, in force per length, is a mass per s2 and scales as M does, by `mass` alone.
+
+    Parameters
+    ----------
+    path : str or Path
+        NAME.op4, binary or formatted, with one matrix whose name begins with K and one whose name begins with M, of all
+        grid points: six equations each in ascending order of their numbers, or three where the others are left out.
+        Beside it stands NAME.bdf (or .dat, .nas, .blk) with GRID and CORD2 cards.
+    length : float
+        Unit of length of the job in m: 1e-3 for mm. Nodes are multiplied by it.
+    mass : float
+        Unit of mass of the job in kg: 1e3 for mm, N, s, where the unit is the Mg. M and K are multiplied by it; a mass
+        matrix in units of weight has been multiplied by PARAM,WTMASS.
+
+    Returns
+    -------
+    M, K : sparse (3 n, 3 n)
+        In kg and N/m; equations x, y, z of each node, in the basic coordinate system.
+    nodes : Nodes (n, 3)
+        In m, in ascending order of their numbers, which `nodes.numbers` holds; grid points without elements, mass and
+        stiffness are left out.
+
+    Raises
+    ------
+    DeclarationError
+        If a file is missing, cut off or of another kind, a grid point has displacements in axes of its own, rotations
+        have stiffness or mass, or pyyeti is not installed (`pip install 'acausal[nastran]'`).
+    """
+    file = existing(path, "matrices of Nastran")
+    deck = next((file.with_suffix(end) for end in DECKS if file.with_suffix(end).is_file()), None)
+    if deck is None:
+        raise wrong(file, f"there is no {file.stem}.bdf (or {', '.join(DECKS[1:])}) with the grid points beside it")
+    op4 = package("pyyeti.nastran.op4", "nastran", "reading an OP4 file")
+    found = read_by(lambda: op4.read(str(file), sparse=True), file, "a file of the kind OP4")
+    numbers, places, cells = _grid(deck)
+    M, K = (_displacements(file, *_named(file, found, letter), numbers) for letter in "mk")
+    used = (abs(M) + abs(K)).diagonal().reshape(-1, 3).any(axis=1)
+    used[[row for rows in cells.values() for row in np.ravel(rows)]] = True
+    keep, rows = used.repeat(3), np.cumsum(used) - 1
+    cells = {kind: rows[np.array(members)] for kind, members in cells.items()}
+    M, K = (mass * matrix[keep][:, keep] for matrix in (M, K))
+    return M, K, Nodes(length * places[used], numbers[used], cells)
+
+
+def _named(path: Path, found: dict[str, Any], letter: str) -> tuple[str, Any]:
+    names = [name for name in found if name.lower().startswith(letter)]
+    if len(names) != 1:
+        have = ", ".join(name.upper() for name in found) or "none"
+        raise wrong(path, f"one matrix whose name begins with {letter.upper()} is expected; the file has {have}")
+    return names[0].upper(), found[names[0]]
+
+
+def _displacements(path: Path, name: str, matrix: Any, numbers: np.ndarray) -> Any:
+    """The equations of displacements, of all equations or of these alone."""
+    n, shape = numbers.size, matrix.shape
+    matrix = sp.csr_array(matrix)
+    matrix.eliminate_zeros()
+    if np.iscomplexobj(matrix.data) or not np.isfinite(matrix.data).all():
+        raise wrong(path, f"{name} holds numbers that are complex or not finite")
+    if shape == (FREEDOMS * n, FREEDOMS * n):
+        turning = np.arange(FREEDOMS * n) % FREEDOMS >= 3
+        bad = np.flatnonzero(turning & ((np.diff(matrix.indptr) > 0) | (np.diff(matrix.tocsc().indptr) > 0)))
+        if bad.size:
+            what = f"{name} has entries for a rotation of grid point {numbers[bad[0] // FREEDOMS]}"
+            raise wrong(path, f"{what}; only solids are read, whose equations are displacements")
+        matrix = matrix[~turning][:, ~turning]
+    elif shape != (3 * n, 3 * n):
+        size = f"{shape[0]} x {shape[1]}"
+        raise wrong(
+            path, f"{name} is {size}, where {n} grid points have {FREEDOMS * n} equations, or {3 * n} without turns"
+        )
+    return mirrored(matrix) if not sp.tril(matrix, -1).nnz or not sp.triu(matrix, 1).nnz else matrix
+
+
+def _grid(path: Path) -> tuple[np.ndarray, np.ndarray, dict[str, list[list[int]]]]:
+    """Numbers, places in the basic coordinate system, and elements as rows of these."""
+    bulk = package("pyyeti.nastran.bulk", "nastran", "reading bulk data of Nastran")
+    what = "bulk data of Nastran with GRID cards"
+    uset, _ = read_by(lambda: bulk.bulk2uset(str(path), encoding="latin_1"), path, what)
+    index, values = uset.index.to_numpy(), uset[["x", "y", "z"]].to_numpy(dtype=float)
+    numbers = np.array([point for point, _ in index], dtype=np.int64)[::FREEDOMS]
+    if len(index) != FREEDOMS * numbers.size or not np.isfinite(values).all():
+        raise wrong(path, "scalar points, or places that are no numbers, are among the grid points")
+    if not numbers.size:
+        raise wrong(path, "there are no GRID cards in this file")
+    turned = (values[3::6] != np.eye(3)[0]).any(axis=1) | (values[4::6] != np.eye(3)[1]).any(axis=1)
+    if turned.any():
+        raise wrong(
+            path, f"grid point {numbers[turned][0]} has displacements in axes of its own (CD), which is not read"
+        )
+    order = np.argsort(numbers, kind="stable")
+    rows = {int(name): row for row, name in enumerate(numbers[order])}
+    cells: dict[str, list[list[int]]] = {}
+    for card, kinds in CARDS.items():
+        read = read_by(
+            lambda card=card: bulk.rdcards(str(path), card, return_var="list", no_data_return=[], encoding="latin_1"),
+            path,
+            what,
+        )
+        for _, _, *names in read:
+            names = [rows[name] for name in names if name in rows]
+            kind, places = kinds.get(len(names), ("", ()))
+            if kind:
+                cells.setdefault(kind, []).append([names[place] for place in places])
+    return numbers[order], values[::FREEDOMS][order], cells

@@ -1,0 +1,213 @@
+"""The text of a SID file: nested blocks, and matrices that are polynomials of first degree in the coordinates of modes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from components.fe.formats.text import number, text_of, wrong
+
+BLOCKS = ("part", "modal", "refmod", "frame", "node")
+MATRICES = (
+    "origin",
+    "phi",
+    "psi",
+    "AP",
+    "sigma",
+    "mdCM",
+    "J",
+    "Ct",
+    "Cr",
+    "Me",
+    "Gr",
+    "Ge",
+    "Oe",
+    "ksigma",
+    "Ke",
+    "De",
+)
+ENTRY = re.compile(r"m([01])\s*\(([\d\s,]+)\)")
+SYMMETRIC, UNIT = 2, 4
+DIGITS = 1e-6  # to which files of few digits agree with themselves
+LARGEST = 10**8  # entries of a matrix: three times those of Ge for 2000 modes
+# Where the files that programs write have row, column and mode in m1(., ., .).
+ORDERS = ((0, 2, 1), (0, 1, 2), (1, 2, 0))
+
+
+@dataclass
+class Block:
+    """What stands between a name and its end.
+
+    Parameters
+    ----------
+    name, value : str
+        "node" and "tip" of `new node = tip`.
+    line : int
+        Where it begins.
+    settings : dict
+        Texts by name, with the lines where they stand.
+    parts : list of Block
+        Blocks inside.
+    """
+
+    name: str
+    value: str
+    line: int
+    settings: dict[str, tuple[int, str]] = field(default_factory=dict)
+    parts: list[Block] = field(default_factory=list)
+
+    def named(self, name: str) -> list[Block]:
+        """Return the blocks inside of this name."""
+        return [part for part in self.parts if part.name == name]
+
+
+def read_tree(path: str | Path) -> Block:
+    """Return the outermost block of a file.
+
+    Raises
+    ------
+    DeclarationError
+        If the file is none of this kind, or a block does not end.
+    """
+    top = Block("", "", 0)
+    stack = [top]
+    for place, line in enumerate(text_of(path, "a SID").splitlines(), 1):
+        text = " ".join(line.split("!")[0].split())
+        if not text:
+            continue
+        words = text.removeprefix("new ").partition("=")
+        name, value = words[0].strip(), words[2].strip()
+        if text.startswith("end"):
+            _end(path, stack, place, text)
+        elif words[1] and name not in BLOCKS:
+            stack[-1].settings["".join(name.split())] = (place, value)
+        elif name in BLOCKS + MATRICES:
+            stack[-1].parts.append(Block(name, value, place))
+            stack.append(stack[-1].parts[-1])
+        else:
+            raise wrong(path, f"a SID has blocks such as part, new modal, frame, mdCM here, not `{text[:60]}`", place)
+    if len(stack) > 1:
+        raise wrong(
+            path, f"the file ends inside of `{stack[-1].name}`, which begins in line {stack[-1].line}: it was cut off"
+        )
+    return top
+
+
+@dataclass(frozen=True)
+class Taylor:
+    """A matrix M0 + sum over b of M1_b q_b.
+
+    Parameters
+    ----------
+    constant : array (rows, columns)
+        M0.
+    linear : array (modes, rows, columns)
+        M1.
+    """
+
+    constant: np.ndarray
+    linear: np.ndarray
+
+    def lines(self, name: str, indent: str) -> Iterator[str]:
+        """Yield the lines of a file that say this."""
+        (rows, columns), n = self.constant.shape, len(self.linear)
+        order = int(self.linear.any())
+        head = {"order": order, "nrow": rows, "ncol": columns, "nq": n, "nqn": 0, "structure": 3}
+        yield f"{indent}{name}"
+        yield from (f"{indent}   {key:<12} = {value}" for key, value in head.items())
+        for i, j in np.ndindex(rows, columns):
+            yield f"{indent}   m0({i + 1:4d},{j + 1:4d}) = {self.constant[i, j]:.17g}"
+        for b, i, j in zip(*np.nonzero(self.linear), strict=True):
+            yield f"{indent}   m1({i + 1:4d},{b + 1:4d},{j + 1:4d}) = {self.linear[b, i, j]:.17g}"
+        yield f"{indent}end {name}"
+
+
+def taylor(path: str | Path, block: Block, order: tuple[int, ...]) -> Taylor:
+    """Return the matrix that a block holds; zeros are not written.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, for messages.
+    block : Block
+        With order, nrow, ncol, nq, structure and entries.
+    order : tuple
+        Which of the three indices of m1 are row, column and mode; one of `ORDERS`.
+
+    Raises
+    ------
+    DeclarationError
+        If an entry lies outside of the matrix or is no number.
+    """
+    rows, columns, n, structure = (_whole(path, block, name) for name in ("nrow", "ncol", "nq", "structure"))
+    if rows * columns * (n + 1) > LARGEST:
+        raise wrong(
+            path, f"`{block.name}` is {rows} x {columns} with {n} modes, more than a reduced body has", block.line
+        )
+    constant, linear = np.zeros((rows, columns)), np.zeros((n, rows, columns))
+    if structure == UNIT:
+        constant = np.eye(rows, columns)
+    for name, (line, text) in block.settings.items():
+        entry = ENTRY.fullmatch(name)
+        if not entry:
+            continue
+        index = [int(word) - 1 for word in entry[2].split(",") if word]
+        try:
+            value = number(text)
+            if len(index) != 2 + int(entry[1]) or min(index) < 0:
+                raise IndexError
+            if entry[1] == "0":
+                constant[tuple(index)] = value
+            else:
+                linear[index[order[2]], index[order[0]], index[order[1]]] = value
+        except ValueError:
+            raise wrong(path, f"{name} is given as `{text[:60]}`, which is no finite number", line) from None
+        except IndexError:
+            size = f"{rows} x {columns} with {n} modes"
+            raise wrong(path, f"{name} lies outside of {block.name}, which is {size}", line) from None
+    if structure == SYMMETRIC:
+        constant, linear = (np.where(m != 0, m, np.swapaxes(m, -1, -2)) for m in (constant, linear))
+    return Taylor(constant, linear)
+
+
+def index_order(path: str | Path, nodes: Sequence[Block]) -> tuple[int, ...]:
+    """Return the order of indices with which nodes are displaced as their mode shapes say: M1 of origin is M0 of phi."""
+    for node in nodes:
+        (origin,), (phi,) = node.named("origin"), node.named("phi")
+        shape, indices = taylor(path, phi, ORDERS[0]).constant, _linear_indices(origin)
+        if not indices or not shape.any():
+            continue
+        most = (3, 1, shape.shape[1])
+        for order in ORDERS:
+            if all(len(i) == 3 and all(i[order[k]] <= most[k] for k in range(3)) for i in indices):
+                moved = taylor(path, origin, order).linear[:, :, 0].T
+                if moved.shape == shape.shape and np.allclose(moved, shape, atol=DIGITS * np.abs(shape).max()):
+                    return order
+        raise wrong(
+            path, "m1 of `origin` differs from m0 of `phi`: the node would not move as its modes say", origin.line
+        )
+    return ORDERS[0]
+
+
+def _linear_indices(block: Block) -> list[list[int]]:
+    entries = [ENTRY.fullmatch(name) for name in block.settings]
+    return [[int(word) for word in entry[2].split(",") if word] for entry in entries if entry and entry[1] == "1"]
+
+
+def _end(path: str | Path, stack: list[Block], line: int, text: str) -> None:
+    name = text.removeprefix("end").strip()
+    if len(stack) == 1 or (name and name != stack[-1].name):
+        inside = f"`{stack[-1].name}` is to end here" if len(stack) > 1 else "nothing has begun"
+        raise wrong(path, f"{inside}, not `{text[:60]}`", line)
+    stack.pop()
+
+
+def _whole(path: str | Path, block: Block, name: str) -> int:
+    line, text = block.settings.get(name, (block.line, ""))
+    if not text.isdecimal():
+        raise wrong(path, f"`{block.name}` needs {name} = a whole number{f', not `{text[:60]}`' if text else ''}", line)
+    return int(text)

@@ -1,0 +1,96 @@
+"""Matrix Market files: what scipy writes is read, under every way to name three files; other files are refused."""
+
+from __future__ import annotations
+
+import gzip
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from scipy.io import mmwrite
+
+from acausal import DeclarationError
+from components.fe import box, read_matrix_market
+
+BODY = box((0.1, 0.02, 0.03), (2, 1, 1), "hex8", E=7e10, nu=0.33, rho=2700)
+HEAD = "%%MatrixMarket matrix coordinate real general\n"
+WRONG = {
+    "empty": ("K", lambda s: "", "not a file in the Matrix Market format|no file in the Matrix Market format"),
+    "foreign": ("K", lambda s: "hello\n", "Missing banner"),
+    "half": ("M", lambda s: s[: len(s) // 2], "or not whole: .*(Line|Truncated)"),
+    "lines_lost": ("M", lambda s: "".join(s.splitlines(True)[:-7]), "or not whole: .*Truncated"),
+    "complex": ("K", lambda s: s.replace(" real ", " complex ", 1), "complex|not whole"),
+    "pattern": ("K", lambda s: "%%MatrixMarket matrix coordinate pattern general\n36 36 1\n1 1\n", "real matrix"),
+    "skew": ("K", lambda s: s.replace("symmetric", "skew-symmetric", 1), "skew-symmetric"),
+    "infinite": ("K", lambda s: s.replace("e+0", "e+90", 1), "not finite"),
+    "nan": ("nodes", lambda s: s[: s.rindex("\n", 0, -1)] + "\nnan\n", "not finite"),
+    "outside": ("K", lambda s: f"{HEAD}36 36 1\n1 99 2.0\n", "out of bounds"),
+    "size": ("K", lambda s: f"{HEAD}33 33 1\n1 1 2.0\n", "the matrix is 33 x 33, where 12 nodes have 36 equations"),
+    "huge": ("K", lambda s: f"{HEAD}3000000000 3000000000 1\n1 1 2.0\n", "the matrix is 3000000000 x"),
+    "plane": ("nodes", lambda s: "%%MatrixMarket matrix array real general\n2 2\n1\n2\n3\n4\n", "three columns"),
+    "lost": ("nodes", None, "there is no file bodynodes.mtx beside it"),
+}
+
+
+def write(folder: Path, begin: str, mark: str = "") -> None:
+    for name, matrix in zip(("M", "K", "nodes"), BODY, strict=True):
+        given = np.asarray(matrix) if name == "nodes" else sp.coo_matrix(matrix)
+        mmwrite(folder / f"{begin}{mark}{name}.mtx", given, precision=17)
+
+
+def same(found: tuple) -> bool:
+    return all(abs(a - b).max() == 0 for a, b in zip(found, BODY, strict=True))
+
+
+@pytest.mark.parametrize("mark", ["", "_", "-", "."])
+def test_three_files_by_what_their_names_have_in_common(tmp_path: Path, mark: str) -> None:
+    write(tmp_path, "body", mark)
+    for given in ("body", *(f"body{mark}{name}.mtx" for name in ("M", "K", "nodes"))):
+        assert same(read_matrix_market(tmp_path / given))
+
+
+def test_folder_three_names_and_compressed_files(tmp_path: Path) -> None:
+    write(tmp_path, "")
+    assert same(read_matrix_market(tmp_path))
+    moved = [
+        shutil.move(tmp_path / f"{name}.mtx", tmp_path / f"mat_{k}.txt") for k, name in enumerate(("M", "K", "nodes"))
+    ]
+    assert same(read_matrix_market(moved))
+    for name, path in zip(("M", "K", "nodes"), moved, strict=True):
+        (tmp_path / f"z_{name}.mtx.gz").write_bytes(gzip.compress(Path(path).read_bytes()))
+    assert same(read_matrix_market(tmp_path / "z"))
+    assert same(read_matrix_market(tmp_path / "z_K.mtx.gz"))
+    (tmp_path / "z_K.mtx.gz").write_bytes((tmp_path / "z_K.mtx.gz").read_bytes()[:300])
+    with pytest.raises(DeclarationError, match=r"z_K\.mtx\.gz"):
+        read_matrix_market(tmp_path / "z")
+
+
+def test_general_and_symmetric_storage_and_units(tmp_path: Path) -> None:
+    M, K, nodes = BODY
+    mmwrite(tmp_path / "M.mtx", sp.coo_matrix(M * 1e-3), precision=17, symmetry="general")
+    mmwrite(tmp_path / "K.mtx", sp.coo_matrix(K * 1e-3), precision=17, symmetry="symmetric")
+    mmwrite(tmp_path / "nodes.mtx", np.asarray(nodes) * 1e3, precision=17)
+    found = read_matrix_market(tmp_path, length=1e-3, mass=1e3)
+    assert all(abs(a - b).max() < 1e-15 * abs(b).max() for a, b in zip(found, BODY, strict=True))
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_files(tmp_path: Path, case: str) -> None:
+    name, change, message = WRONG[case]
+    write(tmp_path, "body")
+    path = tmp_path / f"body{name}.mtx"
+    if change is None:
+        path.unlink()
+    else:
+        path.write_text(change(path.read_text()))
+    with pytest.raises(DeclarationError, match=message):
+        read_matrix_market(tmp_path / "body")
+
+
+def test_other_names(tmp_path: Path) -> None:
+    with pytest.raises(DeclarationError, match=r"ends in none of M\.mtx"):
+        read_matrix_market(tmp_path / "stiffness.mtx")
+    with pytest.raises(DeclarationError, match="are three"):
+        read_matrix_market([tmp_path / "a.mtx", tmp_path / "b.mtx"])
