@@ -183,7 +183,7 @@ class FEBody(MovingBody):
     def validity(self):
         yield from self.past_centre(self.world, self._inertia.mass, self._centre(), self._velocity())
         yield from (Moments(self._body).stays_none(interface, frame) for interface, frame in self._points)
-        if self.check_range and self.modes:
+        if self.check_range and np.any(self._body.frequencies > 0):
             yield spinning(self._body, self.reference.R.w, self.stiffness)
 
     def stored_energy(self):

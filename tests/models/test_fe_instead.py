@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import chain, connect
-from components import FixedRotation
+from components import FixedRotation, FixedTranslation
 from components.fe import FEBody, ReducedBody, box, reduce_body
 from models import FourBar, SliderCrank, SpinUp
 from tests.components.fe.moving import ends
@@ -17,12 +17,14 @@ from tests.reference import cantilever
 
 
 @cache
-def bar(length: float, area: float, J: float, E: float, rho: float, elements: int, modes: int) -> ReducedBody:
+def bar(
+    length: float, area: float, J: float, E: float, rho: float, elements: int, modes: int, basis: str = "held"
+) -> ReducedBody:
     """A bar of hex20 whose height follows from J / A; the modulus and the density give it the stiffness and mass of the beam."""
-    height, width = np.sqrt(12 * J / area), 0.06 * length / 8
+    height, width = np.sqrt(12 * J / area), 0.06
     scale = area / (height * width)
     M, K, nodes = box((length, height, width), (elements, 1, 1), "hex20", E=E * scale, nu=0.0, rho=rho * scale)
-    return reduce_body(M, K, nodes, frames=ends(nodes), hold="frame_a", modes=modes)
+    return reduce_body(M, K, nodes, frames=ends(nodes), hold="frame_a", modes=modes, basis=basis)
 
 
 HUB = (8.0, 7.299e-5, 8.214e-9, 6.895e10, 2767.0)
@@ -40,6 +42,35 @@ def test_spin_up_is_that_of_a_linear_body():
     """Without stiffening; the true beam deflects by 0.2804 m."""
     result = ac.simulate(OnHub(omega=2.0), stop_time=20.0, tolerance=1e-8)
     assert result["tip_deflection"].min() == pytest.approx(-0.3436, abs=1e-4)
+
+
+class InARow(SpinUp):
+    """The beam as several bodies, each in a frame of its own."""
+
+    bodies = ac.structural("number of bodies", default=2)
+
+    @ac.parts
+    def links(self):
+        length, *section = HUB
+        body = bar(length / self.bodies, *section, 40 // self.bodies, 6, "craig-bampton")
+        return [FEBody(reduced=body, check_range=False) for _ in range(self.bodies)]
+
+    @ac.part
+    def beam(self):
+        return FixedTranslation(r=(0, 0, 0))
+
+    def connections(self):
+        yield chain(self.world, self.hub, *self.links, self.beam)
+        yield connect(self.drive.flange, self.hub.axis)
+
+
+def test_bodies_in_a_row_stiffen_as_the_true_beam():
+    found = []
+    for bodies in (2, 4, 8):
+        result = ac.simulate(InARow(bodies=bodies, omega=2.0), stop_time=20.0, tolerance=1e-6)
+        found.append(abs(result["tip_deflection"].min() + 0.2804))
+    assert found[2] < 2e-3
+    assert found[0] > 2 * found[1] > 4 * found[2]
 
 
 @pytest.mark.parametrize(("elements", "share"), [(40, 1.5e-3), (80, 5e-5)])
