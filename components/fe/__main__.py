@@ -86,6 +86,8 @@ def reduce(
             _unused(f"the SID {shown_name(file)} is reduced already", frame=frames, modes=modes, material=material)
             body = read_sid(file, **scales)
         else:
+            if frequency is not None:
+                _unused("--frequency says how many there are", modes=modes)
             M, K, nodes = _matrices(file, material, scales)
             places = _frames(frames or [], nodes, by_number)
             held = _hold(hold, places, nodes, by_number)

@@ -33,4 +33,9 @@ def read(path: Path) -> dict[str, np.ndarray]:
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path} of a reduced body") from None
     except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
-        raise DeclarationError(f"{path} is no file of a reduced body, or not whole: {error}") from None
+        raise DeclarationError(f"{path} is no file of a reduced body, or not whole{said(error)}") from None
+
+
+def said(error: Exception) -> str:
+    """Write what numpy said of a file, but not that it might be loaded by running what it holds."""
+    return "" if "pickle" in str(error) else f": {error}"

@@ -154,8 +154,9 @@ def _completed(found: Reference, frames: list[Frame], body: Solid) -> Reference:
     if rows is not None and far > ON_A_LINE:
         return Reference(found.origin, found.held, np.vstack([found.rows, motion / far @ rows]), found.names)
     raise DeclarationError(
-        f"hold leaves {free.shape[1]} of the six rigid motions of the body free (too few nodes, or nodes on a line): hold "
-        'more, as {"hinge": "xyz", "tip": "z"}'
+        f"hold leaves {free.shape[1]} of the six rigid motions of the body free (too few nodes, or nodes on a line): take "
+        "a frame of more nodes, give a second one off the line, or, from Python, hold more, as "
+        '{"hinge": "xyz", "tip": "z"}'
     )
 
 

@@ -157,8 +157,7 @@ def frames_of(frames: Mapping[str, Any], places: Array, empty: Array) -> list[Fr
     Raises
     ------
     DeclarationError
-        If a name is no Python name, a node is not there, is named twice, or has no stiffness, or two rigid frames share
-        a node.
+        If a name is no Python name, or a node is not there, is named twice, or has no stiffness.
     """
     if not isinstance(frames, Mapping):
         raise DeclarationError(f'frames maps names to nodes, as {{"tip": [53]}}, which {frames!r} does not')

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +17,7 @@ from acausal.result.files import whole
 from components.fe.elements.material import Material
 from components.fe.elements.stress import COMPONENTS, operator, to_nodes
 from components.fe.nodal_field import NodalField
-from components.fe.reduced_body import ReducedBody
+from components.fe.reduced_body import ReducedBody, alike
 
 AXES = ("world", "body")
 
@@ -66,6 +67,10 @@ class NodalResult:
         if n > found.n or frame is None:
             raise DeclarationError(
                 f"`{shown_name(body)}` is another body than the reduced one: {n} modes, {found.n} of it"
+            )
+        if _is_another(found.first(n), result.tree, body):
+            raise DeclarationError(
+                f"`{shown_name(body)}` is another body than the reduced one: its mass, frames or stiffness differ"
             )
         self._q, self._qd, self._qdd = (
             result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd")
@@ -265,6 +270,15 @@ def von_mises(stress: np.ndarray) -> np.ndarray:
 
 def _held(reduced: ReducedBody) -> list[Any]:
     return [i for i in reduced.interfaces if not (i.displacement.any() or i.rotation.any() or i.place.any())]
+
+
+def _is_another(reduced: ReducedBody, tree: Any, path: str) -> bool:
+    """Whether the model has another body at a path; a result that came from another process does not know."""
+    part = tree
+    for name in re.findall(r"\w+", path):
+        part = part[int(name)] if isinstance(part, list) else getattr(part, name, None)
+    own = getattr(part, "reduced", None)
+    return isinstance(own, ReducedBody) and not alike(own.first(reduced.n), reduced)
 
 
 def _write(path: Path, picture: tuple[Any, ...]) -> None:

@@ -17,6 +17,9 @@ from components.fe.arrays import Array, frozen
 from components.fe.invariants import axial
 from components.fe.nodal_field import NodalField
 
+# Part of mass or stiffness: far above the rounding of a reduction, far below a change of a design.
+ALIKE = 1e-6
+
 
 @dataclass(frozen=True, eq=False)
 class Interface:
@@ -259,6 +262,16 @@ class ReducedBody:
             nodal = NodalField(content["nodal nodes"], content["nodal modes"], cells)
         arrays = {name: content[name] for name in _shapes(0)}
         return cls(mass=float(content["mass"]), interfaces=tuple(frames), nodal=nodal, **arrays)
+
+
+def alike(one: ReducedBody, other: ReducedBody) -> bool:
+    """Whether two bodies are one up to rounding, as one that was reduced twice, with more modes the second time."""
+    if one.n != other.n or [i.name for i in one.interfaces] != [i.name for i in other.interfaces]:
+        return False
+    return all(
+        np.allclose(a, b, rtol=0, atol=ALIKE * np.abs(a).max(initial=0.0))
+        for a, b in ((one.mass, other.mass), (one.second_moment, other.second_moment), (one.K, other.K))
+    )
 
 
 def _shapes(n: int) -> dict[str, tuple[int, ...]]:

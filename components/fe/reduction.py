@@ -107,8 +107,10 @@ def _reduced(
     body: Solid, shapes: Array, squares: Array, held: Reference, frames: list[Frame], damping: Any, cells: Any
 ) -> ReducedBody:
     n, count = len(squares), len(body.nodes)
-    ratios = np.broadcast_to(np.asarray(damping, dtype=float), (n,)) if np.ndim(damping) == 0 else np.asarray(damping)
-    if ratios.shape != (n,) or not (np.isfinite(ratios) & (ratios >= 0)).all():
+    given = np.asarray(damping)
+    ratios = np.broadcast_to(given, (n,)) if given.ndim == 0 else given
+    real = np.issubdtype(given.dtype, np.floating) or np.issubdtype(given.dtype, np.integer)
+    if ratios.shape != (n,) or not real or not (np.isfinite(ratios) & (ratios >= 0)).all():
         raise DeclarationError(
             f"damping is a part of critical damping, 0 or more, for all or each of {n} modes, not {damping!r}"
         )

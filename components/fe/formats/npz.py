@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
+from components.fe.archive import said
 
 PLACES = ("coords_m", "coords_mm", "nodes")
 
@@ -50,8 +51,10 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path}") from None
     except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
-        raise DeclarationError(f"{path} is no .npz file, or not whole: {error}") from None
+        raise DeclarationError(f"{path} is no .npz file, or not whole{said(error)}") from None
     places = next((name for name in PLACES if name in content), None)
+    if places is None and "modal_first" in content:
+        raise DeclarationError(f"{path} holds a body that is reduced already: FEBody(reduced=...) takes it")
     if places is None:
         raise DeclarationError(f"{path} holds no nodes ({', '.join(PLACES)}), but {', '.join(content) or 'nothing'}")
     K, M = _matrix(content, "K", path), _matrix(content, "M", path)

@@ -191,7 +191,7 @@ def test_a_line_alone_is_no_reference_frame():
     M, K, nodes = rod()
     with pytest.raises(
         ac.DeclarationError,
-        match=r'leaves 1 of the six rigid motions of the body free .*: hold more, as \{"hinge": "xyz", "tip": "z"\}',
+        match=r'leaves 1 of the six rigid motions of the body free .*, hold more, as \{"hinge": "xyz", "tip": "z"\}',
     ):
         reduce_body(M, K, nodes, frames={"hinge": [0, 2, 4]}, hold="hinge")
 
@@ -204,6 +204,7 @@ NUMBERS = {
     "basis": ({"basis": "guyan"}, "'held', 'free', 'craig-bampton', not 'guyan'"),
     "damping": ({"damping": -0.1}, "part of critical damping"),
     "dampings": ({"damping": [0.1, 0.2]}, "for all or each of 10 modes"),
+    "damping in words": ({"damping": "little"}, "part of critical damping"),
     "frequency": ({"frequency": -3.0}, "positive bound in Hz"),
     "static": (
         {"basis": "craig-bampton", "modes": 2},
@@ -306,6 +307,13 @@ def test_npz_files_that_are_none(tmp_path):
         (tmp_path / "cut.npz").write_bytes(whole[:part])
         with pytest.raises(ac.DeclarationError, match=r"no \.npz file, or not whole"):
             read_npz(tmp_path / "cut.npz")
+    (tmp_path / "text.npz").write_text("hello")
+    with pytest.raises(ac.DeclarationError, match=r"no \.npz file, or not whole$"):
+        read_npz(tmp_path / "text.npz")
+    M, K, nodes = block()
+    reduce_body(M, K, nodes, frames={"a": [0]}, modes=1).save(tmp_path / "reduced.npz")
+    with pytest.raises(ac.DeclarationError, match="holds a body that is reduced already"):
+        read_npz(tmp_path / "reduced.npz")
 
 
 def test_npz_triangles_and_scales(tmp_path):

@@ -128,6 +128,7 @@ def test_calculix_by_numbers_of_nodes(tmp_path: Path) -> None:
         (["a.npz", *FRAMES, "--basis", "best"], "best"),
         (["a.npz", *FRAMES, "--damping", "-1"], "damping"),
         (["a.npz", *FRAMES, "--frequency", "-1"], "frequency"),
+        (["a.npz", *FRAMES, "--frequency", "9", "--modes", "3"], "--modes has no use here: --frequency says how many"),
         (["a.npz", *FRAMES, "--length", "0"], "--length is a unit in SI"),
         (["a.npz", *FRAMES, "--mass", "nan"], "--mass is a unit in SI"),
         (["a.npz", *FRAMES, "--material", "1,2,3"], "--material has no use here"),

@@ -178,6 +178,17 @@ def test_wrong_arguments() -> None:
         NodalResult(swung(), "beam", rod())
     with pytest.raises(DeclarationError, match="is another body than the reduced one: 6 modes, 2 of it"):
         NodalResult(swung(), "rod", rod().first(2))
+    M, K, places = box((0.1, 0.015, 0.01), (8, 2, 1), "hex8", **RUBBER)
+    frames = {"hinge": [0, 2, 4], "tip": [50]}
+    for other in (
+        reduce_body(M, 1.01 * K, places, frames=frames, hold="hinge", modes=6),
+        reduce_body(M, K, places, frames=frames, hold=(2, 50, 0), modes=6),
+        reduce_body(M, K, places, frames={**frames, "end": [48]}, hold="hinge", modes=6),
+    ):
+        with pytest.raises(DeclarationError, match="is another body than the reduced one"):
+            NodalResult(swung(), "rod", other)
+    more = reduce_body(M, K, places, frames=frames, hold="hinge", modes=12)
+    assert NodalResult(swung(), "rod", more).position().shape == (201, 54, 3)
     nodes = NodalResult(swung(), "rod", rod())
     for wrong in ([54], [-1], [0.5]):
         with pytest.raises(DeclarationError, match="nodes are rows from 0 to 53"):
