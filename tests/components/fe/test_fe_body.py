@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ import acausal as ac
 from acausal import Model, chain, connect, fixed, part, piecewise, structural, time
 from components import Body, BodyShape, Revolute, Spherical, World, WorldForce, WorldTorque
 from components.fe import FEBody, Interface, ReducedBody, box, reduce_body
+from tests.benchmarks.fe import Lopsided
 from tests.components.fe.moving import RUBBER, SIZE, ends, momenta, rod
 from tests.reference.two_bricks import TwoBricks, turned
 
@@ -266,3 +270,40 @@ def test_state_at_the_start(initial):
     else:
         assert sag[0] == pytest.approx(0, abs=1e-15)
         assert np.ptp(sag) > 1e-3
+
+
+class Spun(Model):
+    """A rod in mean axes, free, about an axis across it."""
+
+    share = structural("of the first frequency", default=0.6)
+    told = structural("whether it is told", default=True)
+    world = World(gravity=None)
+
+    @part
+    def body(self):
+        reduced = rod("mean-axis")
+        start: dict = {"r_0": fixed((0, 0, 0)), "v_0": fixed((0, 0, 0)), "angles_fixed": True}
+        w = (0, 0, self.share * 2 * np.pi * reduced.frequencies[0])
+        return FEBody(reduced=reduced, check_range=self.told, w_a=fixed(w), **start)
+
+
+def test_a_fast_spin_is_told():
+    with pytest.warns(ac.AcausalWarning, match="it turns faster than half of its first frequency"):
+        ac.simulate(Spun(), stop_time=0.01)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.simulate(Spun(share=0.4), stop_time=0.01)
+        ac.simulate(Spun(told=False), stop_time=0.01)
+        # Four times the stiffness, twice the frequency.
+        ac.simulate(Spun(), stop_time=0.01, parameters={"body.stiffness": 4})
+
+
+def test_modes_without_stiffness_have_no_frequency_to_near():
+    soft = replace(rod("mean-axis"), K=np.zeros((6, 6)))
+    ac.simulate(Spun(), stop_time=0.01, parameters={"body.reduced": soft})
+
+
+def test_operations_depend_on_the_modes_alone():
+    """With their Jacobian, of a body without symmetry."""
+    compiled = ac.compile(Lopsided(modes=20))
+    assert compiled.report["operations"] <= 130 * 20**2
