@@ -53,7 +53,7 @@ def mesh(reader: Any, path: str) -> dict[str, np.ndarray]:
 
 def main(full: str, beside: str, out: str) -> int:
     """Write the arrays, or print what is wrong: the file, a tab, and why."""
-    from ansys.mapdl import reader
+    from ansys.mapdl import reader  # pyright: ignore[reportMissingImports]
 
     content = {}
     for path, read in ((full, matrices), (beside, mesh)):
