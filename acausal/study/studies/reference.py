@@ -172,9 +172,10 @@ def _look(measure: Measure, state: _State, start: Case, asked: float) -> tuple[R
     # The two that change least go on: they converge fastest.
     pairs = sorted(pairs, key=lambda pair: worst(pair[0].values, pair[1].values))[:2]
     coarser, best, _ = pairs[0]
-    agreement = {"coarser elements": _distances(coarser, best)}
+    # As many elements as there can be leave nothing to compare with.
+    agreement = {"coarser elements": _distances(coarser, best)} if coarser.case != best.case else {}
     agreement |= {other.case.formulation: _distances(other, best) for _, other, _ in pairs[1:]}
-    elements = max(max(found.values()) for found in agreement.values())
+    elements = max((max(found.values()) for found in agreement.values()), default=0.0)
     looser = measure([replace(best.case, tolerance=STUDY.tighter * state.tolerance)])[0]
     if looser.error:
         return None, state, _failed([looser])

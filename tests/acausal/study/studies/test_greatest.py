@@ -112,6 +112,8 @@ def test_a_study_ends_at_the_greatest(formulations):
     study = ac.study(Sum(), formulations=formulations, tolerances=[1e-6], repeats=1, workers=1, accuracy=1e-6)
     assert study.reference.values["y"][-1] == pytest.approx(value(6), rel=1e-6)
     assert study.reference.floor <= 1e-6
+    # Of a number of elements with itself nothing is told.
+    assert all(max(found.values()) > 0 for found in study.reference.agreement.values())
     errors = {row.case.settings["series.n"]: row.error for row in study.rows}
     assert max(errors) == 6
     assert errors[6] < 1e-5
