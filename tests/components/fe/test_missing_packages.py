@@ -47,6 +47,7 @@ def test_files_for_paraview(tmp_path: Path) -> None:
 
     class Result(dict):
         time = np.array([0.0])
+        tree = None
 
     frame = {name: np.zeros((1, 3)) for name in ("r_0", "v", "a", "z", "R.w")} | {"R.T": np.eye(3)[None]}
     result = Result({f"body.{name}": np.zeros((1, 1)) for name in ("q", "qd", "qdd")})
