@@ -44,8 +44,8 @@ def assemble(
     Raises
     ------
     DeclarationError
-        If a kind of element is not known, an element is folded or names nodes that are not there, a node belongs to
-        none, or scikit-fem, which the elements with nodes on edges need, is not installed.
+        If a kind of element is not known, an element is folded or names nodes that are not there, or a node
+        belongs to none.
     """
     from scipy.sparse import bmat, csr_array, kron
 

@@ -69,7 +69,7 @@ def box(size: Any, counts: Any, element: str, *, E: float, nu: float, rho: float
         Elements along x, y, z.
     element : str
         "hex8" (8 nodes, incompatible modes), "hex20" (20 nodes), or "tet10" (six tetrahedra of 10 nodes in each box of
-        the counts); the latter two need scikit-fem.
+        the counts).
     E, nu, rho : float
         Modulus of elasticity in Pa, Poisson's ratio, density in kg/m3.
 
@@ -83,7 +83,7 @@ def box(size: Any, counts: Any, element: str, *, E: float, nu: float, rho: float
     Raises
     ------
     DeclarationError
-        If a size, a count or the material cannot be, the element is none of these, or scikit-fem is needed and missing.
+        If a size, a count or the material cannot be, or the element is none of these.
 
     Examples
     --------

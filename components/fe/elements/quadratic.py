@@ -83,11 +83,9 @@ def _sparse(data: Any, rows: Any, columns: Any, count: int) -> Any:
 
 def _basis(kind: str, points: np.ndarray, cells: np.ndarray) -> tuple[Any, np.ndarray]:
     """A basis of scikit-fem with the elements' own geometry, and the node of each of its freedoms."""
-    try:
-        from skfem import Basis, ElementHexS2, ElementTetP2, MeshHex1, MeshTet1
-        from skfem.mapping import MappingIsoparametric
-    except ImportError:
-        raise DeclarationError(f"{kind} needs scikit-fem: pip install 'acausal[fe]'") from None
+    from skfem import Basis, ElementHexS2, ElementTetP2, MeshHex1, MeshTet1
+    from skfem.mapping import MappingIsoparametric
+
     element, plain = (ElementTetP2(), MeshTet1) if kind == "tetra10" else (ElementHexS2(), MeshHex1)
     corners = CORNERS[kind]
     places = np.vstack([corners, [corners[list(edge)].mean(axis=0) for edge in EDGES[kind]]])

@@ -48,7 +48,7 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
     ------
     DeclarationError
         If the file is missing, cut off or of another kind, the solid has other elements, the material cannot be, or
-        meshio or scikit-fem is not installed (`pip install 'acausal[fe]'`).
+        meshio is not installed (`pip install 'acausal[fe]'`).
     """
     file = existing(path, "a mesh")
     places, cells, numbers = _deck(file) if file.suffix.lower() == ".inp" else _mesh(file)

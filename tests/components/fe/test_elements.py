@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -178,9 +177,3 @@ def test_nodes_of_no_element_are_named():
     points, cells = mesh((1.0, 1.0, 1.0), (1, 1, 1), "hex8")
     with pytest.raises(ac.DeclarationError, match=r"1 nodes belong to no solid element, the first of them \[8\]"):
         assemble(np.vstack([points, [0, 0, 5]]), cells, **STEEL)
-
-
-def test_without_scikit_fem(monkeypatch):
-    monkeypatch.setitem(sys.modules, "skfem", None)
-    with pytest.raises(ac.DeclarationError, match=r"tetra10 needs scikit-fem: pip install 'acausal\[fe\]'"):
-        box((1, 1, 1), (1, 1, 1), "tet10", **STEEL)

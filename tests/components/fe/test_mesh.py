@@ -12,7 +12,6 @@ from components.fe import box, read_mesh, reduce_body
 from tests.components.fe.samples import deck
 
 meshio = pytest.importorskip("meshio", reason="meshio, the extra fe, is not installed")
-pytest.importorskip("skfem", reason="scikit-fem, the extra fe, is not installed")
 STEEL = {"E": 2.1e11, "nu": 0.3, "rho": 7850.0}
 FORMATS = {"gmsh22": ".msh", "vtu": ".vtu", "vtk": ".vtk", "abaqus": ".inp", "nastran": ".bdf"}
 KINDS = {"hexahedron": "C3D8", "hexahedron20": "C3D20", "tetra10": "C3D10"}
