@@ -92,7 +92,7 @@ from acausal.language import (
     when,
 )
 from acausal.result import Result
-from acausal.simulation import Linearization, linearize, simulate
+from acausal.simulation import Linearization, March, linearize, march, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [
@@ -116,6 +116,7 @@ __all__ = [
     "Formulation",
     "InitializationError",
     "Linearization",
+    "March",
     "Matrix33",
     "Model",
     "Path",
@@ -159,6 +160,7 @@ __all__ = [
     "linearize",
     "load_dae",
     "log",
+    "march",
     "observed",
     "outer",
     "output",
