@@ -204,8 +204,8 @@ def _diverged(modes: FreeModes, motion: FrameMotion, dt: float) -> str:
     most, fastest = limit(modes)
     step = len(motion.time)
     doubt = too_fast(modes, motion.w)
+    mend = f"{doubt[0].upper()}{doubt[1:]}." if doubt else "Take shorter steps."
     return (
-        f"the motion diverges in step {step}, at t = {step * dt:.6g} s, with dt * omega_max = {dt * fastest:.4g}, where the limit "
-        f"of a body that does not turn is {most * fastest:.4g}. "
-        + (f"{doubt[0].upper()}{doubt[1:]}." if doubt else "Take shorter steps.")
+        f"the motion diverges in step {step}, at t = {step * dt:.6g} s, with dt * omega_max = {dt * fastest:.4g}, where the "
+        f"limit of a body that does not turn is {most * fastest:.4g}. {mend}"
     )

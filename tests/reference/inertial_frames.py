@@ -100,7 +100,7 @@ def corrected(body: Nodes, force: Any, start: tuple[Array, Array], dt: float, co
     O, A, rows = np.zeros(3), np.eye(3), []
 
     def rates(t: float, state: tuple[Array, ...], A: Array) -> tuple[Array, ...]:
-        O, m, q, v = state
+        _, m, q, v = state
         T, w = expm(-skew(m)) @ A, v[3:6]
         dv = body.acceleration(q, v, T @ force(t)) - body.project(body.turn(skew(w), body.modes @ v))
         dq = v - body.project(body.turn(skew(w), body.modes @ q))
