@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from acausal import DeclarationError
@@ -67,7 +69,7 @@ def limit(body: FreeModes) -> tuple[float, float]:
     return low, fastest
 
 
-def _stable(z: Array) -> bool:
+def _stable(z: Any) -> bool:
     # Rounding of the eigenvalues counts as damping or as its opposite, by about 1e-12 of z.
     z = np.where(np.abs(z.real) < 1e-9 * np.abs(z), 1j * z.imag, z)
     return bool((np.abs(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))) <= 1 + 1e-9).all())

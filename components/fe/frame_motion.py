@@ -41,12 +41,12 @@ class FrameMotion:
     march: March
 
     @property
-    def O(self) -> Array:
+    def r_0(self) -> Array:
         """Place of the undeformed centre of mass in m, resolved in the world, shape (times, 3)."""
         return self.states[:, :3]
 
     @property
-    def A(self) -> Array:
+    def T(self) -> Array:
         """Matrices that turn world components into those of the body, shape (times, 3, 3)."""
         return self.states[:, 3:12].reshape(-1, 3, 3)
 
@@ -94,7 +94,7 @@ class FrameMotion:
         """Place of a frame in m, resolved in the world, shape (times, 3)."""
         interface = self._interface(frame)
         local = interface.place + self._displaced(interface, self.amplitudes)
-        return self.O + _resolve1(self.A, local)
+        return self.r_0 + _resolve1(self.T, local)
 
     def velocity(self, frame: str) -> Array:
         """Velocity of a frame in m/s, resolved in the world, shape (times, 3).
@@ -103,10 +103,10 @@ class FrameMotion:
         """
         interface = self._interface(frame)
         if self.variant == "paper":
-            return _resolve1(self.A, self._displaced(interface, self.rates))
+            return _resolve1(self.T, self._displaced(interface, self.rates))
         local = interface.place + self.q @ interface.displacement.T
         moved = self.rates[:, :3] + np.cross(self.w, local) + self.qd @ interface.displacement.T
-        return _resolve1(self.A, moved)
+        return _resolve1(self.T, moved)
 
     def acceleration(self, frame: str, rule: str | None = None, *, embedded: bool = False) -> Array:
         """Acceleration of a frame in m/s2, resolved in the world, shape (times, 3).
@@ -136,13 +136,13 @@ class FrameMotion:
         u, ud, bent = self.q @ Phi.T, self.qd @ Phi.T, self.outputs[:, 6:size] @ Phi.T
         a, al = self._inertial()
         if rule == "modal":
-            return _resolve1(self.A, a + np.cross(al, X) + bent)
+            return _resolve1(self.T, a + np.cross(al, X) + bent)
         if rule == "centripetal":
-            return _resolve1(self.A, a + np.cross(al, X) + np.cross(w, np.cross(w, X)) + bent)
+            return _resolve1(self.T, a + np.cross(al, X) + np.cross(w, np.cross(w, X)) + bent)
         if self.variant == "corrected":
             bent, al = self.qdd @ Phi.T, self.al
         found = a + np.cross(al, X + u) + np.cross(w, np.cross(w, X + u)) + 2 * np.cross(w, ud) + bent
-        return _resolve1(self.A, found)
+        return _resolve1(self.T, found)
 
     def _inertial(self) -> tuple[Array, Array]:
         """Acceleration of the origin and angular acceleration, of the embedded rigid motion."""

@@ -17,6 +17,7 @@ from components.fe.frame_steps import Loads, Readings, State, corrected, printed
 from components.fe.free_modes import FreeModes
 from components.fe.reduced_body import ReducedBody
 
+Vector = Sequence[float] | Array
 VARIANTS = ("corrected", "paper")
 # Of the size of a body: where the deflections of a run that diverges end it, long before they overflow.
 FAR = 1e3
@@ -31,11 +32,11 @@ def simulate_reconfigured(
     variant: str = "corrected",
     readings: Readings | None = None,
     damping: Any = 0.0,
-    gravity: Sequence[float] | None = None,
-    position: Sequence[float] = (0.0, 0.0, 0.0),
+    gravity: Vector | None = None,
+    position: Vector = (0.0, 0.0, 0.0),
     attitude: Any = None,
-    velocity: Sequence[float] = (0.0, 0.0, 0.0),
-    spin: Sequence[float] = (0.0, 0.0, 0.0),
+    velocity: Vector = (0.0, 0.0, 0.0),
+    spin: Vector = (0.0, 0.0, 0.0),
     q: Any = 0.0,
     qd: Any = 0.0,
     progress: Callable[[float, int], None] | None = None,
