@@ -91,7 +91,7 @@ from acausal.language import (
     variable,
     when,
 )
-from acausal.result import Result
+from acausal.result import Result, result_of
 from acausal.simulation import Linearization, March, linearize, march, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
@@ -174,6 +174,7 @@ __all__ = [
     "quantity",
     "reinit",
     "require",
+    "result_of",
     "root",
     "rooted",
     "sign",

@@ -32,7 +32,7 @@ class March:
     outputs : array, shape (k, m)
         What each step gave beside the new state.
     diverged : bool
-        Whether the steps were ended because a state left its bounds, or is no number, after the last of them.
+        Whether the steps were ended because a state left its bounds, or is no number, after one more.
     operations : int
         Operations of one step.
     building, seconds : float
@@ -76,7 +76,7 @@ def march(
     Returns
     -------
     March
-        States and outputs, up to the step after which a state left its bounds.
+        States and outputs, up to the last state within its bounds.
 
     Raises
     ------

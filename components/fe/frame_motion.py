@@ -134,7 +134,7 @@ class FrameMotion:
         w, X, size = self.w, interface.place, self.modes.size
         Phi = 0 * interface.displacement if embedded else interface.displacement
         u, ud, bent = self.q @ Phi.T, self.qd @ Phi.T, self.outputs[:, 6:size] @ Phi.T
-        a, al = self._inertial()
+        a, al = self.origin()
         if rule == "modal":
             return _resolve1(self.T, a + np.cross(al, X) + bent)
         if rule == "centripetal":
@@ -144,8 +144,12 @@ class FrameMotion:
         found = a + np.cross(al, X + u) + np.cross(w, np.cross(w, X + u)) + 2 * np.cross(w, ud) + bent
         return _resolve1(self.T, found)
 
-    def _inertial(self) -> tuple[Array, Array]:
-        """Acceleration of the origin and angular acceleration, of the embedded rigid motion."""
+    def origin(self) -> tuple[Array, Array]:
+        """Acceleration of the origin and angular acceleration of the embedded rigid motion, resolved in the body.
+
+        In m/s2 and rad/s2, shape (times, 3) each. As printed,
+        those of the rigid modes (32), not `al` of (37).
+        """
         if self.variant == "paper":
             return self.outputs[:, :3], self.outputs[:, 3:6]
         return self.outputs[:, :3] + np.cross(self.w, self.rates[:, :3]), self.al

@@ -129,7 +129,7 @@ def simulate_reconfigured(
         if hasattr(interrupt, "result"):
             interrupt.result = motion(interrupt.result)  # type: ignore[attr-defined]
         raise
-    if found.diverged and len(found.outputs) <= count:
+    if found.diverged:
         raise SimulationError(_diverged(modes, motion(found), dt), motion(found))
     return motion(found)
 
@@ -203,7 +203,7 @@ def _bounds(modes: FreeModes) -> Array:
 
 def _diverged(modes: FreeModes, motion: FrameMotion, dt: float) -> str:
     most, fastest = limit(modes)
-    step = len(motion.time)
+    step = len(motion.time) + 1
     doubt = too_fast(modes, motion.w)
     mend = f"{doubt[0].upper()}{doubt[1:]}." if doubt else "Take shorter steps."
     return (

@@ -11,13 +11,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from components.fe import reduce_body
+from components.fe import FrameLoad, FrameMotion, Readings, as_result, reduce_body, simulate_reconfigured
 from components.fe.frame_checks import limit
-from components.fe.frame_load import FrameLoad
-from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import Readings
 from components.fe.free_modes import FreeModes
-from components.fe.reconfigured import simulate_reconfigured
 from tests.components.fe import bodies
 from tests.reference import inertial_frames
 
@@ -272,3 +268,28 @@ def test_interrupted():
         simulate_reconfigured(plate(), (), 0.3, 1e-4, progress=interrupt)
     reached: Any = caught.value
     assert 1500 < len(reached.result.time) < 1800
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_result_by_the_names_of_a_body(variant, tmp_path):
+    """Rates of a frame that turns with the deformation are derivatives of its place and attitude."""
+    follower = FrameLoad("face", force=(0, 3, 5), moment=(1, 0.1, 0.2), follower=True)
+    motion = simulate_reconfigured(plate(), [follower], 0.02, 1e-5, variant=variant, damping=0.05, spin=(1, 2, 3))
+    found = as_result(motion)
+    T, w, v = (found[f"body.face.{name}"] for name in ("R.T", "R.w", "v"))
+    rate = (T[2:] - T[:-2]) / 2e-5
+    turned = -np.einsum("tij,tkj->tik", rate, T[1:-1])  # the matrix of w x
+    assert np.abs(np.stack([turned[:, 2, 1], turned[:, 0, 2], turned[:, 1, 0]], axis=1) - w[1:-1]).max() < 1e-3
+    moved = (found["body.face.r_0"][2:] - found["body.face.r_0"][:-2]) / 2e-5
+    # As printed, rates are of the order 1, and w x u counts in the modes alone.
+    bound = 1e-4 if variant == "corrected" else 1e-2
+    assert np.abs(np.einsum("tij,tj->ti", T[1:-1], moved) - v[1:-1]).max() < bound * np.abs(v).max()
+    if variant == "corrected":
+        z = (w[2:] - w[:-2]) / 2e-5
+        assert np.abs(z - found["body.face.z"][1:-1])[10:].max() < 1e-2 * np.abs(z).max()
+    found.to_csv(tmp_path / "motion.csv")
+    assert (tmp_path / "motion.csv").read_text().startswith("time,body.r_0[0]")
+    np.testing.assert_array_equal(found["body.ref.R.w"], motion.w)
+    np.testing.assert_array_equal(found["body.embedded.P1.r_0"][0], plate().interfaces[0].place)
+    assert found.stats.steps == 2000
+    assert ac.Result is type(found)
