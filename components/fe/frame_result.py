@@ -8,6 +8,7 @@ import numpy as np
 
 from acausal import Result, result_of
 from components.fe.arrays import Array
+from components.fe.frame_checks import too_fast
 from components.fe.frame_motion import FrameMotion
 from components.fe.reduced_body import Interface
 
@@ -47,6 +48,7 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
         compile_seconds=motion.march.building,
         solve_seconds=motion.march.building + motion.march.seconds,
         integration_seconds=motion.march.seconds,
+        doubts=[doubt] if (doubt := too_fast(motion.modes, motion.w)) else [],
         method=f"reconfigured inertial frames, {motion.variant}",
     )
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from acausal import DeclarationError, March, SimulationError, march
+from acausal import AcausalWarning, DeclarationError, March, SimulationError, march
 from components.fe.arrays import Array
 from components.fe.frame_checks import check_free, check_step, limit, steps_of, too_fast
 from components.fe.frame_load import FrameLoad, check_loads, sampled
@@ -88,6 +89,11 @@ def simulate_reconfigured(
     KeyboardInterrupt
         With what was computed as its attribute `result`.
 
+    Warns
+    -----
+    AcausalWarning
+        If the body turns faster than half of its first frequency.
+
     Notes
     -----
     As dt -> 0 the corrected variant is an ordinary differential equation, and not that of a floating frame: levers are
@@ -131,7 +137,10 @@ def simulate_reconfigured(
         raise
     if found.diverged:
         raise SimulationError(_diverged(modes, motion(found), dt), motion(found))
-    return motion(found)
+    run = motion(found)
+    if doubt := too_fast(modes, run.w):
+        warnings.warn(doubt, AcausalWarning, stacklevel=2)
+    return run
 
 
 def _amplitudes(values: Any, n: int) -> Array:

@@ -293,3 +293,50 @@ def test_result_by_the_names_of_a_body(variant, tmp_path):
     np.testing.assert_array_equal(found["body.embedded.P1.r_0"][0], plate().interfaces[0].place)
     assert found.stats.steps == 2000
     assert ac.Result is type(found)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_warns_near_the_first_frequency(variant):
+    """That is 154 rad/s; both methods differ in kind there."""
+    with pytest.warns(ac.AcausalWarning, match="turns by up to 100 rad/s, faster than half"):
+        simulate_reconfigured(plate(), (), 1e-3, 1e-4, variant=variant, spin=(0, 0, 100))
+
+
+def test_rigid():
+    """Without modes: Newton and Euler, with all invariants."""
+    found = simulate_reconfigured(plate().first(0), (), 1.0, 1e-3, spin=(1, 2, 3))
+    J = found.modes.inertia
+    twice = np.einsum("ti,ij,tj->t", found.w, J, found.w)
+    assert abs(twice[-1] / twice[0] - 1) < 1e-12
+    momentum = np.einsum("tij,ti->tj", found.T, found.w @ J)
+    np.testing.assert_allclose(momentum, np.broadcast_to(J @ (1, 2, 3), momentum.shape), rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("readings", "order"),
+    [
+        (Readings(increments="mapped"), None),
+        (Readings(force="step"), 1.0),
+        (Readings(middle="middle"), 1.0),
+        (Readings(rigid_part="zeroed"), 1.0),
+        (Readings(rotation="restarted"), 1.0),
+        (Readings(points=((0, 1, 0), (0.6, 0, 0.8))), 1.0),
+    ],
+)
+def test_readings_leave_the_order(readings, order):
+    """Each changes the constant alone, but increments that are mapped back, whose order is near 1 from 0.9 to 1.6."""
+    ends = [
+        simulate_reconfigured(
+            plate(),
+            [FrameLoad("end", force=pulse)],
+            0.05,
+            dt,
+            variant="paper",
+            readings=readings,
+            damping=0.05,
+            spin=(2, -6, 3),
+        ).w[-1]
+        for dt in (5e-5, 2.5e-5, 1.25e-5)
+    ]
+    rate = np.log2(np.linalg.norm(ends[0] - ends[1]) / np.linalg.norm(ends[1] - ends[2]))
+    assert 0.9 < rate < 1.7 if order is None else abs(rate - order) < 0.05
