@@ -14,6 +14,7 @@ import acausal as ac
 from components.fe import FrameLoad, FrameMotion, Readings, as_result, reduce_body, simulate_reconfigured
 from components.fe.frame_checks import limit
 from components.fe.free_modes import FreeModes
+from models import FEPlate
 from tests.components.fe import bodies
 from tests.reference import inertial_frames
 
@@ -176,10 +177,25 @@ def test_full_turn_without_a_jump(variant, rotation):
 
 
 def test_tumbling_beside_the_floating_frame():
-    """The gap that remains goes with the cube of the spin."""
+    """The gap is 1e-4 of the spin; see the next test for what it follows."""
     found = simulate_reconfigured(plate(), (), 0.3, 1e-4, spin=(2, -6, 3))
     assert np.abs(found.w[::40] - columns("plate_tumbling", "w")).max() < 1e-4 * 7
     assert np.abs(found.place("P1")[::40] - columns("plate_tumbling", "P1x")).max() < 1e-4
+
+
+@pytest.mark.parametrize(("size", "expected"), [(3.2, 4.0e-6), (12.8, 2.6e-4)])
+def test_gap_of_a_short_step_goes_with_the_cube_of_the_spin(size, expected):
+    """Levers are those of the undeformed body, and w x u counts as far as the modes hold it."""
+
+    class Spun(FEPlate):
+        spin, load, damping = (size / 3**0.5,) * 3, "none", 0.0
+
+    exact = ac.simulate(Spun(mesh=str(DATA / "plate_fe_h25.npz")), stop_time=0.04, tolerance=1e-9, intervals=40)
+    found = simulate_reconfigured(plate(), (), 0.04, 2.5e-5, spin=Spun.spin)
+    gap = np.abs(found.w[::40] - exact["body.w_a"]).max()
+    np.testing.assert_allclose(gap, expected, rtol=0.05)
+    half = simulate_reconfigured(plate(), (), 0.04, 1.25e-5, spin=Spun.spin)
+    assert np.abs(found.w - half.w[::2]).max() < 1e-3 * gap  # none of it comes from the step
 
 
 @pytest.mark.parametrize(("damping", "stable", "unstable"), [(0.0, 2.80, 2.85), (0.05, 2.90, 3.0)])
