@@ -22,6 +22,8 @@ Vector = Sequence[float] | Array
 VARIANTS = ("corrected", "paper")
 # Of the size of a body: where the deflections of a run that diverges end it, long before they overflow.
 FAR = 1e3
+# Of a step: how far inside of it its ends are looked at, far above rounding of the time after 1e5 steps, far below any error.
+EDGE = 1e-9
 
 
 def simulate_reconfigured(
@@ -183,22 +185,27 @@ def _inputs(
     modes: FreeModes, loads: Sequence[FrameLoad], gravity: Any, dt: float, count: int, middle: str
 ) -> tuple[tuple[Array, Array], Array]:
     """Accelerations of the modes by unit loads, in the world and following, and what acts in each step."""
-    halves = dt / 2 * np.arange(2 * count + 1)
+    # Limits from inside of each step: a load may jump between two steps. The last step is given the load of its start.
+    edge, starts = EDGE * dt, dt * np.arange(count + 1)
+    ends = starts[:-1] + dt
+    times = np.concatenate([starts + edge, starts[:-1] + dt / 2, ends - edge])
+    times[count] = starts[-1]
     frames = {frame.name: frame for frame in modes.body.interfaces}
     maps: dict[bool, list[Array]] = {False: [np.zeros((modes.size, 0))], True: [np.zeros((modes.size, 0))]}
-    found: dict[bool, list[Array]] = {False: [np.zeros((len(halves), 0))], True: [np.zeros((len(halves), 0))]}
+    found: dict[bool, list[Array]] = {False: [np.zeros((len(times), 0))], True: [np.zeros((len(times), 0))]}
     for load in loads:
         by_force, by_moment = modes.load(frames[load.frame])
         for course, unit in ((load.force, by_force), (load.moment, by_moment)):
             if callable(course) or np.any(course):
                 what = f"{'force' if unit is by_force else 'moment'} at `{load.frame}`"
                 maps[load.follower].append(unit)
-                found[load.follower].append(sampled(course, halves, what))
-    weight = sampled((0.0, 0.0, 0.0) if gravity is None else gravity, halves, "gravity")
+                found[load.follower].append(sampled(course, times, what))
+    weight = sampled((0.0, 0.0, 0.0) if gravity is None else gravity, times, "gravity")
     values = np.hstack([weight, *found[False], *found[True]])
-    first = values[::2]
-    last = np.vstack([first[1:], first[-1:]])
-    between = (first + last) / 2 if middle == "mean" else np.vstack([values[1::2], values[-1:]])
+    first, between, last = np.split(values, [count + 1, 2 * count + 1])
+    between, last = (np.vstack([part, first[-1:]]) for part in (between, last))
+    if middle == "mean":
+        between = (first + last) / 2
     return (np.hstack(maps[False]), np.hstack(maps[True])), np.hstack([first, between, last])
 
 
