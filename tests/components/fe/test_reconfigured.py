@@ -18,6 +18,7 @@ from components.fe.free_modes import FreeModes
 from models import FEPlate
 from tests.components.fe import bodies
 from tests.reference import inertial_frames
+from tests.reference.reconfigured_limit import LimitPlate
 
 DATA = Path(__file__).parents[2] / "reference/fe"
 PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}
@@ -269,6 +270,21 @@ def test_gap_of_a_short_step_goes_with_the_cube_of_the_spin(size, expected):
     np.testing.assert_allclose(gap, expected, rtol=0.05)
     half = simulate_reconfigured(plate(), (), 0.04, 1.25e-5, spin=spin)
     assert np.abs(found.w - half.w[::2]).max() < 1e-3 * gap  # none of it comes from the step
+
+
+def test_limit_of_short_steps():
+    """An ordinary differential equation, integrated by another method: what differs from it goes with dt to the power of 4."""
+    spin, stop = (2, -6, 3), 0.05
+    model = LimitPlate(mesh=str(DATA / "plate_fe_h25.npz"), spin=spin)
+    exact = ac.simulate(model, stop_time=stop, tolerance=1e-9, intervals=100)
+    push, errors = FrameLoad("end", force=pulse), []
+    for dt in (1e-4, 5e-5):
+        found = simulate_reconfigured(plate(), [push], stop, dt, damping=0.05, spin=spin)
+        every = round(stop / dt) // 100
+        pairs = (found.w, exact["body.w_a"]), (found.place("P1"), exact["body.P1.r_0"]), (found.qdd, exact["body.qdd"])
+        errors.append([np.abs(a[::every] - b).max() / np.abs(b).max() for a, b in pairs])
+    assert (np.array(errors[1]) < (1e-8, 1e-6, 1e-3)).all()
+    assert (np.log2(np.divide(*errors)) > 3.8).all()
 
 
 @pytest.mark.parametrize(("damping", "stable", "unstable"), [(0.0, 2.80, 2.85), (0.05, 2.90, 3.0)])
