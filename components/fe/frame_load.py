@@ -73,6 +73,8 @@ def check_loads(body: ReducedBody, loads: Sequence[FrameLoad]) -> None:
         With the frames that there are.
     """
     frames = {frame.name: frame for frame in body.interfaces}
+    if not isinstance(loads, Sequence):
+        raise DeclarationError(f"loads are a list, [FrameLoad(...), ...], not {loads!r}")
     for load in loads:
         if not isinstance(load, FrameLoad):
             raise DeclarationError(f'a load is FrameLoad("tip", force=(0, 0, 1)), not {load!r}')

@@ -1,8 +1,8 @@
 """The limit dt -> 0 of steps in reconfigured inertial frames, as a component: an ordinary differential equation in body axes.
 
 With v_f = q' + M^-1 (w . G) q the rates of the modes in the inertial frame, G_k the antisymmetric matrices of the integrals of
-(phi_c x phi_b)_k dm, and the integrals of the undeformed body: m a = f, J z + w x J w + J'(v_f) w / 2 = moment with the levers of the
-undeformed body, and M v_f' + (W : A) + (w . G) v_f + K q + D v_f = Phi' f + Psi' t.
+(phi_c x phi_b)_k dm, and the integrals of the undeformed body: m a = f, J z + w x J w + J'(v_f) w / 2 = moment with the levers of
+the undeformed body, and M v_f' + (W : A) + (w . G) v_f + K q + D v_f = Phi' f + Psi' t.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -335,6 +336,7 @@ def test_follower():
 REFUSED = [
     ({"body": "face"}, 'hold="mean-axis"'),
     ({"loads": [FrameLoad("tip", force=(0, 0, 1))]}, "no frame `tip` for a load: it has P1, end, face"),
+    ({"loads": FrameLoad("end")}, "loads are a list"),
     ({"loads": [FrameLoad("end", moment=(0, 0, 1))]}, "cannot carry a moment"),
     ({"loads": [FrameLoad("end", force=lambda t: 1.0)]}, "vector of three numbers"),
     ({"dt": 1e-3}, r"unstable: dt \* omega_max = 3\.75"),
@@ -349,9 +351,9 @@ REFUSED = [
 
 @pytest.mark.parametrize(("given", "words"), REFUSED)
 def test_refused(given, words):
-    body = plate(given["body"]) if "body" in given else plate()
+    values = {"body": "mean-axis", "stop_time": 0.01, "dt": 1e-4, **given}
     with pytest.raises(ac.DeclarationError, match=words):
-        simulate_reconfigured(body, **{"stop_time": 0.01, "dt": 1e-4, **given} | {} if "body" not in given else {})
+        simulate_reconfigured(plate(values.pop("body")), **values)
 
 
 def test_diverged():
@@ -367,12 +369,15 @@ def test_diverged():
 def test_interrupted():
     def interrupt(part, steps):
         if part > 0.5:
-            raise KeyboardInterrupt
+            signal.raise_signal(signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt) as caught:
         simulate_reconfigured(plate(), (), 0.3, 1e-4, progress=interrupt)
     reached: Any = caught.value
     assert 1500 < len(reached.result.time) < 1800
+    np.testing.assert_array_equal(
+        reached.result.w, simulate_reconfigured(plate(), (), 0.3, 1e-4).w[: len(reached.result.time)]
+    )
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
