@@ -8,13 +8,22 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr, cross
+from acausal import DeclarationError, as_expr, cross
 from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
 from components.fe.rotation_vector import attitude, rate
 
 STAGES = (0.0, 0.5, 0.5, 1.0)
 WEIGHTS = (1 / 6, 1 / 3, 1 / 3, 1 / 6)
+READINGS = {
+    "rotation": ("accumulated", "restarted"),
+    "rigid_part": ("kept", "zeroed"),
+    "increments": ("summed", "mapped"),
+    "force": ("stage", "step"),
+    "middle": ("mean", "middle"),
+}
+# Sine of the angle between two directions: below it they are one, as nodes of a frame are on a line.
+ON_A_LINE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -48,6 +57,15 @@ class Readings:
     force: str = "stage"
     middle: str = "mean"
     points: tuple[Sequence[float], Sequence[float]] = ((1, 0, 0), (0, 1, 0))
+
+    def __post_init__(self) -> None:
+        for name, choices in READINGS.items():
+            if getattr(self, name) not in choices:
+                known = " or ".join(map(repr, choices))
+                raise DeclarationError(f"the reading `{name}` is {known}, not {getattr(self, name)!r}")
+        p, q = (np.asarray(point, dtype=float) for point in self.points)
+        if np.linalg.norm(np.cross(p, q)) <= ON_A_LINE * np.linalg.norm(p) * np.linalg.norm(q):
+            raise DeclarationError(f"P, Q and R lie on a line: the directions {self.points!r} tell no angular velocity")
 
 
 @dataclass(frozen=True)

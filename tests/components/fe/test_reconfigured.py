@@ -344,6 +344,7 @@ REFUSED = [
     ({"variant": "other"}, "'corrected', 'paper'"),
     ({"readings": Readings()}, "leaves nothing open"),
     ({"q": (1, 2)}, "one number or 10"),
+    ({"spin": (1, 2)}, "spin at the start is a vector of three numbers"),
     ({"damping": -0.1}, "not negative"),
     ({"attitude": np.ones((3, 3))}, "rotation matrix"),
 ]
@@ -354,6 +355,18 @@ def test_refused(given, words):
     values = {"body": "mean-axis", "stop_time": 0.01, "dt": 1e-4, **given}
     with pytest.raises(ac.DeclarationError, match=words):
         simulate_reconfigured(plate(values.pop("body")), **values)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"rotation": "both"}, "`rotation` is 'accumulated' or 'restarted'"),
+        ({"points": ((1, 0, 0), (-2, 0, 0))}, "on a line"),
+    ],
+)
+def test_refused_readings(given, words):
+    with pytest.raises(ac.DeclarationError, match=words):
+        Readings(**given)
 
 
 def test_diverged():
