@@ -11,6 +11,7 @@ import numpy as np
 from acausal import DeclarationError, as_expr, cross
 from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
+from components.fe.interface import ON_A_LINE
 from components.fe.rotation_vector import attitude, rate
 
 STAGES = (0.0, 0.5, 0.5, 1.0)
@@ -22,8 +23,6 @@ READINGS = {
     "force": ("stage", "step"),
     "middle": ("mean", "middle"),
 }
-# Sine of the angle between two directions: below it they are one, as nodes of a frame are on a line.
-ON_A_LINE = 1e-6
 
 
 @dataclass(frozen=True)

@@ -113,14 +113,8 @@ def simulate_reconfigured(
     count = steps_of(stop_time, dt)
     check_step(modes, stop_time, dt)
     A = np.eye(3) if attitude is None else _rotation(attitude)
-    start = _start(
-        modes,
-        _vector(position, "position"),
-        A,
-        _vector(velocity, "velocity"),
-        _vector(spin, "spin"),
-        (_amplitudes(q, body.n), _amplitudes(qd, body.n)),
-    )
+    motions = (_vector(v, name) for v, name in ((position, "position"), (velocity, "velocity"), (spin, "spin")))
+    start = _start(modes, A, *motions, _amplitudes(q, body.n), _amplitudes(qd, body.n))
     # A step more than there are: the last one tells the accelerations at the stop time, its end is not looked at.
     maps, inputs = _inputs(modes, loads, gravity, dt, count, read.middle if variant == "paper" else "middle")
     times = dt * np.arange(count + 1)
@@ -178,11 +172,10 @@ def _vector(values: Any, what: str) -> Array:
     return sampled(values, np.zeros(1), f"the {what} at the start")[0]
 
 
-def _start(modes: FreeModes, O: Array, A: Array, velocity: Array, w: Array, deformed: tuple[Array, Array]) -> Array:
+def _start(modes: FreeModes, A: Array, O: Array, velocity: Array, w: Array, q: Array, qd: Array) -> Array:
     """State at the start: rates of the modes in an inertial frame are those in the moving one, and w x u."""
     from scipy.spatial.transform import Rotation
 
-    q, qd = deformed
     carried = np.einsum("k,kab,b->a", w, modes.turning, np.concatenate([np.zeros(6), q]))
     turn = Rotation.from_matrix(A.T).as_rotvec()
     return np.concatenate([O, A.ravel(), turn, np.zeros(6), q, A @ velocity, w, qd + carried[6:]])
