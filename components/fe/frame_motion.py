@@ -12,7 +12,7 @@ from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
 from components.fe.reduced_body import Interface
 
-RULES = ("modal", "centripetal", "moving")
+RULES = ("modal", "moving")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +82,11 @@ class FrameMotion:
 
     @cached_property
     def qdd(self) -> Array:
-        """Their derivatives in m/s2, shape (times, n); as printed, accelerations of the modes in the inertial frame."""
-        accelerations = self.outputs[:, 6 : self.modes.size]
-        if self.variant == "paper":
-            return accelerations
+        """Their derivatives in m/s2, shape (times, n)."""
         none = np.zeros((len(self.time), 6))
-        turned = self._crossed(self.al, self.amplitudes) + self._crossed(self.w, np.hstack([none, self.qd]))
-        return accelerations - turned[:, 6:]
+        v, al = self._body_rates()[:, 6:], self._body_rates()[:, 3:6]
+        turned = self._crossed(al, self.amplitudes) + self._crossed(self.w, np.hstack([none, self.qd]))
+        return v - turned[:, 6:]
 
     def place(self, frame: str) -> Array:
         """Place of a frame in m, resolved in the world, shape (times, 3)."""
@@ -116,9 +114,9 @@ class FrameMotion:
         frame : str
             Name of the frame.
         rule : str, optional
-            "modal": Psi v', which misses what the modes do not hold; "centripetal": and w x (w x X); "moving": as in a moving
-            frame, w x (w x (X + u)) + 2 w x u' as well. Without one, "moving" for the corrected variant, whose velocity it
-            is the derivative of, and "centripetal" as printed.
+            "modal": Psi v', which misses what the modes do not hold; "moving": as in a moving frame, with w x (w x (X + u))
+            and 2 w x u'. Without one, "moving" for the corrected variant, whose velocity it is the derivative of, and for
+            embedded motion; else "modal", as printed.
         embedded : bool
             Whether of the embedded rigid motion alone, without deformation.
 
@@ -128,31 +126,32 @@ class FrameMotion:
             If there is no such frame or rule.
         """
         interface = self._interface(frame)
-        rule = rule or ("moving" if self.variant == "corrected" else "centripetal")
+        rule = rule or ("moving" if self.variant == "corrected" or embedded else "modal")
         if rule not in RULES:
             raise DeclarationError(f"the rule of an acceleration is one of {', '.join(map(repr, RULES))}, not {rule!r}")
-        w, X, size = self.w, interface.place, self.modes.size
+        w, X = self.w, interface.place
         Phi = 0 * interface.displacement if embedded else interface.displacement
-        u, ud, bent = self.q @ Phi.T, self.qd @ Phi.T, self.outputs[:, 6:size] @ Phi.T
-        a, al = self.origin()
+        carried = self._crossed(w, self.rates)
+        inertial = self._body_rates() + carried
         if rule == "modal":
-            return _resolve1(self.T, a + np.cross(al, X) + bent)
-        if rule == "centripetal":
-            return _resolve1(self.T, a + np.cross(al, X) + np.cross(w, np.cross(w, X)) + bent)
-        if self.variant == "corrected":
-            bent, al = self.qdd @ Phi.T, self.al
-        found = a + np.cross(al, X + u) + np.cross(w, np.cross(w, X + u)) + 2 * np.cross(w, ud) + bent
+            return _resolve1(self.T, inertial[:, :3] + np.cross(inertial[:, 3:6], X) + inertial[:, 6:] @ Phi.T)
+        local, al = X + self.q @ Phi.T, (inertial - carried)[:, 3:6]
+        if embedded:  # Euler's equation of the rigid body
+            J = self.modes.inertia
+            al = inertial[:, 3:6] - np.linalg.solve(J, np.cross(w, w @ J).T).T
+        relative = self.qdd @ Phi.T + 2 * np.cross(w, self.qd @ Phi.T)
+        found = inertial[:, :3] + np.cross(al, local) + np.cross(w, np.cross(w, local)) + relative
         return _resolve1(self.T, found)
 
-    def origin(self) -> tuple[Array, Array]:
-        """Acceleration of the origin and angular acceleration of the embedded rigid motion, resolved in the body.
+    @property
+    def a(self) -> Array:
+        """Acceleration of the origin in m/s2, resolved in the body, shape (times, 3)."""
+        return self._body_rates()[:, :3] + np.cross(self.w, self.rates[:, :3])
 
-        In m/s2 and rad/s2, shape (times, 3) each. As printed,
-        those of the rigid modes (32), not `al` of (37).
-        """
-        if self.variant == "paper":
-            return self.outputs[:, :3], self.outputs[:, 3:6]
-        return self.outputs[:, :3] + np.cross(self.w, self.rates[:, :3]), self.al
+    def _body_rates(self) -> Array:
+        """Derivatives of the rates of all modes as seen in the moving axes, shape (times, 6 + n)."""
+        found = self.outputs[:, : self.modes.size]
+        return found if self.variant == "corrected" else found - self._crossed(self.w, self.rates)
 
     def _crossed(self, w: Array, z: Array) -> Array:
         return np.einsum("tk,kab,tb->ta", w, self.modes.turning, z, optimize=True)

@@ -59,8 +59,7 @@ def _modes(motion: FrameMotion) -> Named:
 
 def _reference(motion: FrameMotion) -> Named:
     """The reference frame: with mean axes its origin is where the centre of mass of the undeformed body is."""
-    a, _ = motion.origin()
-    T, w, v = motion.T, motion.w, motion.rates[:, :3]
+    T, w, v, a = motion.T, motion.w, motion.rates[:, :3], motion.a
     local = {"r_0": motion.r_0, "R.T": T, "R.w": w, "v": v, "a": a, "z": motion.al, "Q": _quaternions(T)}
     found: Named = {f"ref.{key}": (value, UNITS[key]) for key, value in local.items()}
     v_0, a_0 = (np.einsum("tij,ti->tj", T, x) for x in (v, a))
@@ -97,7 +96,7 @@ def _embedded(motion: FrameMotion, interface: Interface) -> Named:
     T, X, name = motion.T, interface.place, interface.name
     v = motion.rates[:, :3] + np.cross(motion.w, X)
     place, velocity = (np.einsum("tij,ti->tj", T, x) for x in (np.broadcast_to(X, v.shape), v))
-    a = motion.acceleration(name, "centripetal", embedded=True)
+    a = motion.acceleration(name, embedded=True)
     return {"r_0": (motion.r_0 + place, "m"), "v_0": (velocity, "m/s"), "a_0": (a, "m/s2")}
 
 

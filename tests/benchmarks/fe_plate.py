@@ -131,7 +131,7 @@ def draw(mesh: str, path: str) -> None:
     flexible = steps(mesh, "paper", (0, 0, 0), True, 0.3)
     rigid = steps(mesh, "corrected", (0, 0, 0), True, 0.3, modes=0)
     t, body, rest = flexible.time, 1e3 * flexible.acceleration("P1"), 1e3 * rigid.acceleration("P1")
-    rbm = 1e3 * flexible.acceleration("P1", "centripetal", embedded=True)
+    rbm = 1e3 * flexible.acceleration("P1", embedded=True)
     shown = 1e3 * (flexible.place("P1") - flexible.place("P1")[0])
     panels = [
         ("4: force in N", [("x = z", [pulse(x)[0] for x in t])]),
