@@ -60,7 +60,13 @@ def columns(name: str, quantity: str) -> np.ndarray:
 
 
 def shown(motion: FrameMotion) -> dict[str, np.ndarray]:
-    return {"w": motion.w, "al": motion.al, "P1x": motion.place("P1"), "P1v": motion.velocity("P1")}
+    return {
+        "w": motion.w,
+        "al": motion.al,
+        "P1x": motion.place("P1"),
+        "P1v": motion.velocity("P1"),
+        "P1a": motion.acceleration("P1"),
+    }
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -153,7 +159,7 @@ def test_axes_of_the_world_do_not_matter(variant):
     assert np.abs(turned.q - plain.q).max() < bound * np.abs(plain.q).max()
 
 
-@pytest.mark.parametrize("quantity", ["w", "al", "P1x", "P1v"])
+@pytest.mark.parametrize("quantity", ["w", "al", "P1x", "P1v", "P1a"])
 def test_as_printed(quantity):
     expected = columns("plate_halfsine_lit", f"lit_{quantity}")
     found = shown(pushed("paper"))[quantity][::40]
