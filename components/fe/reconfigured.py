@@ -113,8 +113,8 @@ def simulate_reconfigured(
     count = steps_of(stop_time, dt)
     check_step(modes, stop_time, dt)
     A = np.eye(3) if attitude is None else _rotation(attitude)
-    motions = (_vector(v, name) for v, name in ((position, "position"), (velocity, "velocity"), (spin, "spin")))
-    start = _start(modes, A, *motions, _amplitudes(q, body.n), _amplitudes(qd, body.n))
+    O, v, w = (_vector(x, name) for x, name in ((position, "position"), (velocity, "velocity"), (spin, "spin")))
+    start = _start(modes, A, O, v, w, _amplitudes(q, body.n), _amplitudes(qd, body.n))
     # A step more than there are: the last one tells the accelerations at the stop time, its end is not looked at.
     maps, inputs = _inputs(modes, loads, gravity, dt, count, read.middle if variant == "paper" else "middle")
     times = dt * np.arange(count + 1)
