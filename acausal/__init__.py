@@ -91,8 +91,8 @@ from acausal.language import (
     variable,
     when,
 )
-from acausal.result import Result
-from acausal.simulation import Linearization, linearize, simulate
+from acausal.result import Result, result_of
+from acausal.simulation import Linearization, March, linearize, march, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [
@@ -116,6 +116,7 @@ __all__ = [
     "Formulation",
     "InitializationError",
     "Linearization",
+    "March",
     "Matrix33",
     "Model",
     "Path",
@@ -159,6 +160,7 @@ __all__ = [
     "linearize",
     "load_dae",
     "log",
+    "march",
     "observed",
     "outer",
     "output",
@@ -172,6 +174,7 @@ __all__ = [
     "quantity",
     "reinit",
     "require",
+    "result_of",
     "root",
     "rooted",
     "sign",

@@ -86,6 +86,9 @@ class Calls:
     looks: tuple[int, int] = (8, 100)
     # Rows of a call of a method without a Newton iteration that are solved at once: as many as one evaluation takes.
     settled: int = 16
+    # Fixed steps between two looks at the keyboard: a step of 1e4 operations takes 5 us, so that a call by Python is
+    # less than a hundredth of a block, and an interrupt waits for some ms.
+    steps_of_a_block: int = 256
     # Of the terms of an equation: a solution leaves rounding, values that are none leave about all of them.
     holds: float = 1e-3
     # Steps after which loops are looked at for flat positions: a few turns.

@@ -12,10 +12,14 @@ from components.fe.reduction import reduce_body
 
 __all__ = [
     "FEBody",
+    "FrameLoad",
+    "FrameMotion",
     "Interface",
     "NodalField",
     "NodalResult",
+    "Readings",
     "ReducedBody",
+    "as_result",
     "assemble",
     "average",
     "box",
@@ -30,6 +34,7 @@ __all__ = [
     "reduce_body",
     "rigid",
     "rows_of",
+    "simulate_reconfigured",
     "write_sid",
 ]
 
@@ -41,12 +46,21 @@ if TYPE_CHECKING:
     from components.fe.formats.mesh import read_mesh
     from components.fe.formats.nastran import read_nastran
     from components.fe.formats.sid import read_sid, write_sid
+    from components.fe.frame_load import FrameLoad
+    from components.fe.frame_motion import FrameMotion
+    from components.fe.frame_result import as_result
+    from components.fe.frame_steps import Readings
     from components.fe.nodes import rows_of
+    from components.fe.reconfigured import simulate_reconfigured
     from components.fe.recover import NodalResult
 
-# What models do not use: it loads scipy.sparse.
+# What models do not use; some of it loads scipy.sparse.
 _LATER = {
+    "FrameLoad": "frame_load",
+    "FrameMotion": "frame_motion",
     "NodalResult": "recover",
+    "Readings": "frame_steps",
+    "as_result": "frame_result",
     "read_abaqus": "formats.abaqus",
     "read_ansys": "formats.ansys",
     "read_calculix": "formats.calculix",
@@ -55,6 +69,7 @@ _LATER = {
     "read_nastran": "formats.nastran",
     "read_sid": "formats.sid",
     "rows_of": "nodes",
+    "simulate_reconfigured": "reconfigured",
     "write_sid": "formats.sid",
 }
 

@@ -1,0 +1,156 @@
+"""Fixed steps of a rule that a user writes once, compiled and mapped over blocks of steps."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.call import Call
+from acausal.errors import DeclarationError
+from acausal.language.arguments import fitting
+from acausal.language.expression import Expr, as_expr
+from acausal.locks import alone
+from acausal.policy import POLICY
+from acausal.solve.integrate.settings import Progress
+
+Step = Callable[[Expr, Expr], tuple[Any, Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class March:
+    """What steps have found.
+
+    Parameters
+    ----------
+    states : array, shape (k + 1, n)
+        States at the start and after each of the k steps that were taken.
+    outputs : array, shape (k, m)
+        What each step gave beside the new state.
+    diverged : bool
+        Whether the steps were ended because a state left its bounds, or is no number, after one more.
+    operations : int
+        Operations of one step.
+    building, seconds : float
+        Seconds for compiling the step, and in the steps.
+    """
+
+    states: np.ndarray
+    outputs: np.ndarray
+    diverged: bool
+    operations: int
+    building: float
+    seconds: float
+
+
+@fitting
+@alone
+def march(
+    step: Step,
+    start: Any,
+    inputs: Any,
+    *,
+    bounds: Any = np.inf,
+    progress: Progress | None = None,
+) -> March:
+    """Take one step for each row of inputs, without Python in between.
+
+    Parameters
+    ----------
+    step : callable
+        From symbols of the state, shape (n,), and of a row of the inputs, shape (u,), to the state after the step and
+        to a vector of other values, of any length. Called once; what it gives depends on nothing else.
+    start : array_like, shape (n,)
+        State at the start.
+    inputs : array_like, shape (steps, u)
+        What the steps are given, one row each.
+    bounds : array_like, shape (n,)
+        The steps end where the absolute value of a state exceeds its bound.
+    progress : callable, optional
+        Told the part that is done, from 0 to 1, and the steps, after each block.
+
+    Returns
+    -------
+    March
+        States and outputs, up to the last state within its bounds.
+
+    Raises
+    ------
+    DeclarationError
+        If the step does not return as many states as it was given, or needs other symbols.
+    KeyboardInterrupt
+        With what was found as its attribute `result`.
+
+    Examples
+    --------
+    >>> march(lambda x, u: (0.5 * x + u, x), [1.0], [[0.0], [0.0]]).states.ravel().tolist()
+    [1.0, 0.5, 0.25]
+    """
+    x, u = np.array(start, dtype=float), np.array(inputs, dtype=float)
+    if x.ndim != 1 or u.ndim != 2:
+        raise DeclarationError(
+            f"march() needs a vector of states and a row of inputs for each step, not shapes {x.shape} and {u.shape}."
+        )
+    began = clock.perf_counter()
+    one = _compiled(step, x.size, u.shape[1])
+    blocks = _Blocks(one, clock.perf_counter() - began)
+    states, outputs = np.empty((len(u) + 1, x.size)), np.empty((len(u), one.size1_out(1)))
+    states[0], done, diverged = x, 0, False
+    limits = np.broadcast_to(np.asarray(bounds, dtype=float), x.shape)
+    try:
+        while done < len(u) and not diverged:
+            count = min(POLICY.calls.steps_of_a_block, len(u) - done)
+            found, values = blocks(states[done], u[done : done + count])
+            inside = (np.abs(found) <= limits).all(axis=1)  # false for what is no number
+            count, diverged = (count, False) if inside.all() else (int(np.argmin(inside)), True)
+            states[done + 1 : done + 1 + count], outputs[done : done + count] = found[:count], values[:count]
+            done += count
+            if progress is not None:
+                progress(done / len(u), done)
+    except KeyboardInterrupt as interrupt:
+        interrupt.result = blocks.march(states[: done + 1], outputs[:done], False)  # type: ignore[attr-defined]
+        raise
+    return blocks.march(states[: done + 1], outputs[:done], diverged)
+
+
+class _Blocks:
+    """A step that is mapped over blocks of steps, each length built when it is first needed."""
+
+    def __init__(self, step: ca.Function, building: float) -> None:
+        self.step, self.building, self.seconds = step, building, 0.0
+        self._calls: dict[int, Call] = {}
+
+    def __call__(self, state: np.ndarray, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """States after each step and outputs of each."""
+        began, count = clock.perf_counter(), len(inputs)
+        if count not in self._calls:
+            self._calls[count] = Call(self.step.mapaccum("block", count))
+            self.building += clock.perf_counter() - began
+            began = clock.perf_counter()
+        states, outputs = self._calls[count](state, inputs.ravel())
+        self.seconds += clock.perf_counter() - began
+        return states.reshape(count, -1), outputs.reshape(count, -1)
+
+    def march(self, states: np.ndarray, outputs: np.ndarray, diverged: bool) -> March:
+        """What was found so far."""
+        return March(states, outputs, diverged, self.step.n_instructions(), self.building, self.seconds)
+
+
+def _compiled(step: Step, n: int, m: int) -> ca.Function:
+    x, u = (Expr(ca.SX.sym(name, size), shape=(size,)) for name, size in (("state", n), ("input", m)))
+    after, values = (as_expr(part) for part in step(x, u))
+    if after.shape != (n,) or len(values.shape) != 1:
+        raise DeclarationError(
+            f"a step returns the new state, shape ({n},), and a vector of other values, not shapes {after.shape} and "
+            f"{values.shape}."
+        )
+    try:
+        return ca.Function("step", [x.sx, u.sx], [ca.densify(after.sx), ca.densify(values.sx)])
+    except RuntimeError as error:
+        raise DeclarationError(
+            "a step may depend on its state and its inputs alone: give other values as inputs."
+        ) from error

@@ -1,0 +1,134 @@
+"""Where single steps in inertial frames hold: a free body, steps that are short enough, slow turns."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import DeclarationError
+from components.fe.arrays import Array
+from components.fe.free_modes import FreeModes
+from components.fe.range import SPIN
+from components.fe.reduced_body import ReducedBody
+
+# Of the size that an integral can have: what is rounding, as of the integrals that `reduce_body` cuts.
+ORTHOGONAL = 1e-7
+# Of a step: how far the number of steps may be from a whole one by rounding of stop time and step.
+WHOLE = 1e-6
+MEND = 'reduce_body(M, K, nodes, frames=..., hold="mean-axis", modes=...)'
+
+
+def check_free(body: ReducedBody) -> None:
+    """Refuse a body whose modes hold rigid motion, or whose reference frame is not at its centre of mass.
+
+    Raises
+    ------
+    DeclarationError
+        With the call that makes one that is free.
+    """
+    if not isinstance(body, ReducedBody):
+        raise DeclarationError(f"the body is a ReducedBody, as of {MEND}, not {body!r}")
+    if body.mass <= 0 or np.linalg.matrix_rank(_inertia(body), hermitian=True) < 3:
+        raise DeclarationError(
+            "the body has no mass, or no moment of inertia about one of its axes: it cannot turn freely"
+        )
+    length = np.sqrt(np.trace(body.second_moment) / body.mass)
+    off = np.linalg.norm(body.first_moment) / (body.mass * length)
+    size = np.sqrt(body.mass * np.diag(body.M))
+    moves = (np.linalg.norm(body.modal_first, axis=0) / size).max(initial=0.0)
+    A = body.modal_second
+    turns = (np.linalg.norm(A - A.transpose(0, 2, 1), axis=(1, 2)) / (size * length)).max(initial=0.0)
+    if max(off, moves, turns) > ORTHOGONAL:
+        what = "its reference frame is not at its centre of mass" if off > ORTHOGONAL else "its modes hold rigid motion"
+        raise DeclarationError(f"steps in inertial frames need the modes of a free body, but {what}: {MEND}")
+    squares = np.linalg.eigvals(np.linalg.solve(body.M, body.K)).real if body.n else np.ones(1)
+    if squares.min() <= ORTHOGONAL * squares.max():
+        raise DeclarationError(
+            f"a mode at {np.sqrt(max(squares.min(), 0.0)) / (2 * np.pi):.4g} Hz stands for a rigid motion: the exact ones come "
+            f"from the mass of the body, and the others are made by {MEND}"
+        )
+
+
+def limit(body: FreeModes) -> tuple[float, float]:
+    """Largest stable step in s, and the largest eigenvalue of the modes in 1/s, 0 without modes.
+
+    Steps of order 4 multiply a solution exp(z t / dt) by R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24: without damping
+    |R| <= 1 up to dt omega_max = 2 sqrt(2). Turns of the body are not counted.
+    """
+    n = body.body.n
+    if not n:
+        return np.inf, 0.0
+    system = np.block([[np.zeros((n, n)), np.eye(n)], [-body.elastic, -body.drag]])
+    rates = np.linalg.eigvals(system)
+    fastest = float(np.abs(rates).max())
+    low, high = 0.0, 4 / fastest  # on the circle of this radius |R| > 1 wherever Re z <= 0
+    while high - low > 1e-6 * high:
+        dt = (low + high) / 2
+        low, high = (dt, high) if _stable(dt * rates) else (low, dt)
+    return low, fastest
+
+
+def _stable(z: Any) -> bool:
+    # Rounding of the eigenvalues counts as damping or as its opposite, by about 1e-12 of z.
+    z = np.where(np.abs(z.real) < 1e-9 * np.abs(z), 1j * z.imag, z)
+    return bool((np.abs(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))) <= 1 + 1e-9).all())
+
+
+def steps_of(stop_time: float, dt: float) -> int:
+    """Number of steps.
+
+    Raises
+    ------
+    DeclarationError
+        If the stop time is no multiple of the step.
+    """
+    if not (np.isfinite(stop_time) and np.isfinite(dt) and stop_time > 0 and dt > 0):
+        raise DeclarationError(f"stop time and step are positive and finite, not {stop_time!r} and {dt!r}")
+    count = round(stop_time / dt)
+    if count < 1 or abs(stop_time / dt - count) > WHOLE:
+        near = stop_time / max(int(np.ceil(stop_time / dt)), 1)
+        raise DeclarationError(f"the stop time {stop_time:g} s is no multiple of the step {dt:g} s: take dt={near!r}")
+    return count
+
+
+def check_step(body: FreeModes, stop_time: float, dt: float) -> None:
+    """Refuse a step beyond the limit of stability.
+
+    Raises
+    ------
+    DeclarationError
+        With a step that works.
+    """
+    most, fastest = limit(body)
+    if dt > most:
+        near = stop_time / int(np.ceil(stop_time / (0.98 * most)))
+        raise DeclarationError(
+            f"steps of {dt:g} s are unstable: dt * omega_max = {dt * fastest:.4g}, the limit is {most * fastest:.4g}. Take "
+            f"dt={near:.6g} or less, or fewer modes: body.first({max(body.body.n - 1, 0)})"
+        )
+
+
+def too_fast(body: FreeModes, w: Array) -> str:
+    """Say that a body turns too fast for a linear model, "" if it does not.
+
+    Parameters
+    ----------
+    body : FreeModes
+        The body.
+    w : array, shape (times, 3)
+        Its angular velocity in rad/s.
+    """
+    rates = 2 * np.pi * body.body.frequencies
+    most = float(np.sqrt((w**2).sum(axis=1).max(initial=0.0)))
+    if not len(rates) or most**2 <= SPIN * rates[0] ** 2:
+        return ""
+    return (
+        f"the body turns by up to {most:.4g} rad/s, faster than half of its first frequency, {rates[0]:.4g} rad/s: there a "
+        "linear body is not stiffened by centrifugal forces, and steps in inertial frames differ in kind from a floating frame"
+    )
+
+
+def _inertia(body: ReducedBody) -> Array:
+    P = body.second_moment
+    return np.trace(P) * np.eye(3) - P

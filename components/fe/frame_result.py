@@ -1,0 +1,118 @@
+"""The motion in reconfigured frames by the names that an `FEBody` in a scene has."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import Result, result_of
+from components.fe.arrays import Array
+from components.fe.frame_checks import too_fast
+from components.fe.frame_motion import FrameMotion
+from components.fe.reduced_body import Interface
+
+Named = dict[str, tuple[Any, str]]
+UNITS = {"r_0": "m", "R.T": "1", "R.w": "rad/s", "v": "m/s", "a": "m/s2", "z": "rad/s2", "Q": "1"}
+
+
+def as_result(motion: FrameMotion, name: str = "body") -> Result:
+    """Return a motion as a result.
+
+    Parameters
+    ----------
+    motion : FrameMotion
+        What `simulate_reconfigured` returned.
+    name : str
+        Name of the body.
+
+    Returns
+    -------
+    Result
+        With `name` before each: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; and r_0, R.T, R.w, v, a, z of `ref`
+        and of each frame. The embedded rigid motion has the names `name.embedded.FRAME.r_0`, `v_0` and `a_0`, all
+        resolved in the world. Accelerations are as the variant forms them.
+    """
+    values = _modes(motion) | _reference(motion)
+    for interface in motion.modes.body.interfaces:
+        values |= {f"{interface.name}.{key}": value for key, value in _frame(motion, interface).items()}
+        rigid = _embedded(motion, interface)
+        values |= {f"embedded.{interface.name}.{key}": value for key, value in rigid.items()}
+    return result_of(
+        motion.time,
+        {f"{name}.{key}": value for key, value in values.items()},
+        [f"{name}.r_0", f"{name}.w_a"],
+        model=f"{name}, reconfigured inertial frames, {motion.variant}",
+        steps=len(motion.time) - 1,
+        states=motion.states.shape[1],
+        compile_seconds=motion.march.building,
+        solve_seconds=motion.march.building + motion.march.seconds,
+        integration_seconds=motion.march.seconds,
+        doubts=[doubt] if (doubt := too_fast(motion.modes, motion.w)) else [],
+        method=f"reconfigured inertial frames, {motion.variant}",
+    )
+
+
+def _modes(motion: FrameMotion) -> Named:
+    return {"q": (motion.q, "m"), "qd": (motion.qd, "m/s"), "qdd": (motion.qdd, "m/s2")}
+
+
+def _reference(motion: FrameMotion) -> Named:
+    """The reference frame: with mean axes its origin is where the centre of mass of the undeformed body is."""
+    T, w, v, a = motion.T, motion.w, motion.rates[:, :3], motion.a
+    local = {"r_0": motion.r_0, "R.T": T, "R.w": w, "v": v, "a": a, "z": motion.al, "Q": _quaternions(T)}
+    found: Named = {f"ref.{key}": (value, UNITS[key]) for key, value in local.items()}
+    v_0, a_0 = (np.einsum("tij,ti->tj", T, x) for x in (v, a))
+    whole = {"r_0": (motion.r_0, "m"), "v_0": (v_0, "m/s"), "a_0": (a_0, "m/s2")}
+    return found | whole | {"w_a": (w, "rad/s"), "z_a": (motion.al, "rad/s2")}
+
+
+def _frame(motion: FrameMotion, interface: Interface) -> Named:
+    """A frame, turned against the reference frame by `rodrigues_rotation` of its small rotation vector."""
+    Psi = interface.rotation
+    p, pd, pdd = (x @ Psi.T / 2 for x in (motion.q, motion.qd, motion.qdd))
+    p = p + motion.amplitudes[:, 3:6] / 2
+    square, E = (p * p).sum(axis=1)[:, None, None], np.eye(3)
+    turned = (2 * (p[:, :, None] * p[:, None, :] - _skew(p)) + (1 - square) * E) / (1 + square)
+    G = (E - _skew(p)) / (1 + square)
+    w_rel = _apply(G, 2 * pd)
+    slowing = 2 * (p * pd).sum(axis=1)[:, None] / (1 + square[:, :, 0])
+    z_rel = _apply(G, 2 * pdd) - slowing * w_rel
+    w_ref = _apply(turned, motion.w)
+    T = turned @ motion.T
+    found = {
+        "r_0": motion.place(interface.name),
+        "R.T": T,
+        "R.w": w_ref + w_rel,
+        "v": _apply(T, motion.velocity(interface.name)),
+        "a": _apply(T, motion.acceleration(interface.name)),
+        "z": _apply(turned, motion.al) - np.cross(w_rel, w_ref) + z_rel,
+    }
+    return {key: (value, UNITS[key]) for key, value in found.items()}
+
+
+def _embedded(motion: FrameMotion, interface: Interface) -> Named:
+    """The same point of the rigid body that moves with the frame."""
+    T, X, name = motion.T, interface.place, interface.name
+    v = motion.rates[:, :3] + np.cross(motion.w, X)
+    place, velocity = (np.einsum("tij,ti->tj", T, x) for x in (np.broadcast_to(X, v.shape), v))
+    a = motion.acceleration(name, embedded=True)
+    return {"r_0": (motion.r_0 + place, "m"), "v_0": (velocity, "m/s"), "a_0": (a, "m/s2")}
+
+
+def _apply(T: Array, v: Array) -> Array:
+    return np.einsum("tij,tj->ti", T, v)
+
+
+def _skew(v: Array) -> Array:
+    """Matrices of v x: their columns are v x e_k."""
+    return np.cross(v[:, None, :], np.eye(3)).transpose(0, 2, 1)
+
+
+def _quaternions(T: Array) -> Array:
+    """Quaternions of attitudes, those of one time near those of the time before."""
+    from scipy.spatial.transform import Rotation
+
+    found = Rotation.from_matrix(T.transpose(0, 2, 1)).as_quat()
+    turned = (found[1:] * found[:-1]).sum(axis=1) < 0
+    return found * np.where(np.concatenate([[0], np.cumsum(turned)]) % 2, -1, 1)[:, None]
