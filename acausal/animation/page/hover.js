@@ -6,7 +6,7 @@ class Hover {
     this.tip = tip;
     this.ray = new THREE.Raycaster();
     this.pressed = null;
-    const { element } = stage;
+    const element = $("glass");
     element.addEventListener("pointermove", (event) => {
       if (event.buttons) this.hide();
       else this.later(event);
@@ -14,7 +14,7 @@ class Hover {
     element.addEventListener("pointerleave", () => this.hide());
     element.addEventListener("pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
     element.addEventListener("pointerup", (event) => {
-      if (!this.pressed || event.target.tagName !== "CANVAS") return;
+      if (!this.pressed) return;
       const moved = Math.hypot(event.clientX - this.pressed[0], event.clientY - this.pressed[1]);
       if (moved < 4) chosen(this.find(event));
     });

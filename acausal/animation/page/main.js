@@ -37,9 +37,7 @@ async function start() {
     play: () => viewer.clock.play(),
     positions: (shape, run = 0) => runs[run].items[shape].positions(),
     poses(shape, run = 0) {
-      const { object } = runs[run].items[shape];
-      object.updateWorldMatrix(true, false);
-      const matrix = object.matrixWorld.toArray();
+      const matrix = runs[run].items[shape].object.matrixWorld.toArray();
       stage.origin.forEach((v, j) => (matrix[12 + j] += v));
       return matrix;
     },

@@ -56,7 +56,7 @@ class Plots {
       const box = area.getBoundingClientRect();
       const part = (event.clientX - box.left - EDGE.left) / (box.width - EDGE.left - EDGE.right);
       this.clock.pause();
-      this.clock.seek(mix([this.clock.first], [this.clock.last], clamp(part, 0, 1))[0]);
+      this.clock.seek(this.clock.first + (this.clock.last - this.clock.first) * clamp(part, 0, 1));
     };
     area.onpointerdown = (event) => {
       area.setPointerCapture(event.pointerId);

@@ -105,14 +105,12 @@ class Stage {
 
   /** A point of an object in the world, as it is drawn. */
   drawn(object, mark) {
-    object.updateWorldMatrix(true, false);
     const p = new THREE.Vector3(mark[0], mark[1], mark[2]).applyMatrix4(object.matrixWorld);
     return plus([p.x, p.y, p.z], this.origin);
   }
 
   /** A point of the world, resolved in a group. */
   held(group, point) {
-    group.updateWorldMatrix(true, false);
     const p = new THREE.Vector3(...minus(point, this.origin)).applyMatrix4(group.matrixWorld.clone().invert());
     return [p.x, p.y, p.z];
   }

@@ -44,6 +44,7 @@ class Viewer {
     for (const run of this.runs) run.update(this.clock.t);
     this.traces.update();
     this.views.carry();
+    this.stage.scene.updateMatrixWorld();
     this.label();
   }
 

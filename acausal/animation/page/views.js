@@ -6,7 +6,7 @@ class Views {
   constructor(stage, changed) {
     this.stage = stage;
     this.followed = null;
-    this.controls = new THREE.OrbitControls(stage.camera, stage.element);
+    this.controls = new THREE.OrbitControls(stage.camera, $("glass"));
     this.controls.zoomToCursor = true;
     this.controls.screenSpacePanning = true;
     this.controls.addEventListener("change", () => {

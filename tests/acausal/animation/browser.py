@@ -19,7 +19,7 @@ NAMES = ("chromium-headless-shell", "chrome-headless-shell", "chromium", "chromi
 # A software renderer: WebGL without a graphics card; no sandbox, which root cannot have.
 OPTIONS = (
     "--headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --no-first-run "
-    "--disable-dev-shm-usage --disable-background-networking --mute-audio --remote-debugging-pipe"
+    "--disable-features=IsolateSandboxedIframes --disable-dev-shm-usage --disable-background-networking --mute-audio --remote-debugging-pipe"
 ).split()
 PATIENCE = 60.0  # seconds for one answer, on a machine that does much else
 
@@ -49,7 +49,9 @@ class Browser:
         )
         os.close(theirs_in)
         os.close(theirs_out)
-        self._buffer, self._last, self._session = b"", 0, None
+        self._buffer, self._last = b"", 0
+        self._session: str | None = None
+        self.group = self._process.pid
         self.events: list[dict[str, Any]] = []
         target = self.call("Target.createTarget", url="about:blank", width=width, height=height)["targetId"]
         self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
@@ -98,13 +100,18 @@ class Browser:
         while not any(event["method"] == "Page.loadEventFired" for event in self.events):
             self._read(end)
 
-    def run(self, expression: str) -> Any:
+    def run(self, expression: str, **more: Any) -> Any:
         """Return the value of an expression of JavaScript; promises are awaited."""
-        answer = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
+        answer = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True, **more)
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
             raise RuntimeError(details.get("exception", {}).get("description") or details["text"])
         return answer["result"].get("value")
+
+    def contexts(self) -> list[int]:
+        """Return what to evaluate in (`contextId`): the page and the frames in it, as they came."""
+        self.run("0")
+        return [e["params"]["context"]["id"] for e in self.events if e["method"] == "Runtime.executionContextCreated"]
 
     def key(self, key: str, text: str = "", modifiers: int = 0) -> None:
         """Press and release a key."""
@@ -156,7 +163,7 @@ class Browser:
             self.call("Browser.close")
             self._process.wait(5)
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+            os.killpg(self.group, signal.SIGKILL)
         self._process.wait()
         os.close(self._in)
         os.close(self._out)

@@ -124,7 +124,14 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
     shape = {"kind": "sphere", "pose": 0, "center": center.tolist(), "diameter": 0.15 * scale}
     show(shape, "machine.sphere", places(r, T, [center]), "Body")
     pin = np.array([0.1, 0, 0]) * scale
-    shape = {"kind": "axle", "pose": 1, "center": [0, 0, 0], "axis": [1, 0, 0], "length": 0.2 * scale, "diameter": 0.1 * scale}
+    shape = {
+        "kind": "axle",
+        "pose": 1,
+        "center": [0, 0, 0],
+        "axis": [1, 0, 0],
+        "length": 0.2 * scale,
+        "diameter": 0.1 * scale,
+    }
     show(shape, "machine.pin", places(r1, T1, [0 * pin, -pin, pin]), "Revolute")
     for style in ("coil", "rod", "rail"):
         fixed = away + scale * np.array([-1.0, 0.2, {"coil": 0, "rod": -0.2, "rail": 0.2}[style]])
@@ -132,7 +139,13 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
         show(shape, f"machine.{style}", np.stack([np.broadcast_to(fixed, r.shape), r], 1), "Spring")
     for quantity, unit, factor in (("force", "N", 40.0), ("torque", "N.m", 7.0)):
         vector = factor * np.column_stack([np.cos(time), np.sin(5 * time), 0.3 + 0 * time])
-        shape = {"kind": "arrow", "at": poses[0]["r"], "vector": columns.add(vector), "quantity": quantity, "unit": unit}
+        shape = {
+            "kind": "arrow",
+            "at": poses[0]["r"],
+            "vector": columns.add(vector),
+            "quantity": quantity,
+            "unit": unit,
+        }
         longest = np.linalg.norm(vector, axis=1).max()
         show(shape, f"machine.{quantity}", np.stack([r, r + 0.25 * EXTENT * scale * vector / longest], 1), "WorldForce")
     s = np.linspace(0, 1, 4)
@@ -155,7 +168,9 @@ def every_kind(scale: float = 1.0, away: ArrayLike = (0, 0, 0), frames: int = 10
         }
         show(shape, f"machine.{path}", nodes, "FlexibleBeam")
     show(*skin(columns, scale, time, r, T, axis))
-    plots = [{"name": f"out <{k}>", "unit": unit, "column": columns.add(values)[0]} for k, unit, values in outputs(time)]
+    plots = [
+        {"name": f"out <{k}>", "unit": unit, "column": columns.add(values)[0]} for k, unit, values in outputs(time)
+    ]
     reach = np.concatenate([d.reshape(-1, 3) for d in drawn])
     middle = (reach.min(0) + reach.max(0)) / 2
     half = EXTENT * scale / 2 / np.sqrt(3)
