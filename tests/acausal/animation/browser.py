@@ -18,9 +18,16 @@ from typing import Any
 NAMES = ("chromium-headless-shell", "chrome-headless-shell", "chromium", "chromium-browser", "google-chrome")
 # A software renderer: WebGL without a graphics card; no sandbox, which root cannot have.
 OPTIONS = (
-    "--headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --no-first-run "
-    "--disable-features=IsolateSandboxedIframes --disable-dev-shm-usage --disable-background-networking --mute-audio --remote-debugging-pipe"
-).split()
+    *(
+        "--headless",
+        "--no-sandbox",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--remote-debugging-pipe",
+    ),
+    *("--no-first-run", "--hide-scrollbars", "--mute-audio", "--disable-dev-shm-usage"),
+    *("--disable-background-networking", "--disable-features=IsolateSandboxedIframes"),
+)
 PATIENCE = 60.0  # seconds for one answer, on a machine that does much else
 
 

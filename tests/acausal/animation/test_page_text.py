@@ -59,7 +59,7 @@ def test_any_characters_in_title_and_names(show: Show) -> None:
     run = {**run, "name": NASTY, "stopped": NASTY, "parts": parts, "plots": plots}
     browser = show(document(run, run, title=NASTY))
     browser.run("acausal.viewer.colour('bending moment')")
-    browser.run(f"acausal.viewer.choose('0/1')")
+    browser.run("acausal.viewer.choose('0/1')")
     assert browser.run("document.images.length") == 0
     assert browser.run("document.scripts.length") == 3
     assert browser.run("document.title").split() == NASTY.split()

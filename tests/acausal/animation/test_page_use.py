@@ -278,7 +278,8 @@ def test_everything_has_a_name_and_fits_a_phone(show: Show, run: dict) -> None:
     browser = show(document(run, run))
     nameless = browser.run(
         "[...document.querySelectorAll('button, input, select, canvas[role]')].filter((e) =>"
-        " !(e.ariaLabel || e.labels?.[0]?.textContent.trim() || (e.tagName === 'BUTTON' && e.textContent.trim()))).map((e) => e.id)"
+        " !(e.ariaLabel || e.labels?.[0]?.textContent.trim() || (e.tagName === 'BUTTON' && e.textContent.trim())))"
+        ".map((e) => e.id)"
     )
     assert nameless == []
     browser.call("Emulation.setDeviceMetricsOverride", width=360, height=640, deviceScaleFactor=2, mobile=True)
@@ -314,8 +315,10 @@ def test_list_of_keys(show: Show, run: dict) -> None:
 
 
 def test_without_webgl_plots_still_work(show: Show, run: dict, one_browser: Browser) -> None:
-    none = "HTMLCanvasElement.prototype.getContext = ((old) => function (kind, ...more) {" \
-        " return /webgl/.test(kind) ? null : old.call(this, kind, ...more); })(HTMLCanvasElement.prototype.getContext)"  # fmt: skip
+    none = (
+        "HTMLCanvasElement.prototype.getContext = ((old) => function (kind, ...more) {"
+        " return /webgl/.test(kind) ? null : old.call(this, kind, ...more); })(HTMLCanvasElement.prototype.getContext)"
+    )
     script = one_browser.call("Page.addScriptToEvaluateOnNewDocument", source=none)
     try:
         browser = show(document(run), "#t=0.5")
