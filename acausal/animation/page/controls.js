@@ -82,12 +82,7 @@ function listenToKeys(viewer) {
 /** Connect what stands in the page; what the document has no use for is taken away. */
 function connectControls(viewer) {
   const { clock } = viewer;
-  const press = (id, action) => {
-    $(id).addEventListener("click", (event) => {
-      action();
-      if (event.detail) $(id).blur(); // pressed with the pointer: keys go to the picture again
-    });
-  };
+  const press = (id, action) => $(id).addEventListener("click", () => action());
   press("play", () => (clock.playing ? clock.pause() : clock.play()));
   press("slower", () => clock.faster(-1));
   press("faster", () => clock.faster(1));
@@ -114,6 +109,18 @@ function connectControls(viewer) {
   $("keys").replaceChildren(...KEYS.map(([key, said]) => make("tr", {}, [make("th", { textContent: key, scope: "row" }), make("td", { textContent: said })])));
   press("close-help", () => $("help-list").close());
   listenToKeys(viewer);
+  releaseFocus();
+}
+
+/** What was worked with the pointer gives the keys back to the picture. */
+function releaseFocus() {
+  let pointed = false;
+  addEventListener("pointerdown", () => (pointed = true), true);
+  addEventListener("keydown", () => (pointed = false), true);
+  document.addEventListener("change", (event) => pointed && event.target.blur());
+  document.addEventListener("click", () => {
+    if (pointed && document.activeElement.tagName !== "SELECT") document.activeElement.blur();
+  });
 }
 
 /** Show the state of the viewer in the page. */

@@ -18,17 +18,13 @@ class Curve {
   /** Positions of the nodes and derivatives by the coordinate 0 ... 1 of an element, deformation scaled. */
   line() {
     const points = this.shape.points.map((ks) => this.columns.vector(ks));
-    const tangents = this.shape.tangents.map((ks) => this.columns.vector(ks));
+    const tangents = this.shape.tangents?.map((ks) => this.columns.vector(ks)) ?? slopes(points);
     const scale = this.stage.deformation;
     if (scale === 1 || !this.shape.rest) return { points, tangents };
     const rest = this.rest(points);
     const drawn = points.map((p, i) => mix(rest[i], p, scale));
-    const last = this.nodes - 1;
-    const slopes = tangents.map((tangent, i) => {
-      const [low, high] = [Math.max(i - 1, 0), Math.min(i + 1, last)];
-      return mix(times(1 / (high - low), minus(rest[high], rest[low])), tangent, scale);
-    });
-    return { points: drawn, tangents: slopes };
+    const straight = slopes(rest);
+    return { points: drawn, tangents: tangents.map((tangent, i) => mix(straight[i], tangent, scale)) };
   }
 
   /** Where the nodes were if nothing deformed: on the chord, or with the frame of the beam. */
@@ -91,6 +87,15 @@ class Curve {
     }
     return () => this.line().points[node];
   }
+}
+
+/** Derivatives by the number of the point, as the neighbours tell them. */
+function slopes(points) {
+  const last = points.length - 1;
+  return points.map((_, i) => {
+    const [low, high] = [Math.max(i - 1, 0), Math.min(i + 1, last)];
+    return times(1 / (high - low), minus(points[high], points[low]));
+  });
 }
 
 function hermite(ends, weights) {

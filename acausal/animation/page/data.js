@@ -2,6 +2,7 @@
 
 /** Bytes from base64 of zlib. */
 async function unpack(text) {
+  if (typeof DecompressionStream !== "function") throw new Error("the browser is too old to unpack its numbers.");
   const letters = atob(text);
   const bytes = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);

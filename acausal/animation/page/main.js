@@ -23,7 +23,7 @@ async function start() {
   stage.renderer?.domElement.addEventListener("webglcontextrestored", () => ($("without").hidden = true));
   const viewer = new Viewer(content, stage, runs);
   viewer.choose("");
-  viewer.clock.play();
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) viewer.clock.play();
   heedAddress(viewer, location.hash);
   addEventListener("hashchange", () => heedAddress(viewer, location.hash));
   Object.assign(window.acausal, {

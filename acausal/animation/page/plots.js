@@ -1,4 +1,4 @@
-// Plots of the outputs under the picture: one panel for each unit, a cursor that follows, clicks and drags that seek.
+// Plots of the outputs under the picture: a panel for each unit and size, a cursor that follows, clicks and drags that seek.
 
 const LINES = ["#3b82f6", "#e8853b", "#22a06b", "#c060d0", "#e2596b", "#18a5bd", "#a68b21", "#8d7bf0"];
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
@@ -8,19 +8,31 @@ class Plots {
   constructor(element, runs, clock) {
     Object.assign(this, { element, runs, clock });
     this.panels = [];
-    const units = new Map();
-    runs.forEach((run) => {
-      for (const { name, unit: of, column } of run.run.plots) {
-        if (!units.has(of)) units.set(of, new Map());
-        const outputs = units.get(of);
-        if (!outputs.has(name)) outputs.set(name, []);
-        outputs.get(name).push({ run, column });
-      }
-    });
-    for (const [of, outputs] of units) this.panels.push(this.panel(of, outputs));
+    for (const { of, outputs } of this.groups()) this.panels.push(this.panel(of, outputs));
     element.replaceChildren(...this.panels.map((panel) => panel.figure));
     element.hidden = !this.panels.length;
     new ResizeObserver(() => this.draw()).observe(element);
+  }
+
+  /** Outputs of one unit and of like size stand together: what moves twenty times less would be a straight line. */
+  groups() {
+    const outputs = new Map();
+    for (const run of this.runs) {
+      for (const { name, unit: of, column } of run.run.plots) {
+        const key = JSON.stringify([name, of]);
+        if (!outputs.has(key)) outputs.set(key, { name, of, list: [] });
+        outputs.get(key).list.push({ run, column, shown: true });
+      }
+    }
+    const groups = [];
+    for (const { name, of, list } of outputs.values()) {
+      const [low, high] = this.reach(list);
+      const span = high - low;
+      let group = groups.find((one) => one.of === of && span < 20 * one.span && one.span < 20 * span);
+      if (!group) groups.push((group = { of, span, outputs: new Map() }));
+      group.outputs.set(name, list);
+    }
+    return groups;
   }
 
   panel(of, outputs) {
@@ -92,7 +104,7 @@ class Plots {
     ink.textAlign = "right";
     ink.textBaseline = "middle";
     const floor = height - EDGE.bottom;
-    for (const v of ticks(low, high, height / 34)) {
+    for (const v of ticks(low, high, height / 24)) {
       stroke(ink, [[EDGE.left, Math.round(down(v)) + 0.5], [width - EDGE.right, Math.round(down(v)) + 0.5]]);
       ink.fillText(written(v), EDGE.left - 5, down(v));
     }
@@ -133,16 +145,22 @@ class Plots {
     ink.setLineDash([]);
   }
 
-  /** What the shown curves reach, and a margin. */
-  range(panel) {
+  /** Least and greatest value of the shown curves. */
+  reach(curves) {
     let [low, high] = [Infinity, -Infinity];
-    for (const { run, column, shown } of panel.curves) {
+    for (const { run, column, shown } of curves) {
       if (!shown) continue;
       for (const v of run.columns.series(column)) {
         if (v < low) low = v;
         if (v > high) high = v;
       }
     }
+    return [low, high];
+  }
+
+  /** What the axis spans: the curves and a margin. */
+  range(panel) {
+    const [low, high] = this.reach(panel.curves);
     if (!(low <= high)) return [0, 1];
     // Less than the digits of the numbers is a straight line.
     const span = high - low > 1e-6 * Math.max(Math.abs(low), Math.abs(high)) ? high - low : Math.abs(high) || 1;

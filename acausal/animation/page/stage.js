@@ -85,7 +85,7 @@ class Stage {
       return lines;
     });
     this.corners = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([a, b]) => point(ranges[0][a], ranges[1][b]));
-    this.axes = tripod(0.1 * this.extent);
+    this.axes = tripod(0.08 * this.extent);
     this.axes.position.set(...world);
     this.scene.add(this.axes);
   }

@@ -106,15 +106,18 @@ class Viewer {
     const key = `${stage.ghosts}/${stage.element.clientWidth}/${stage.element.clientHeight}`;
     if (this.runs.length < 2 || this.labelled === key) return;
     this.labelled = key;
-    const labels = stage.panels().flatMap((panel) =>
-      panel.runs.map((run, k) => {
-        const label = make("div", { className: "run-name", textContent: run.name });
-        label.style.left = `calc(${100 * panel.x}% + 10px)`;
-        label.style.top = `calc(${100 * panel.y}% + ${8 + 24 * k}px)`;
-        if (stage.ghosts && k) label.style.color = GHOST[run.number % GHOST.length];
-        return label;
-      }),
-    );
+    const labels = stage.panels().map(({ x, y, width, height, runs }) => {
+      const names = runs.map((run, k) => {
+        const name = make("div", { className: "run-name", textContent: run.name });
+        Object.assign(name.style, { left: "10px", top: `${8 + 25 * k}px` });
+        if (stage.ghosts && k) name.style.color = GHOST[run.number % GHOST.length];
+        return name;
+      });
+      const frame = make("div", { className: "panel" }, names);
+      Object.assign(frame.style, { left: `${100 * x}%`, top: `${100 * y}%`, width: `${100 * width}%`, height: `${100 * height}%` });
+      Object.assign(frame.style, { borderLeftWidth: x ? "1px" : 0, borderTopWidth: y ? "1px" : 0 });
+      return frame;
+    });
     $("labels").replaceChildren(...labels);
   }
 

@@ -50,10 +50,10 @@ class Views {
     const { camera, low, high, up, extent } = this.stage;
     const right = unit(cross(up, direction), [1, 0, 0]);
     const above = cross(direction, right);
-    const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.86;
+    const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.92;
     const wide = tall * camera.aspect;
     let distance = 0;
-    const margin = 0.04 * extent;
+    const margin = 0.03 * extent;
     for (let k = 0; k < 8; k++) {
       const corner = [0, 1, 2].map((j) => ((k >> j) & 1 ? high[j] + margin : low[j] - margin));
       const depth = dot(corner, direction);
