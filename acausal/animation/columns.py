@@ -50,7 +50,12 @@ class Columns:
     def closed(self, document: dict[str, Any]) -> dict[str, Any]:
         """Return a document with the data, and with the numbers of the columns in place of their places."""
         data = b"".join([*self._varying, *self._constants])
-        found = {"frames": self.frames, "varying": len(self._varying), "constant": len(self._constants), "data": blob(data)}
+        found = {
+            "frames": self.frames,
+            "varying": len(self._varying),
+            "constant": len(self._constants),
+            "data": blob(data),
+        }
         return found | self._numbered(document)
 
     def _numbered(self, value: Any) -> Any:
@@ -65,4 +70,6 @@ class Columns:
 
 def blob(data: Any) -> str:
     """Return numbers as text: compressed by deflate with the header of zlib, in base64."""
-    return b64encode(compress(bytes(data) if isinstance(data, bytes) else np.ascontiguousarray(data).tobytes(), 6)).decode()
+    return b64encode(
+        compress(bytes(data) if isinstance(data, bytes) else np.ascontiguousarray(data).tobytes(), 6)
+    ).decode()

@@ -97,9 +97,7 @@ class _Writer:
                 "poses": self.poses,
                 "parts": [{"path": path, "type": kind} for path, kind in parts],
                 "shapes": shapes,
-                "plots": [
-                    {"name": p.name, "unit": p.unit, "column": self.columns.add(p.values)} for p in scene.plots
-                ],
+                "plots": [{"name": p.name, "unit": p.unit, "column": self.columns.add(p.values)} for p in scene.plots],
                 "extent": {"low": scene.low.tolist(), "high": scene.high.tolist()},
                 "size": scene.size,
                 "up": scene.up.tolist(),
@@ -112,7 +110,9 @@ class _Writer:
             try:
                 q = quaternions(pose.T)
             except ValueError:
-                raise DeclarationError(f"T of a Pose of {of.path or 'the model'} ({of.kind}) is no rotation matrix.") from None
+                raise DeclarationError(
+                    f"T of a Pose of {of.path or 'the model'} ({of.kind}) is no rotation matrix."
+                ) from None
             if len(q) > 1:
                 between = turns(q)[np.diff(self.scene.run.time) > 0]
                 self.fastest = max(self.fastest, (float(np.max(between, initial=0)), of.path))
@@ -169,7 +169,9 @@ class _Writer:
         rest: dict[str, Any] = {"chord": True, "fractions": _fractions(s)}
         if s.rest is not None:
             if s.rest_points is None or s.rest_points.shape != s.points.shape[1:]:
-                raise DeclarationError(f"the Curve of {one.path or 'the model'} ({one.kind}) needs `rest_points`, one for each point.")
+                raise DeclarationError(
+                    f"the Curve of {one.path or 'the model'} ({one.kind}) needs `rest_points`, one for each point."
+                )
             rest = {"pose": self.pose(s.rest, one), "points": _plain(s.rest_points)}
         return {
             "points": self.places(s.points),
@@ -183,12 +185,11 @@ class _Writer:
     def mesh(self, one: Seen) -> dict[str, Any]:
         """Its numbers are in a pose."""
         s = one.shape
-        deforms = s.modes is not None and s.q is not None
         return self._rigid(one) | {
             "vertices": blob(np.asarray(s.vertices, dtype="<f4")),
             "triangles": blob(np.asarray(s.triangles, dtype="<u4")),
-            "modes": blob(np.asarray(s.modes, dtype="<f4")) if deforms else None,
-            "q": self.columns.add(s.q) if deforms else [],
+            "modes": blob(np.asarray(s.modes, dtype="<f4")) if s.q is not None else None,
+            "q": self.columns.add(s.q) if s.q is not None else [],
         }
 
     def _rigid(self, one: Seen, **fields: Any) -> dict[str, Any]:

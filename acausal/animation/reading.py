@@ -86,7 +86,9 @@ def _resolved(shape: Any, of: Seen, take: Any) -> Any:
         for name, size in names.get(type(shape), {}).items():
             value = getattr(shape, name)
             if value is not None:
-                found[name] = take(value, size, moves, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_of(of)}")
+                found[name] = take(
+                    value, size, moves, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_of(of)}"
+                )
     made = replace(shape, **found)
     if isinstance(shape, g.Pose):
         take.poses[id(shape)] = made

@@ -118,7 +118,9 @@ def shown(tree: Component, values: Sequence[str]) -> list[Seen]:
     missing = [name for name in values if name not in known | {ALL}]
     if missing:
         there = ", ".join(f'"{name}"' for name in sorted(known)) or "none"
-        raise DeclarationError(f'there are no values "{missing[0]}" along the curves of this scene; there are: {there}.')
+        raise DeclarationError(
+            f'there are no values "{missing[0]}" along the curves of this scene; there are: {there}.'
+        )
     return [replace(one, shape=_with_values(one.shape, values)) for one in seen]
 
 
@@ -126,7 +128,9 @@ def _with_values(shape: Any, names: Sequence[str]) -> Any:
     if not isinstance(shape, g.Curve):
         return shape
     kept = [v for v in shape.values if not callable(v.entries) or v.name in names or ALL in names]
-    return replace(shape, values=tuple(replace(v, entries=v.entries() if callable(v.entries) else v.entries) for v in kept))
+    return replace(
+        shape, values=tuple(replace(v, entries=v.entries() if callable(v.entries) else v.entries) for v in kept)
+    )
 
 
 def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
@@ -222,5 +226,3 @@ def smooth(points: np.ndarray) -> np.ndarray:
     if points.shape[1] < 2:
         return np.zeros_like(points)
     return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
-
-
