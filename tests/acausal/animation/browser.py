@@ -39,7 +39,7 @@ def installed() -> str | None:
 class Browser:
     """One page of one browser, which runs in a process group of its own."""
 
-    def __init__(self, path: str, width: int = 1000, height: int = 800, *options: str) -> None:
+    def __init__(self, path: str, width: int = 720, height: int = 600, *options: str) -> None:
         self._home = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         theirs_in, self._out = os.pipe()
         self._in, theirs_out = os.pipe()

@@ -50,7 +50,7 @@ def test_keys_step_from_frame_to_frame(show: Show, run: dict) -> None:
     browser.run("acausal.seek(0.505)")
     browser.key("ArrowLeft")
     assert browser.run(NOW) == frames[25]  # the frame before, not one further
-    assert browser.run("document.querySelector('#now').textContent.startsWith('0.5')")
+    until(browser, "document.querySelector('#now').textContent.startsWith('0.5')")
 
 
 def test_play_pause_speed_and_loop(show: Show, run: dict) -> None:
