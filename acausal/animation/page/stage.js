@@ -89,6 +89,14 @@ class Stage {
     this.scene.add(this.axes);
   }
 
+  /** The box that the picture shows: the scene, and the axes of the world where they stand in it. */
+  framed() {
+    const world = times(-1, this.origin);
+    const near = world.every((v, k) => v > this.low[k] - 0.05 * this.extent && v < this.high[k] + 0.05 * this.extent);
+    if (!near || !this.show.axes) return this;
+    return { low: this.low, high: this.high.map((v, k) => Math.max(v, world[k] + 0.08 * this.extent)) };
+  }
+
   /** How far the scene reaches from its middle along an axis. */
   reach(axis) {
     return [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);

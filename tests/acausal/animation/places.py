@@ -32,10 +32,10 @@ class Frame:
 
     def at(self, pose: int, points: Any) -> Array:
         """Return local points of a pose in the world."""
-        pose = self.run["poses"][pose]
-        w, x, y, z = self.values[pose["q"]]
+        it = self.run["poses"][pose]
+        w, x, y, z = self.values[it["q"]]
         turn = Rotation.from_quat([x, y, z, w]).as_matrix()
-        return self.values[pose["r"]] + np.reshape(points, (-1, 3)) @ turn.T
+        return self.values[it["r"]] + np.reshape(points, (-1, 3)) @ turn.T
 
     def places(self, shape: dict[str, Any], longest: dict[str, float]) -> Array:
         """Return the points (n, 3) that the page tells of a shape; `longest` are the vectors' lengths in the document."""
