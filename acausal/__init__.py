@@ -11,6 +11,7 @@ heed()
 
 from typing import TYPE_CHECKING, Any
 
+from acausal.animation import geometry
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,
@@ -130,6 +131,7 @@ __all__ = [
     "UnitsError",
     "Vector3",
     "acos",
+    "animate",
     "apart",
     "as_expr",
     "asin",
@@ -152,6 +154,7 @@ __all__ = [
     "feedback",
     "fixed",
     "flow",
+    "geometry",
     "guess",
     "in_loop",
     "initial",
@@ -193,9 +196,11 @@ __all__ = [
 
 if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
+    from acausal.result.several import animate
 
 # What few runs need: loading it takes as long as a small simulation.
 _LATER = dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export")
+_LATER["animate"] = "acausal.result.several"
 
 
 def __getattr__(name: str) -> Any:

@@ -6,7 +6,7 @@ from math import pi
 import acausal as ac
 from acausal import Model, Scalar, connect, fixed, output, parameter, part, piecewise, sin, structural, time
 from components import World, WorldForce
-from components.fe import FEBody, ReducedBody, box, read_npz, reduce_body
+from components.fe import FEBody, Nodes, ReducedBody, box, read_npz, reduce_body
 
 SIZE, COUNTS, REST = (1, 0.05, 0.01), (100, 5, 1), fixed((0, 0, 0))
 PLACES = {"P1": (-0.5, -0.025, 0), "end": (0.5, 0, 0)}  # from the middle of the lower face
@@ -19,7 +19,7 @@ def plate(mesh: str, modes: int) -> ReducedBody:
         M, K, nodes = box(SIZE, COUNTS, mesh, E=7e10, nu=0.33, rho=2700)
         corners = (abs(abs(2 * nodes - SIZE) - SIZE) < 1e-9).all(axis=1)
         M.setdiag(M.diagonal() + corners.repeat(3) * 1.0)  # kg
-        nodes = nodes - (0.5, 0.025, 0)
+        nodes = Nodes(nodes - (0.5, 0.025, 0), cells=nodes.cells)
     else:
         M, K, nodes = read_npz(mesh, length=1e-3, mass=1e3)
     frames = {name: [((nodes - place) ** 2).sum(axis=1).argmin()] for name, place in PLACES.items()}

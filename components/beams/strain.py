@@ -103,6 +103,15 @@ class Strain:
         u_1, v_1, a, u_2, v_2, b = (U[3 * j + k] for k in range(6))
         return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
 
+    def tangents(self, U: Any) -> list[tuple[Any, Any]]:
+        """Derivatives of the axis by the part xi of an element, along and across it, in m; at a node the mean of both sides."""
+        ends = [[] for _ in range(self.elements + 1)]
+        for j in range(self.elements):
+            along, c = self.l + U[3 * j + 3] - U[3 * j], self.bubble(U, j)
+            ends[j].append(along + c)
+            ends[j + 1].append(along - c)
+        return [(sum(ends[k][1:], ends[k][0]) / len(ends[k]), U[3 * k + 2]) for k in range(self.elements + 1)]
+
     def _lean(self, e: Bend) -> Any:
         return (e.r / 10 - e.d / 2) / self.l
 

@@ -15,6 +15,7 @@ from acausal import (
     der,
     dot,
     effect,
+    geometry,
     initial,
     outer,
     parameter,
@@ -29,7 +30,8 @@ from components.fe.chosen import critical_damping, nominal, with_modes
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
 from components.fe.reduced_body import Interface, ReducedBody
-from components.frame import Frame, move
+from components.fe.skin import box_of_inertia, mesh
+from components.frame import Frame, move, pose
 from components.moving_body import MovingBody
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
 from components.world import World
@@ -195,6 +197,14 @@ class FEBody(MovingBody):
     def dissipated_power(self):
         """Power of the damping of the modes."""
         return dot(self.qd, self._drag())
+
+    def shapes(self):
+        """The skin of its mesh, or the box of its inertia and its frames where it knows no mesh."""
+        at = pose(self.reference)
+        if found := mesh(self._body, at, self.q):
+            yield found
+        else:
+            yield from (box_of_inertia(self._body, at), *(geometry.Sphere(pose(f)) for f in self.frames.values()))
 
     @property
     def _body(self) -> ReducedBody:
