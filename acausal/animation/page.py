@@ -14,7 +14,7 @@ FOLDER = Path(__file__).with_name("page")
 # In this order they make one script: what is used while it is read stands before.
 SCRIPTS = (
     *("vectors", "data", "solids", "tube", "curve", "spans", "mesh", "colours", "stage", "run", "views", "traces"),
-    *("hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
+    *("names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
 )
 
 

@@ -14,7 +14,7 @@ class Plots {
     new ResizeObserver(() => this.draw()).observe(element);
   }
 
-  /** Outputs of one unit and of like size stand together: what moves twenty times less would be a straight line. */
+  /** Outputs of one unit stand together, unless one moves less than a twentieth of their axis: it would seem straight. */
   groups() {
     const outputs = new Map();
     for (const run of this.runs) {
@@ -27,10 +27,12 @@ class Plots {
     const groups = [];
     for (const { name, of, list } of outputs.values()) {
       const [low, high] = this.reach(list);
-      const span = high - low;
-      let group = groups.find((one) => one.of === of && span < 20 * one.span && one.span < 20 * span);
-      if (!group) groups.push((group = { of, span, outputs: new Map() }));
-      group.outputs.set(name, list);
+      const least = still(low, high) ? Infinity : high - low;
+      const joined = (one) => ({ low: Math.min(low, one.low), high: Math.max(high, one.high), least: Math.min(least, one.least) });
+      const fits = ({ low, high, least }) => high - low < 20 * least;
+      let group = groups.find((one) => one.of === of && fits(joined(one)));
+      if (!group) groups.push((group = { of, low, high, least, outputs: new Map() }));
+      Object.assign(group, joined(group)).outputs.set(name, list);
     }
     return groups;
   }
@@ -104,15 +106,17 @@ class Plots {
     ink.textAlign = "right";
     ink.textBaseline = "middle";
     const floor = height - EDGE.bottom;
-    for (const v of ticks(low, high, height / 24)) {
+    const values = ticks(low, high, height / 24);
+    for (const v of values) {
       stroke(ink, [[EDGE.left, Math.round(down(v)) + 0.5], [width - EDGE.right, Math.round(down(v)) + 0.5]]);
-      ink.fillText(written(v), EDGE.left - 5, down(v));
+      ink.fillText(marked(v, values), EDGE.left - 5, down(v));
     }
     ink.textAlign = "center";
     ink.textBaseline = "top";
-    for (const t of ticks(this.clock.first, this.clock.last, width / 70)) {
+    const moments = ticks(this.clock.first, this.clock.last, width / 70);
+    for (const t of moments) {
       stroke(ink, [[Math.round(across(t)) + 0.5, EDGE.top], [Math.round(across(t)) + 0.5, floor]]);
-      ink.fillText(written(t), clamp(across(t), 12, width - 22), floor + 5);
+      ink.fillText(marked(t, moments), clamp(across(t), 12, width - 22), floor + 5);
     }
     ink.textAlign = "left";
     ink.fillText("s", width - 9, floor + 5);
@@ -162,8 +166,7 @@ class Plots {
   range(panel) {
     const [low, high] = this.reach(panel.curves);
     if (!(low <= high)) return [0, 1];
-    // Less than the digits of the numbers is a straight line.
-    const span = high - low > 1e-6 * Math.max(Math.abs(low), Math.abs(high)) ? high - low : Math.abs(high) || 1;
+    const span = still(low, high) ? Math.abs(high) || 1 : high - low;
     return [low - 0.06 * span, high + 0.06 * span];
   }
 
@@ -176,6 +179,11 @@ class Plots {
       for (const { run, column, value } of curves) value.textContent = written(run.columns.at(column));
     }
   }
+}
+
+/** Numbers of 24 bits have steps that would be seen in less than this. */
+function still(low, high) {
+  return high - low <= 1e-5 * Math.max(Math.abs(low), Math.abs(high));
 }
 
 function stroke(ink, points) {
@@ -192,4 +200,11 @@ function ticks(low, high, count) {
   const first = Math.ceil(low / step - 1e-9);
   const list = Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => first + k);
   return list.map((k) => Number((k * step).toPrecision(12)));
+}
+
+/** One of the round numbers of an axis, with the digits that tell it from its neighbours. */
+function marked(value, all) {
+  const most = Math.max(...all.map(Math.abs));
+  const step = all.length > 1 ? all[1] - all[0] : most || 1;
+  return written(value, clamp(Math.round(Math.log10(Math.abs(value) / step)) + 2, 1, 12));
 }

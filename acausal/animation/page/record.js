@@ -35,7 +35,8 @@ class Recorder {
     this.clock.ended = null;
     this.clock.pause();
     // The last picture is still on its way to the film.
-    setTimeout(() => this.media?.stop(), 150);
+    const { media } = this;
+    setTimeout(() => media.state === "recording" && media.stop(), 150);
   }
 
   save(film) {

@@ -61,8 +61,7 @@ class Stage {
     // The grid covers the scene's shadow and a margin, in whole steps from the world's origin.
     const world = times(-1, this.origin);
     const ranges = [along, front].map((axis) => {
-      const reach = [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);
-      const half = Math.max(reach, 0.3 * this.extent) + 2 * step;
+      const half = Math.max(this.reach(axis), 0.3 * this.extent) + 2 * step;
       const offset = dot(world, axis);
       return [Math.floor((-half - offset) / step), Math.ceil((half - offset) / step)];
     });
@@ -90,10 +89,22 @@ class Stage {
     this.scene.add(this.axes);
   }
 
+  /** The box that the picture shows: the scene, and the axes of the world where they stand in it. */
+  framed() {
+    const world = times(-1, this.origin);
+    const near = world.every((v, k) => v > this.low[k] - 0.05 * this.extent && v < this.high[k] + 0.05 * this.extent);
+    if (!near || !this.show.axes) return this;
+    return { low: this.low, high: this.high.map((v, k) => Math.max(v, world[k] + 0.08 * this.extent)) };
+  }
+
+  /** How far the scene reaches from its middle along an axis. */
+  reach(axis) {
+    return [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);
+  }
+
   /** Height of the grid above the world's origin: there, or below a scene that hangs lower. */
   floor(step) {
-    const reach = [0, 1, 2].reduce((sum, k) => sum + Math.abs(this.up[k]) * this.high[k], 0);
-    const lowest = dot(this.origin, this.up) - reach;
+    const lowest = dot(this.origin, this.up) - this.reach(this.up);
     return lowest < -1e-3 * this.extent ? step * Math.floor(lowest / step + 1e-9) : 0;
   }
 
@@ -120,8 +131,13 @@ class Stage {
     const n = this.runs.length;
     if (this.ghosts || n < 2) return [{ x: 0, y: 0, width: 1, height: 1, runs: this.runs }];
     const { clientWidth, clientHeight } = this.element;
-    const columns = clientWidth < clientHeight ? Math.ceil(n / 3) : Math.min(n, Math.max(2, Math.ceil(Math.sqrt(n))));
-    const rows = Math.ceil(n / columns);
+    // As many side by side as make the panels most like the scene from the front.
+    const { along } = this.directions();
+    const shape = clamp(this.reach(along) / this.reach(this.up) || 1, 0.5, 2);
+    const rowsOf = (columns) => Math.ceil(n / columns);
+    const unlike = (columns) => Math.abs(Math.log((clientWidth * rowsOf(columns)) / (columns * clientHeight * shape)));
+    const columns = this.runs.map((_, k) => k + 1).reduce((best, next) => (unlike(next) < unlike(best) ? next : best));
+    const rows = rowsOf(columns);
     return this.runs.map((run, k) => ({
       x: (k % columns) / columns, y: Math.floor(k / columns) / rows, width: 1 / columns, height: 1 / rows, runs: [run],
     }));
@@ -168,6 +184,9 @@ class Stage {
     if (!this.renderer) return;
     this.cut();
     const { clientWidth: width, clientHeight: height } = this.element;
+    this.renderer.setScissorTest(false);
+    this.renderer.setClearColor(this.scene.background);
+    this.renderer.clear();
     this.renderer.setScissorTest(true);
     for (const panel of this.panels()) {
       for (const run of this.runs) run.group.visible = panel.runs.includes(run);

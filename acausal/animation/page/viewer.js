@@ -8,6 +8,7 @@ class Viewer {
     this.traces = new Traces(stage);
     this.recorder = new Recorder(this.clock, stage, document_.title || "animation", () => this.change());
     this.plots = new Plots($("plots"), runs, this.clock);
+    this.axisNames = new AxisNames(stage, $("axis-names"));
     this.hover = new Hover(stage, $("tip"), (found) => this.pick(found));
     this.values = ColourScale.offered(runs);
     this.chosen = null;
@@ -35,6 +36,7 @@ class Viewer {
   draw() {
     this.settle();
     this.stage.render();
+    this.axisNames.update();
     this.plots.update();
     showState(this);
   }
@@ -60,7 +62,9 @@ class Viewer {
       const arrows = this.runs.flatMap((run) => run.items).filter((item) => item.quantity === quantity);
       const longest = Math.max(0, ...arrows.map((arrow) => arrow.longest()));
       this.stage.arrowScale[quantity] = longest > 0 ? (0.25 * this.stage.extent) / longest : 0;
-      $(`show-${quantity}`).parentElement.hidden = !arrows.length;
+      const label = $(`show-${quantity}`).parentElement;
+      label.hidden = !arrows.length;
+      if (longest > 0) label.append(` up to ${written(longest, 3)} ${arrows[0].shape.unit}`);
     }
   }
 

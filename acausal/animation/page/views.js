@@ -47,7 +47,8 @@ class Views {
   }
 
   place(direction) {
-    const { camera, low, high, up, extent } = this.stage;
+    const { camera, up, extent } = this.stage;
+    const { low, high } = this.stage.framed();
     const right = unit(cross(up, direction), [1, 0, 0]);
     const above = cross(direction, right);
     const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.92;

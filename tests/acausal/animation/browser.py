@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-NAMES = ("chromium-headless-shell", "chrome-headless-shell", "chromium", "chromium-browser", "google-chrome")
+NAMES = ("chromium-headless-shell", "chrome-headless-shell", "chromium", "google-chrome")
 # A software renderer: WebGL without a graphics card; no sandbox, which root cannot have.
 OPTIONS = (
     *(
@@ -32,14 +32,14 @@ PATIENCE = 60.0  # seconds for one answer, on a machine that does much else
 
 
 def installed() -> str | None:
-    """Return the path of a browser, or None."""
-    return next((path for name in NAMES if (path := shutil.which(name))), None)
+    """Return the path of a browser, or None; descriptors are handed over as POSIX has it."""
+    return next((path for name in NAMES if (path := shutil.which(name))), None) if os.name == "posix" else None
 
 
 class Browser:
     """One page of one browser, which runs in a process group of its own."""
 
-    def __init__(self, path: str, width: int = 1000, height: int = 800, *options: str) -> None:
+    def __init__(self, path: str, width: int = 720, height: int = 600, *options: str) -> None:
         self._home = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         theirs_in, self._out = os.pipe()
         self._in, theirs_out = os.pipe()

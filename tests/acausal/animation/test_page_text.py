@@ -28,7 +28,7 @@ def test_bundle_keeps_its_licence() -> None:
 def test_every_file_of_the_page_is_used_and_short() -> None:
     names = {path.name for path in page.FOLDER.iterdir()}
     viewer = {f"{name}.js" for name in page.SCRIPTS}
-    assert names == viewer | {"index.html", "viewer.css", "three.min.js", "three.entry.js", "BUNDLE.md"}
+    assert names == viewer | {"index.html", "viewer.css", "three.min.js", "three.entry.js", "BUNDLE.md", "DOCUMENT.md"}
     assert not [name for name in names - {"three.min.js"} if page.part(name).count("\n") > 300]
 
 

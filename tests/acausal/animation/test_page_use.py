@@ -14,7 +14,7 @@ import pytest
 from acausal.animation.page import html
 from tests.acausal.animation.browser import Browser, installed
 from tests.acausal.animation.conftest import Show
-from tests.acausal.animation.made import document, every_kind
+from tests.acausal.animation.made import Columns, document, every_kind
 
 NOW = "acausal.time()"
 PAINTED = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null))))"
@@ -50,7 +50,7 @@ def test_keys_step_from_frame_to_frame(show: Show, run: dict) -> None:
     browser.run("acausal.seek(0.505)")
     browser.key("ArrowLeft")
     assert browser.run(NOW) == frames[25]  # the frame before, not one further
-    assert browser.run("document.querySelector('#now').textContent.startsWith('0.5')")
+    until(browser, "document.querySelector('#now').textContent.startsWith('0.5')")
 
 
 def test_play_pause_speed_and_loop(show: Show, run: dict) -> None:
@@ -219,6 +219,29 @@ def test_a_click_in_a_plot_seeks(show: Show, run: dict) -> None:
     assert at == pytest.approx(first + 0.25 * (last - first), abs=2)
     value = float(browser.run("document.querySelector('.legend output').textContent").replace("\u2212", "-"))
     assert value == pytest.approx(np.sin(3 * browser.run(NOW)), abs=1e-3)
+
+
+def test_outputs_of_like_size_share_a_panel(show: Show) -> None:
+    t = np.linspace(0, 2, 101)
+    run = every_kind()[0]
+    columns = Columns(t)
+    plots = [
+        {"name": name, "unit": unit, "column": columns.add(values)[0]}
+        for name, unit, values in (
+            ("large", "m", np.sin(t)),
+            ("small", "m", 0.01 * np.cos(3 * t)),
+            ("still", "m", 0.5 + 0 * t),
+            ("smaller", "m", 0.002 * np.sin(7 * t)),
+            ("far", "m", 100 + np.cos(t)),
+            ("other", "rad", np.sin(t)),
+        )
+    ]
+    bare = {**run, **columns.document(), "poses": [], "parts": [], "shapes": [], "plots": columns.number(plots)}
+    browser = show(document(bare))
+    panels = browser.run(
+        "[...document.querySelectorAll('.legend')].map((e) => [...e.children].map((b) => b.textContent.split(' ')[0]))"
+    )
+    assert panels == [["large", "still"], ["small", "smaller"], ["far"], ["other"]]
 
 
 def test_colours_of_values(show: Show, run: dict) -> None:
