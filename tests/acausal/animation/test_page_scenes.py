@@ -74,7 +74,11 @@ class Swing(Component):
     """A user's own part that says nothing of its looks: what stands in it is seen."""
 
     length = parameter("of the arm", unit="m", default=0.5)
-    hinge, arm, weight = Revolute(n=(0, 1, 1), phi=fixed(0.3), w=fixed(2)), FixedTranslation(r=(0.5, 0.1, 0.2)), Body(m=2)
+    hinge, arm, weight = (
+        Revolute(n=(0, 1, 1), phi=fixed(0.3), w=fixed(2)),
+        FixedTranslation(r=(0.5, 0.1, 0.2)),
+        Body(m=2),
+    )
 
     def connections(self):
         yield chain(self.hinge, self.arm, self.weight)
