@@ -75,7 +75,7 @@ def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None
         return
     from acausal.result.films import film, still
 
-    data = film(found, title) if _ending(path) == ".gif" else still(found, title)
+    data = (film if _ending(path) == ".gif" else still)(found, title, asked.values)
     with whole(path, "wb") as file:
         file.write(data)
 
