@@ -201,7 +201,7 @@ class FEBody(MovingBody):
     def shapes(self):
         """The skin of its mesh, or the box of its inertia and its frames where it knows no mesh."""
         at = pose(self.reference)
-        if found := mesh(self._body, at, self.q):
+        if found := mesh(self.reduced.nodal, at, self.q):  # `_body` may be an equal one without nodes
             yield found
         else:
             yield from (box_of_inertia(self._body, at), *(geometry.Sphere(pose(f)) for f in self.frames.values()))

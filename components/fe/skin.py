@@ -55,13 +55,14 @@ def skin(nodal: NodalField) -> tuple[Array, Array]:
     return nodes, places.reshape(-1, 3)
 
 
-def mesh(body: ReducedBody, at: geometry.Pose, q: Any) -> geometry.Mesh | None:
-    """Return the skin of a body with coordinates q of its modes; None if it knows no solid elements."""
-    if body.nodal is None or not FACES.keys() & body.nodal.cells.keys():
+def mesh(nodal: NodalField | None, at: geometry.Pose, q: Any) -> geometry.Mesh | None:
+    """Return the skin of a body with coordinates q of its first modes; None if it knows no solid elements."""
+    if nodal is None or not FACES.keys() & nodal.cells.keys():
         return None
-    nodes, triangles = skin(body.nodal)
-    modes = body.nodal.modes[nodes].transpose(2, 0, 1) if body.n else None
-    return geometry.Mesh(at, body.nodal.nodes[nodes], triangles, modes, q if body.n else None)
+    nodes, triangles = skin(nodal)
+    if not q.shape[0]:
+        return geometry.Mesh(at, nodal.nodes[nodes], triangles)
+    return geometry.Mesh(at, nodal.nodes[nodes], triangles, nodal.modes[nodes, :, : q.shape[0]].transpose(2, 0, 1), q)
 
 
 def box_of_inertia(body: ReducedBody, at: geometry.Pose) -> geometry.Box:

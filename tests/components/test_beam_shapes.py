@@ -232,6 +232,7 @@ def test_deformation_is_measured_from_the_chord_in_a_loop(volumes):
     assert all(next(iter(bar.shapes())).rest is None for bar in (tree.crank_bar, tree.rod_bar))
 
 
+@pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
 @pytest.mark.parametrize(
     "make",
     [

@@ -80,6 +80,7 @@ SIZES = {"r": (3,), "T": (3, 3), "up": (3,), "center": (3,), "axes": (3, 3), "ax
 SIZES |= {"section": (2,), "diameter": (), "length": ()}
 
 
+@pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
 @pytest.mark.parametrize("name", EVERY)
 def test_shapes_are_kinds_of_geometry(name):
     """Every entry can be read, has its shape and is finite; something is there to be seen."""
@@ -110,6 +111,7 @@ def test_parts_of_drives_have_no_place(name):
     assert list(collected(ran(SCENES[name]).tree.it)) == []
 
 
+@pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
 @pytest.mark.parametrize("name", [name for name in SCENES if not name.startswith("rotational.") and name != "World"])
 def test_every_component_shows_something(name):
     tree = ran(SCENES[name]).tree
