@@ -244,6 +244,29 @@ def test_outputs_of_like_size_share_a_panel(show: Show) -> None:
     assert panels == [["large", "still"], ["small", "smaller"], ["far"], ["other"]]
 
 
+def test_an_output_may_have_no_value_for_a_while(show: Show) -> None:
+    t = np.linspace(0, 2, 101)
+    columns = Columns(t)
+    column = columns.add(np.where((t > 0.5) & (t < 1.5), np.nan, 1 + t))[0]
+    plots = [{"name": "force", "unit": "N", "column": column}]
+    bare = {**every_kind()[0], **columns.document(), "poses": [], "parts": [], "shapes": [], "plots": plots}
+    browser = show(document(bare), "#t=1")
+    browser.run(PAINTED)
+    assert browser.run("document.querySelector('.legend output').textContent") == "\u2013"
+    # Columns of pixels in which the curve's blue is: none of the middle half of the time.
+    blue = browser.run("""((canvas) => {
+        const {width, height} = canvas, {data} = canvas.getContext("2d").getImageData(0, 0, width, height), found = [];
+        for (let x = 0; x < width; x++) for (let y = 0; y < height; y++) {
+            const [r, g, b, a] = data.slice(4 * (x + width * y), 4 * (x + width * y) + 4);
+            if (a > 200 && b > r + 100) { found.push((x / width * canvas.clientWidth - 58) / (canvas.clientWidth - 70)); break; }
+        }
+        return found;
+    })(document.querySelector(".area canvas"))""")
+    assert min(blue) < 0.02
+    assert max(blue) > 0.98
+    assert not [x for x in blue if 0.26 < x < 0.74]
+
+
 def test_colours_of_values(show: Show, run: dict) -> None:
     browser = show(document(run), "#t=0&colour=bending%20moment")
     colours = "((item) => [...item.tube.color].slice(0, 3))(acausal.viewer.runs[0].items[10])"
