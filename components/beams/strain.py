@@ -104,13 +104,16 @@ class Strain:
         return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
 
     def tangents(self, U: Any) -> list[tuple[Any, Any]]:
-        """Derivatives of the axis by the part xi of an element, along and across it, in m; at a node the mean of both sides."""
-        ends = [[] for _ in range(self.elements + 1)]
-        for j in range(self.elements):
-            along, c = self.l + U[3 * j + 3] - U[3 * j], self.bubble(U, j)
-            ends[j].append(along + c)
-            ends[j + 1].append(along - c)
-        return [(sum(ends[k][1:], ends[k][0]) / len(ends[k]), U[3 * k + 2]) for k in range(self.elements + 1)]
+        """Derivatives of the axis by the part xi of an element, along and across it, at every node, in m.
+
+        Of the stretches on both sides of a node, the mean counts.
+        """
+        stretches, found = [e for e, _ in self._extensions(U, U)], []
+        for k in range(self.elements + 1):
+            near, square = stretches[max(k - 1, 0) : k + 1], (U[3 * k + 2] / self.l) * (U[3 * k + 2] / self.l)
+            shorter = self.l * (square / 2 + square * square / 8) if self.second_order else 0.0
+            found.append((self.l - shorter + sum(near[1:], near[0]) / len(near), U[3 * k + 2]))
+        return found
 
     def _lean(self, e: Bend) -> Any:
         return (e.r / 10 - e.d / 2) / self.l
