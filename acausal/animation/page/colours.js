@@ -4,7 +4,7 @@ const PALETTE = ["#4c8bf5", "#f2994a", "#27ae80", "#c868d8", "#e2596b", "#2db5c9
 const OF_KIND = {
   axle: "#5b6472", coil: "#d08a2e", rod: "#8f99a8", rail: "#7b8594", force: "#e5484d", torque: "#8e4ec6", ground: "#888888",
 };
-const GHOST = ["#4c8bf5", "#f2994a", "#27ae80", "#c868d8"];
+const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces: none is a body's
 
 /** The colour of a shape that has none of its own: by kind, and by part for bodies. */
 function colourOf(shape, bodies) {

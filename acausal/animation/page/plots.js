@@ -186,9 +186,14 @@ function still(low, high) {
   return high - low <= 1e-5 * Math.max(Math.abs(low), Math.abs(high));
 }
 
+/** A line through points; where there is no value there is a gap. */
 function stroke(ink, points) {
   ink.beginPath();
-  for (const [x, y] of points) ink.lineTo(x, y);
+  points.forEach(([x, y], i) => {
+    if (!Number.isFinite(y)) return;
+    if (i && Number.isFinite(points[i - 1][1])) ink.lineTo(x, y);
+    else ink.moveTo(x, y);
+  });
   ink.stroke();
 }
 

@@ -9,7 +9,7 @@ class Stage {
     this.high = minus(view.high, this.origin);
     this.extent = length(minus(view.high, view.low)) || view.size || 1;
     this.up = unit(view.up, [0, 1, 0]);
-    this.thinnest = 0.0012 * this.extent; // half a pixel or so where the whole scene is seen
+    this.thinnest = 0.0025 * this.extent; // the half of some pixels where the whole scene is seen: colours can be told
     this.deformation = 1;
     this.arrowScale = {};
     this.show = { force: false, torque: false, grid: true, axes: true, frames: false };

@@ -40,6 +40,7 @@ function roundDown(value) {
 
 /** A number as people write it, with so many significant digits. */
 function written(value, digits = 4) {
+  if (!Number.isFinite(value)) return "\u2013";
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size >= 1e5 || size < 1e-3) {

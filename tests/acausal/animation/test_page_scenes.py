@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Model, chain, fixed, parameter
+from acausal import Component, Model, chain, fixed
 from components import Body, Fixed, FixedTranslation, Prismatic, Revolute, Spherical, Spring, World, WorldForce
 from models import SCENES
 from tests.acausal.animation.browser import Browser
 from tests.acausal.animation.places import extent_of, places
-from tests.shared import compiled
+from tests.shared import CONTRACT, compiled
 
 
 def opened(result: ac.Result, browser: Browser, folder: Path, **asked: Any) -> dict[str, Any]:
@@ -60,12 +60,12 @@ def compare(result: ac.Result, browser: Browser, document: dict[str, Any]) -> in
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_scene_is_drawn_where_its_result_has_it(one_browser: Browser, tmp_path: Path, name: str) -> None:
-    scene = SCENES[name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ac.AcausalWarning)  # of the physics, which is not what this is about
-        result = ac.simulate(compiled(scene), stop_time=scene.stop_time / 8, intervals=50, tolerance=1e-4)
+        result = ac.simulate(compiled(SCENES[name]), stop_time=CONTRACT[name][1] / 8, intervals=50, tolerance=1e-4)
         document = opened(result, one_browser, tmp_path)
-    compare(result, one_browser, document)
+    beams = [shape for shape in document["runs"][0]["shapes"] if shape["kind"] == "curve"]
+    assert compare(result, one_browser, document) >= 3 * len(beams)
     one_browser.run("acausal.viewer.nextColour(), acausal.viewer.toggle('force', true), acausal.viewer.deform(10)")
     assert one_browser.run("acausal.viewer.draw(), acausal.errors") == []
 
@@ -73,7 +73,6 @@ def test_every_scene_is_drawn_where_its_result_has_it(one_browser: Browser, tmp_
 class Swing(Component):
     """A user's own part that says nothing of its looks: what stands in it is seen."""
 
-    length = parameter("of the arm", unit="m", default=0.5)
     hinge, arm, weight = (
         Revolute(n=(0, 1, 1), phi=fixed(0.3), w=fixed(2)),
         FixedTranslation(r=(0.5, 0.1, 0.2)),
@@ -89,7 +88,7 @@ class Zoo(Model):
 
     world, post = World(), Fixed(r=(1, 0, 0))
     ball, arm, load = Spherical(), FixedTranslation(r=(0.4, 0, 0.1)), Body(m=1, I=np.diag((0.1, 0.2, 0.3)))
-    spring, loose = Spring(c=50, s_unstretched=0.3), Body(m=1, I=np.diag((0.1, 0.2, 0.3)), w_a=fixed((1, 2, 3)))
+    spring, loose = Spring(c=50, s_unstretched=0.3), Body(m=1, I=np.diag((0.1, 0.2, 0.3)))
     push = WorldForce(force=(0.2, 0, 0))
     own, rail = Swing(), Prismatic(n=(0, 1, 0), s=fixed(0.1))
     slide = Body(m=1)
@@ -103,7 +102,7 @@ class Zoo(Model):
 
 
 def test_bodies_springs_forces_and_a_part_without_shapes(one_browser: Browser, tmp_path: Path) -> None:
-    result = ac.simulate(Zoo(), stop_time=0.5, intervals=50)
+    result = ac.simulate(Zoo(), stop_time=0.5, intervals=50, initial="guesses")
     document = opened(result, one_browser, tmp_path)
     kinds = {shape["kind"] for shape in document["runs"][0]["shapes"]}
     assert {"ground", "sphere", "span", "arrow"} <= kinds

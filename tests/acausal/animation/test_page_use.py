@@ -244,6 +244,29 @@ def test_outputs_of_like_size_share_a_panel(show: Show) -> None:
     assert panels == [["large", "still"], ["small", "smaller"], ["far"], ["other"]]
 
 
+def test_an_output_may_have_no_value_for_a_while(show: Show) -> None:
+    t = np.linspace(0, 2, 101)
+    columns = Columns(t)
+    column = columns.add(np.where((t > 0.5) & (t < 1.5), np.nan, 1 + t))[0]
+    plots = [{"name": "force", "unit": "N", "column": column}]
+    bare = {**every_kind()[0], **columns.document(), "poses": [], "parts": [], "shapes": [], "plots": plots}
+    browser = show(document(bare), "#t=1")
+    browser.run(PAINTED)
+    assert browser.run("document.querySelector('.legend output').textContent") == "\u2013"
+    # Columns of pixels in which the curve's blue is: none of the middle half of the time.
+    blue = browser.run("""((canvas) => {
+        const {width, height} = canvas, {data} = canvas.getContext("2d").getImageData(0, 0, width, height), found = [];
+        for (let x = 0; x < width; x++) for (let y = 0; y < height; y++) {
+            const [r, g, b, a] = data.slice(4 * (x + width * y), 4 * (x + width * y) + 4);
+            if (a > 200 && b > r + 100) { found.push((x / width * canvas.clientWidth - 58) / (canvas.clientWidth - 70)); break; }
+        }
+        return found;
+    })(document.querySelector(".area canvas"))""")
+    assert min(blue) < 0.02
+    assert max(blue) > 0.98
+    assert not [x for x in blue if 0.26 < x < 0.74]
+
+
 def test_colours_of_values(show: Show, run: dict) -> None:
     browser = show(document(run), "#t=0&colour=bending%20moment")
     colours = "((item) => [...item.tube.color].slice(0, 3))(acausal.viewer.runs[0].items[10])"
@@ -286,6 +309,57 @@ def test_forces_and_frames_on_demand(show: Show, run: dict) -> None:
     browser.key("v", "v")
     browser.run(PAINTED)
     assert browser.run(visible) == [False, False]
+
+
+def press(browser: Browser, place: str) -> None:
+    """Click in the middle of an element."""
+    x, y = browser.run(
+        "(({left, top, width, height}) => [left + width / 2, top + height / 2])"
+        f"(document.querySelector({place!r}).getBoundingClientRect())"
+    )
+    browser.click(x, y)
+
+
+def test_buttons_and_boxes(show: Show, run: dict) -> None:
+    browser = show(document(run, {**run, "name": "other"}))
+    press(browser, "#options summary")
+    for name in ("grid", "axes", "frames", "force", "torque"):
+        before = browser.run(f"acausal.viewer.stage.show[{name!r}]")
+        press(browser, f"#show-{name}")
+        assert browser.run(f"acausal.viewer.stage.show[{name!r}]") is not before
+    press(browser, "#ghosts")
+    assert browser.run("acausal.viewer.stage.ghosts")
+    press(browser, "#show-plots")
+    assert not shown(browser, "#plots")
+    press(browser, "#deformation")
+    assert browser.run("acausal.viewer.stage.deformation") == pytest.approx(10**1.5, rel=0.1)
+    press(browser, "#top")
+    assert browser.run("acausal.viewer.views.name") == "top"
+    press(browser, "#play")
+    until(browser, f"acausal.viewer.clock.playing && {NOW} > 0")
+    browser.key(" ")  # the button has given the keys back
+    assert not browser.run("acausal.viewer.clock.playing")
+    press(browser, "#time")
+    assert browser.run(NOW) == pytest.approx(1, abs=0.02)
+    browser.key("ArrowRight")
+    assert browser.run(NOW) in np.linspace(0, 2, 101)
+
+
+def test_drag_turns_and_wheel_comes_nearer(show: Show, run: dict) -> None:
+    browser = show(document(run), "#t=0&view=front")
+    distance = "(({camera}) => camera.position.length())(acausal.viewer.stage)"
+    place = "acausal.viewer.stage.camera.position.toArray()"
+    before, far = browser.run(place), browser.run(distance)
+    browser.mouse("mousePressed", 200, 200, button="left", clickCount=1)
+    browser.mouse("mouseMoved", 300, 220, button="left", buttons=1)
+    browser.mouse("mouseReleased", 300, 220, button="left", clickCount=1)
+    assert np.abs(np.subtract(browser.run(place), before)).max() > 0.1 * far
+    assert browser.run(distance) == pytest.approx(far)
+    browser.mouse("mouseWheel", 360, 200, deltaX=0, deltaY=-300)
+    until(browser, f"{distance} < {0.9 * far}")
+    browser.key("0", "0")
+    assert browser.run(distance) > 0.9 * far
+    assert not browser.run("acausal.viewer.chosen")  # a drag is no click
 
 
 def test_film(show: Show, run: dict) -> None:
