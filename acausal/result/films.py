@@ -20,7 +20,8 @@ RATE = 20  # frames of a film in a second
 SHORTEST, LONGEST, USUAL = 2.0, 10.0, 6.0  # seconds of a film
 MOMENTS = 5  # of a still
 FAINT = 0.75  # of the way to white: earlier moments, and all runs but the first
-COLOURS = 64  # of a film
+NEARLY_WHITE = 250
+COLOURS, SAMPLES = 128, 8  # of a film, and frames that tell which
 OTHERS = ("#2f6fdf", "#d1495b", "#2a9d78", "#a05fc9")
 
 
@@ -46,7 +47,9 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) ->
     for t in np.linspace(begin, end, count):
         told = f"t = {t:.3g} s" if end - begin >= 1 else f"t = {t:.4f} s"
         frames.append(picture.pixels([(float(t), 0.0)], told + (f"   (speed x {speed:g})" if speed != 1 else "")))
-    palette = frames[len(frames) // 2].quantize(COLOURS)
+    palette = _joined(frames[:: max(1, len(frames) // SAMPLES)]).quantize(COLOURS)
+    # The mean of what is nearly white would be a box on a white page.
+    palette.putpalette([255 if c > NEARLY_WHITE else c for c in palette.getpalette() or ()])
     images = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     file = io.BytesIO()
     images[0].save(file, "GIF", save_all=True, append_images=images[1:], duration=1000 // RATE, loop=0, optimize=True)
@@ -63,6 +66,13 @@ def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) -
     file = io.BytesIO()
     picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), told).save(file, "PNG", optimize=True)
     return file.getvalue()
+
+
+def _joined(frames: Sequence[Any]) -> Any:
+    """Return pictures one below the other."""
+    from PIL import Image
+
+    return Image.fromarray(np.concatenate([np.asarray(frame) for frame in frames]))
 
 
 def _speed(seconds: float) -> float:
