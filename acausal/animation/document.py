@@ -49,7 +49,8 @@ def document(runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "
 
 def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
     """Return runs in numbers, with the sizes that suit the largest."""
-    found = {name: scene_of(run, shown(run.tree, values)) for name, run in runs.items()}
+    seen = shown([run.tree for run in runs.values()], values)
+    found = {name: scene_of(run, own) for (name, run), own in zip(runs.items(), seen, strict=True)}
     size = max(scene.size for scene in found.values())
     return {name: scene.suited(size) for name, scene in found.items()}
 

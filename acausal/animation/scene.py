@@ -93,35 +93,36 @@ class Scene:
         return replace(self, size=size, seen=[replace(one, shape=_suited(one.shape, size)) for one in self.seen])
 
 
-def shown(tree: Component, values: Sequence[str]) -> list[Seen]:
-    """Return the shapes of a model, with those of the values along curves that were asked for or cost nothing.
+def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[Seen]]:
+    """Return the shapes of models, with those of the values along curves that were asked for or cost nothing.
 
     Parameters
     ----------
-    tree : Component
-        The bound model.
+    trees : sequence of Component
+        Bound models.
     values : sequence of str
         Names of values; "all" are all.
 
     Raises
     ------
     DeclarationError
-        If there is nothing to be seen, or no value of such a name.
+        If there is nothing to be seen of a model, or no model has values of such a name.
     """
-    seen = collect(tree)
-    if not any(not isinstance(one.shape, g.Ground | g.Arrow) for one in seen):
-        raise DeclarationError(
-            f"there is nothing to be seen in {type(tree).__name__}: none of its parts has a shape. Yield some from shapes(), "
-            "for instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."
-        )
-    known = {v.name for one in seen if isinstance(one.shape, g.Curve) for v in one.shape.values}
+    found = [collect(tree) for tree in trees]
+    for tree, seen in zip(trees, found, strict=True):
+        if all(isinstance(one.shape, g.Ground | g.Arrow) for one in seen):
+            raise DeclarationError(
+                f"there is nothing to be seen in {type(tree).__name__}: none of its parts has a shape. Yield some from shapes(), "
+                "for instance `yield geometry.Sphere(geometry.Pose(self.frame.r_0, self.frame.R.T))`."
+            )
+    known = {v.name for seen in found for one in seen if isinstance(one.shape, g.Curve) for v in one.shape.values}
     missing = [name for name in values if name not in known | {ALL}]
     if missing:
         there = ", ".join(f'"{name}"' for name in sorted(known)) or "none"
         raise DeclarationError(
-            f'there are no values "{missing[0]}" along the curves of this scene; there are: {there}.'
+            f'there are no values "{missing[0]}" along the curves that are shown; there are: {there}.'
         )
-    return [replace(one, shape=_with_values(one.shape, values)) for one in seen]
+    return [[replace(one, shape=_with_values(one.shape, values)) for one in seen] for seen in found]
 
 
 def _with_values(shape: Any, names: Sequence[str]) -> Any:

@@ -105,7 +105,7 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         Which names what there is.
     """
     if isinstance(tree, Component):
-        shown(tree, values)
+        shown([tree], values)
 
 
 def in_notebook(result: Moving) -> str:

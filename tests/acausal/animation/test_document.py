@@ -181,7 +181,7 @@ class Bar(Model):
         yield chain(self.world, self.beam)
 
 
-def test_values_along_beams_are_written_if_asked_for() -> None:
+def test_values_along_beams_are_written_if_asked_for(machine: ac.Result) -> None:
     result = ac.simulate(compiled(Bar), stop_time=0.1, intervals=50)
     curve = next(s for s in made(result)["shapes"] if s["kind"] == "curve")
     assert [value["name"] for value in curve["values"]] == ["deflection"]
@@ -191,6 +191,9 @@ def test_values_along_beams_are_written_if_asked_for() -> None:
     moment = next(value for value in curve["values"] if value["name"] == "bending moment")
     assert pytest.approx(result["beam.node_moment"][:, :, 2], rel=1e-6, abs=1e-6) == columns(run)[moment["columns"]].T
     assert columns(run)[np.array(curve["points"])].shape == (2, 3, 51)
+    # Of several runs, one may have no beams.
+    both = document({"bar": run_of(result), "machine": run_of(machine)}, ["bending moment"])
+    assert sum(len(s.get("values", ())) for run in both["runs"] for s in run["shapes"]) == 2
     with pytest.raises(ac.DeclarationError, match=r'no values "stress".*"axial force", "bending moment", "deflection"'):
         made(result, ("stress",))
 
