@@ -36,6 +36,9 @@ def meshes() -> dict[str, NodalField]:
     places, bricks = found["hex8"].nodes, found["hex8"].cells["hexahedron"]
     wedges = bricks[:, HALVES].reshape(-1, 6)
     found["tetra"] = field(found["tet10"].nodes, {"tetra": found["tet10"].cells["tetra10"][:, :4]})
+    # Corners in any order, so that neighbours name those of their common face in different ones.
+    shuffled = np.random.default_rng(0).permuted(found["tetra"].cells["tetra"], axis=1)
+    found["tetra in any order"] = field(found["tet10"].nodes, {"tetra": shuffled})
     found["wedge"] = field(places, {"wedge": wedges})
     found["wedge15"] = field(places, {"wedge15": np.hstack([wedges, np.zeros((len(wedges), 9), dtype=int)])})
     # Where both meet, one has a face of four corners, the other one as well: halves are cut across z.
