@@ -199,8 +199,10 @@ if TYPE_CHECKING:
     from acausal.result.several import animate
 
 # What few runs need: loading it takes as long as a small simulation.
-_LATER = dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export")
-_LATER["animate"] = "acausal.result.several"
+_LATER = {
+    **dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export"),
+    "animate": "acausal.result.several",
+}
 
 
 def __getattr__(name: str) -> Any:

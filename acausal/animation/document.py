@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
+from urllib.parse import urlencode
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from acausal.animation import geometry as g
 from acausal.animation.collect import Seen
 from acausal.animation.columns import Columns, blob
 from acausal.animation.rotations import quaternions, turns
-from acausal.animation.scene import Run, Scene, scene_of, shown
+from acausal.animation.scene import ALL, Run, Scene, scene_of, shown
 from acausal.errors import DeclarationError, caution
 
 VERSION = 1
@@ -44,7 +45,7 @@ def document(runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "
     DeclarationError
         If a run has nothing to be seen, no such values, or an entry of a shape that is none.
     """
-    return written(scenes(runs, values), title)
+    return written(scenes(runs, values), values, title)
 
 
 def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
@@ -55,12 +56,13 @@ def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Sce
     return {name: scene.suited(size) for name, scene in found.items()}
 
 
-def written(found: Mapping[str, Scene], title: str = "") -> dict[str, Any]:
-    """Return the document of some scenes."""
+def written(found: Mapping[str, Scene], values: Sequence[str] = (), title: str = "") -> dict[str, Any]:
+    """Return the document of some scenes, which begins with the first of the values that were asked for."""
     titles = dict.fromkeys(scene.run.title for scene in found.values() if scene.run.title)
     return {
         "version": VERSION,
         "title": title or ", ".join(titles),
+        "start": urlencode({"colour": values[0]}) if values and values[0] != ALL else "",
         "runs": [_Writer(name, scene).document() for name, scene in found.items()],
     }
 

@@ -151,7 +151,8 @@ class Drawing:
 
     def cylinder(self, s: g.Cylinder, k: int, colour: np.ndarray) -> Pieces:
         """Its side and both ends."""
-        yield from self.prism(*_at(s.pose, np.array([s.start, s.end]), k), s.diameter / 2, colour)
+        start, end = _at(s.pose, np.array([s.start, s.end]), k)
+        yield from self.prism(start, end, s.diameter / 2, colour)
 
     def sphere(self, s: g.Sphere, k: int, colour: np.ndarray) -> Pieces:
         """A disc with a light spot."""
@@ -164,7 +165,8 @@ class Drawing:
     def axle(self, s: g.Axle, k: int, _: Any) -> Pieces:
         """A short pin."""
         half = np.asarray(s.axis) / np.linalg.norm(s.axis) * s.length / 2
-        yield from self.prism(*_at(s.pose, np.array([-half, half]), k), s.diameter / 2, rgb(DARK))
+        start, end = _at(s.pose, np.array([-half, half]), k)
+        yield from self.prism(start, end, s.diameter / 2, rgb(DARK))
 
     def span(self, s: g.Span, k: int, _: Any) -> Pieces:
         """A rod, or a coil."""

@@ -146,7 +146,8 @@ def simulate(
             compiled = ac.compile(model, parameters=given)
         # Wrong names are refused before any work.
         chosen = match(compiled.tree, variables or ())
-        files.check(compiled.tree)
+        with blaming(cls):
+            files.check(compiled.tree)
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
         chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]

@@ -71,7 +71,7 @@ def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None
     found = scenes({name: run_of(result, asked) for name, result in results.items()}, asked.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, title)))
+            file.write(html(written(found, asked.values, title)))
         return
     from acausal.result.films import film, still
 

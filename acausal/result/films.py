@@ -157,7 +157,7 @@ class _Picture:
                     white = FAINT if n else faint
                     polygons.append((polygon, white + (1 - white) * colour))
         self.shown.set_verts([polygon.corners for polygon, _ in polygons])
-        colours = np.array([colour for _, colour in polygons]).reshape(-1, 3)
+        colours = [tuple(colour.tolist()) for _, colour in polygons]
         self.shown.set_facecolor(colours)
         self.shown.set_edgecolor(colours)
         self.time.set_text(told)

@@ -9,12 +9,14 @@ from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError
 from acausal.language.arguments import fitting
 from acausal.language.values import shown
+from acausal.locks import alone
 from acausal.result.animated import Asked, write
 from acausal.result.lookup import Key
 from acausal.result.result import Result
 
 
 @fitting
+@alone
 def animate(
     results: Mapping[str, Result],
     path: str | Path,

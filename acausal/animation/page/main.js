@@ -24,6 +24,7 @@ async function start() {
   const viewer = new Viewer(content, stage, runs);
   viewer.choose("");
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) viewer.clock.play();
+  heedAddress(viewer, content.start || "");
   heedAddress(viewer, location.hash);
   addEventListener("hashchange", () => heedAddress(viewer, location.hash));
   Object.assign(window.acausal, {

@@ -193,6 +193,7 @@ def test_values_along_beams_are_written_if_asked_for(machine: ac.Result) -> None
     assert columns(run)[np.array(curve["points"])].shape == (2, 3, 51)
     # Of several runs, one may have no beams.
     both = document({"bar": run_of(result), "machine": run_of(machine)}, ["bending moment"])
+    assert both["start"] == "colour=bending+moment"
     assert sum(len(s.get("values", ())) for run in both["runs"] for s in run["shapes"]) == 2
     with pytest.raises(ac.DeclarationError, match=r'no values "stress".*"axial force", "bending moment", "deflection"'):
         made(result, ("stress",))
@@ -392,7 +393,7 @@ def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     other = ac.simulate(compiled(Machine), stop_time=1, intervals=100, parameters={"ball.m": 2})
     found = document({"a": run_of(machine), "b": run_of(other)}, title="both")
     assert [run["name"] for run in found["runs"]] == ["a", "b"]
-    assert found["title"] == "both"
+    assert (found["title"], found["start"]) == ("both", "")
     assert document({"a": run_of(machine), "b": run_of(other)})["title"] == "Machine"
     assert found["runs"][0]["size"] == found["runs"][1]["size"]
     ac.animate({"a": machine, "b": other}, tmp_path / "both.html", title="</script><b>")
