@@ -63,6 +63,7 @@ class Result:
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
+        deformation: float = 1.0,
     ) -> None:
         self.time = np.asarray(time, dtype=float)
         self.tree = tree
@@ -221,6 +222,7 @@ class Result:
         plots: Sequence[Key] = (),
         values: Sequence[str] = (),
         title: str = "",
+        deformation: float = 1.0,
     ) -> None:
         """Write how the machine moves, with the outputs under it.
 
@@ -236,6 +238,8 @@ class Result:
             What beams can be coloured by besides what costs nothing: "bending moment", "axial force", or "all".
         title : str
             Of the picture.
+        deformation : float
+            Scale of deformations, 1 to 1000; the page can change it.
 
         Raises
         ------
@@ -246,7 +250,7 @@ class Result:
         """
         from acausal.result.animated import Asked, write
 
-        write({self.title or self._model: self}, path, Asked(frames, plots, values, title))
+        write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
 
     @alone
     def _repr_html_(self) -> str | None:
