@@ -255,3 +255,36 @@ def test_deformation_is_measured_from_the_root_elsewhere(make):
     assert 0 < away[1] < 0.5 * away[-1]
     if "pendulum" in result.title.lower():
         np.testing.assert_allclose(points[0], rest[0], atol=1e-12 * length)
+
+
+class Held(Model):
+    """A heavy beam that is clamped at one of its ends, and moves."""
+
+    end: str = structural("what is clamped", default="frame_b")
+    reference: str = structural("reference frame", default="tangent")
+    volumes: int = structural("volumes", default=0)
+    world = World(g=0.3)
+
+    @part
+    def beam(self):
+        values = UNIT | {"reference": self.reference}
+        return SubstructuredBeam(**values, volumes=self.volumes) if self.volumes else FlexibleBeam(**values, elements=3)
+
+    def connections(self):
+        yield connect(self.world.frame_b, getattr(self.beam, self.end))
+
+
+@pytest.mark.parametrize("volumes", [0, 3])
+@pytest.mark.parametrize("reference", ["tangent", "pinned"])
+@pytest.mark.parametrize("end", ["frame_a", "frame_b"])
+def test_deformation_is_measured_from_the_end_that_is_held(end, reference, volumes):
+    """Clamped, this end stands still on the place and along the tangent of the beam at rest, and the other one moves."""
+    result = ac.simulate(Held(end=end, reference=reference, volumes=volumes), stop_time=0.5, intervals=4)
+    curve, sense = curve_of(result), 1 if end == "frame_a" else -1
+    rest = np.einsum("tij,tki->tkj", result[curve.rest.T], result[curve.rest_points]) + result[curve.rest.r][:, None]
+    x = np.arange(4) / 3
+    expected = np.stack([x if end == "frame_a" else x - 1, 0 * x, 0 * x], axis=1)
+    np.testing.assert_allclose(rest, np.broadcast_to(expected, rest.shape), atol=1e-9)
+    off = np.linalg.norm(result[curve.points] - rest, axis=2)[-1, ::sense]
+    assert off[0] < 1e-9
+    assert off[-1] > 1e-3
