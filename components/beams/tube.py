@@ -37,7 +37,7 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
         values=(
             geometry.Values("bending moment", "N.m", lambda: _of_nodes(frames, _moments)),
             geometry.Values("axial force", "N", lambda: _of_nodes(frames, _axial_forces)),
-            geometry.Values("deflection", "m", lambda: beam.node_deflection[:, 1]),
+            geometry.Values("deflection", "m", beam.node_deflection[:, 1]),
         ),
     )
 
