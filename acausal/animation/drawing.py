@@ -18,7 +18,7 @@ ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
 GRID = "#d9dee6"
 # Of the scene: its longest arrow, grid lines to each side.
 ARROW, LINES = 0.25, 8
-SIDES, BETWEEN, TURNS = 20, 10, 9
+SIDES, BETWEEN, TURNS = 32, 10, 9
 
 
 @dataclass(frozen=True)
