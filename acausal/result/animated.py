@@ -19,6 +19,7 @@ from acausal.language.component import Component
 from acausal.language.values import shown as code
 from acausal.result.files import check_writable, shown_name, whole
 from acausal.result.lookup import Key, Tree, find
+from acausal.result.plots import canvas
 
 PAGES = (".html", ".htm")
 EXAGGERATED = 1000  # times a deformation, at most
@@ -99,6 +100,8 @@ def check_animation(path: str | Path) -> None:
             "or in .gif or .png."
         )
     check_writable(path)
+    if _ending(path) not in PAGES:
+        canvas(1, 1, "tight")  # refuses where matplotlib cannot be loaded
 
 
 def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:

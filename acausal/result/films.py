@@ -11,7 +11,6 @@ import numpy as np
 from acausal.animation.camera import Camera, camera
 from acausal.animation.drawing import Drawing, Polygon, rgb
 from acausal.animation.scene import ALL, Scene, corners
-from acausal.errors import ExportError
 from acausal.result.plots import DPI, canvas
 
 WIDTH, LEAST, MOST = 640, 240, 560  # pixels
@@ -39,9 +38,9 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
     deformation : float
         Scale of deformations.
     """
-    from PIL import Image
-
     picture = _Picture(scenes, title, values, deformation)
+    from PIL import Image  # matplotlib, which is loaded now, has it
+
     begin, end = picture.span
     speed = _speed(end - begin)
     count = max(2, round((end - begin) / speed * RATE))
@@ -90,12 +89,6 @@ class _Picture:
     """Draws moments of scenes on one canvas."""
 
     def __init__(self, scenes: Mapping[str, Scene], title: str, values: Sequence[str], deformation: float) -> None:
-        try:
-            import PIL.Image  # noqa: F401
-        except ImportError as error:
-            raise ExportError(
-                f"films and stills need Pillow, which cannot be loaded: {error}; .html needs nothing."
-            ) from None
         self.scenes = list(scenes.values())
         low = np.min([s.low for s in self.scenes], axis=0)
         high = np.max([s.high for s in self.scenes], axis=0)
