@@ -401,6 +401,19 @@ def test_failed_runs_show_what_was_computed(tmp_path: Path) -> None:
     assert "stopped" not in ac.simulate(Stops(x=fixed(1)), stop_time=0.5).stats
 
 
+def test_pictures_leave_no_values_behind(tmp_path: Path) -> None:
+    result = ac.simulate(compiled(Machine), stop_time=1, intervals=100)
+    before = pickle.dumps(result)
+    result = ac.simulate(compiled(Machine), stop_time=1, intervals=100)
+    result.animate(tmp_path / "run.html")
+    first = (tmp_path / "run.html").read_bytes()
+    assert list(result._arrays) == ["time"]
+    loaded, other = pickle.loads(pickle.dumps(result)), pickle.loads(before)
+    assert all(np.array_equal(loaded[name], other[name], equal_nan=True) for name in other)
+    result.animate(tmp_path / "run.html")
+    assert (tmp_path / "run.html").read_bytes() == first
+
+
 def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     other = ac.simulate(compiled(Machine), stop_time=1, intervals=100, parameters={"ball.m": 2})
     found = document({"a": run_of(machine), "b": run_of(other)}, title="both")
