@@ -274,6 +274,15 @@ def test_a_size_of_its_own_wherever_a_body_goes() -> None:
     assert run["size"] == pytest.approx(1)
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e7])
+def test_a_body_alone_is_seen_beside_its_path(scale: float) -> None:
+    result = shows(lambda m: geometry.Sphere(geometry.Pose((scale * m.x, 0, 0), np.eye(3))))
+    run = made(result)
+    path = run["extent"]["high"][0] - run["extent"]["low"][0]
+    assert path == pytest.approx(2 * scale)
+    assert 0.002 * path < run["shapes"][0]["diameter"] < 0.05 * path
+
+
 def test_values_that_are_no_numbers_are_bridged_and_told() -> None:
     result = shows(lambda m: geometry.Span((0, 0, 0), (1, sqrt(m.x), 0)))
     with pytest.warns(
