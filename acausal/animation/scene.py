@@ -21,7 +21,7 @@ AXLE = 0.06
 SPAN = {"rod": 0.008, "rail": 0.012, "coil": 0.04}
 TUBE = 0.006
 # What is a point beside its path, as a body alone without sizes, is as large as this part of the path suits.
-POINT, ALONE = 1e-6, 0.2
+POINT, ALONE = 1e-6, 0.5
 ALL = "all"
 
 

@@ -44,9 +44,10 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), de
     begin, end = picture.span
     speed = _speed(end - begin)
     count = max(2, round((end - begin) / speed * RATE))
+    digits = max(0, 2 - int(np.floor(np.log10(end - begin)))) if end > begin else 2
     frames = []
     for t in np.linspace(begin, end, count):
-        told = f"t = {t:.3g} s" if end - begin >= 1 else f"t = {t:.4f} s"
+        told = f"t = {t:.{digits}f} s"
         frames.append(picture.pixels([(float(t), 0.0)], told + (f"   (speed x {speed:g})" if speed != 1 else "")))
     palette = _joined(frames[:: max(1, len(frames) // SAMPLES)]).quantize(COLOURS)
     # The mean of what is nearly white would be a box on a white page.
@@ -63,7 +64,7 @@ def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), d
     begin, end = picture.span
     times = np.linspace(begin, end, MOMENTS) if end > begin else [end]
     faint = np.linspace(FAINT, 0, len(times))
-    told = f"t = {begin:.3g} to {end:.3g} s" if end > begin else f"t = {end:.3g} s"
+    told = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
     file = io.BytesIO()
     picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), told).save(file, "PNG", optimize=True)
     return file.getvalue()
