@@ -16,7 +16,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.kept import Kept, keep
-from acausal.result.lookup import Key, Quantity, Tree, find, names
+from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.plots import Series, draw, save
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
@@ -45,6 +45,8 @@ class Result:
         Sizes, counts and seconds of the run.
     title : str
         Title of plots.
+    more : Kept, optional
+        What can be read beside the quantities of the model.
 
     Examples
     --------
@@ -61,6 +63,7 @@ class Result:
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
+        more: Kept | None = None,
     ) -> None:
         self.time = np.asarray(time, dtype=float)
         self.tree = tree
@@ -68,7 +71,8 @@ class Result:
         self._stats = stats if isinstance(stats, Statistics) else Statistics(**stats)
         self.title = title
         self._evaluate = evaluate
-        self._arrays = {"time": self.time} if not _has_time(tree) else {}
+        self._more = more
+        self._arrays = {"time": self.time} if not has_time(tree) else {}
         self._told: set[str] = set()
 
     @property
@@ -79,7 +83,8 @@ class Result:
 
     def with_stats(self, **values: Any) -> Result:
         """Return the same result with other statistics."""
-        return Result(self.time, self._evaluate, self.tree, self.outputs, replace(self.stats, **values), self.title)
+        stats = replace(self.stats, **values)
+        return Result(self.time, self._evaluate, self.tree, self.outputs, stats, self.title, self._more)
 
     def __repr__(self) -> str:
         span = f", {self.time[0]:g} to {self.time[-1]:g} s" if self.time.size else ""
@@ -92,16 +97,18 @@ class Result:
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
         """Keep the values of all quantities, and nothing of the model."""
-        kept = keep(self.tree, self._evaluate, self.time.size) if isinstance(self.tree, Component) else self.tree
+        live = isinstance(self.tree, Component)
+        kept = keep(self.tree, self._evaluate, self.time.size) if live else self.tree
+        kept = kept.joined(self._more) if self._more else kept
         return _loaded, (self.time, kept, self.outputs, self.stats, self.title)
 
     def __copy__(self) -> Result:
-        return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title)
+        return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title, self._more)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Result:
         # The model and its values are never changed.
         own = deepcopy(self._stats, memo)
-        return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title)
+        return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title, self._more)
 
     @alone
     def __getitem__(self, key: Key) -> np.ndarray:
@@ -126,16 +133,16 @@ class Result:
 
     def __contains__(self, key: object) -> bool:
         try:
-            find(self.tree, cast("Key", key))
+            self._find(cast("Key", key))
         except DeclarationError:
             return False
         return True
 
     def __iter__(self) -> Iterator[str]:
-        return iter(names(self.tree))
+        return iter([*names(self.tree), *(self._more.names if self._more else ())])
 
     def _ipython_key_completions_(self) -> list[str]:
-        return names(self.tree)
+        return list(self)
 
     @fitting
     @alone
@@ -209,13 +216,21 @@ class Result:
             _open(figure, path)
         return figure
 
+    def _beside(self, key: object) -> bool:
+        """Whether a key names what is read beside the model."""
+        return self._more is not None and isinstance(key, str | Path) and self._more.holds(str(key))
+
+    def _find(self, key: Key) -> Quantity:
+        """Return what a key means, of the model or beside it."""
+        return find(self._more if self._more and self._beside(key) else self.tree, key)
+
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
-        check_columns(self.tree, keys or self.outputs)
+        check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
     def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
         """Return quantities with their arrays for a user, and warn of values that are not numbers."""
-        quantities = [find(self.tree, key) for key in keys]
+        quantities = [self._find(key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
             if quantity.name not in self._told and not np.isfinite(array).all():
@@ -244,39 +259,23 @@ class Result:
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
+        kept = self.tree if isinstance(self.tree, Kept) else self._more
         arrays: dict[Quantity, np.ndarray] = {}
-        ends = np.cumsum([q.size for q in new], dtype=int)
-        columns = [q.column for q in new]
-        column: Any = np.concatenate(columns) if isinstance(self.tree, Kept) and new else ca.vertcat(*columns)
-        values = np.asarray(self._evaluate(column)) if new and ends[-1] else np.empty((self.time.size, 0))
-        for q, block in zip(new, np.split(values, ends[:-1], axis=1), strict=False):
-            arrays[q] = block.reshape(self.time.size, *q.shape, order="F")
-            arrays[q].flags.writeable = False
-            if q.declared:
-                self._arrays[q.name] = arrays[q]
+        for places in (False, True):
+            some = [q for q in new if isinstance(q.column, np.ndarray) is places]
+            ends = np.cumsum([q.size for q in some], dtype=int)
+            if not some or not ends[-1]:
+                values = np.empty((self.time.size, 0))
+            elif kept is not None and places:
+                values = kept.evaluate(np.concatenate([q.column for q in some]))
+            else:
+                values = np.asarray(self._evaluate(ca.vertcat(*(q.column for q in some))))
+            for q, block in zip(some, np.split(values, ends[:-1], axis=1), strict=False):
+                arrays[q] = block.reshape(self.time.size, *q.shape, order="F")
+                arrays[q].flags.writeable = False
+                if q.declared:
+                    self._arrays[q.name] = arrays[q]
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
-
-
-def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
-    """Refuse a table in which a quantity would have the name of the column of time.
-
-    Parameters
-    ----------
-    tree : Component or Kept
-        As of a result.
-    keys : iterable of str, Path or Expr
-        The other columns.
-    """
-    if _has_time(tree) and any(find(tree, key).name.partition("[")[0] == "time" for key in keys):
-        raise DeclarationError(
-            "a table cannot hold `time`: its first column has that name. Give the variable of the model another one, "
-            "for instance `clock`."
-        )
-
-
-def _has_time(tree: Any) -> bool:
-    """Whether the model has something of its own by the name of time."""
-    return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)
 
 
 def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:

@@ -40,9 +40,14 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
     compiled : CompiledModel
         The model.
     patterns : sequence of str
-        Paths, with * and ?; the outputs of the model if empty.
+        Paths, with * and ?; if empty, what the model's attribute `compared` names, or else its outputs.
     """
-    paths = match(compiled.tree, items("outputs", patterns, '["x", "y"]')) or compiled.outputs
+    asked = items("outputs", patterns, '["x", "y"]')
+    if not asked:
+        asked = items(
+            "the attribute `compared` of the model", getattr(type(compiled.tree), "compared", ()), '("x", "y")'
+        )
+    paths = match(compiled.tree, asked) or compiled.outputs
     found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
     if not found:
         raise DeclarationError(
