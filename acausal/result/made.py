@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -33,7 +33,9 @@ def checked_times(time: Any) -> np.ndarray:
     return times
 
 
-def checked_columns(times: np.ndarray, values: Any) -> dict[str, tuple[Quantity, np.ndarray]]:
+def checked_columns(
+    times: np.ndarray, values: Any, known: Collection[str] = ()
+) -> dict[str, tuple[Quantity, np.ndarray]]:
     """Return each array that is given by its path as columns, with what it is called and its unit.
 
     Parameters
@@ -42,6 +44,8 @@ def checked_columns(times: np.ndarray, values: Any) -> dict[str, tuple[Quantity,
         In s.
     values : mapping of str to (array_like, str)
         See `result_of`.
+    known : collection of str
+        Paths of which the unit is known, and need not be given; it is "" then.
 
     Raises
     ------
@@ -52,9 +56,10 @@ def checked_columns(times: np.ndarray, values: Any) -> dict[str, tuple[Quantity,
         raise DeclarationError('values are arrays by path with their units: {"body.tip.v": (array, "m/s")}')
     found = {}
     for path, entry in values.items():
-        if not (isinstance(entry, tuple | list) and len(entry) == 2 and isinstance(entry[1], str)):
+        measured = isinstance(entry, tuple | list) and len(entry) == 2 and isinstance(entry[1], str)
+        if not measured and path not in known:
             raise DeclarationError(f'`{path}` needs an array and its unit: (array, "m/s")')
-        given, unit = entry
+        given, unit = entry if measured else (entry, "")
         try:
             array = np.array(given, dtype=float)
         except (TypeError, ValueError):
@@ -66,7 +71,8 @@ def checked_columns(times: np.ndarray, values: Any) -> dict[str, tuple[Quantity,
         shape = array.shape[1:]
         size = int(np.prod(shape))
         columns = array.reshape(times.size, size) if len(shape) < 2 else array.transpose(0, 2, 1).reshape(-1, size)
-        unit_of(unit)
+        if measured:
+            unit_of(unit)
         found[_path(path)] = Quantity(path, np.arange(size), shape, (unit,) * size), columns
     return found
 

@@ -23,7 +23,7 @@ from acausal.units import parse
 @alone
 def result_of(
     time: Any,
-    values: Mapping[str, tuple[Any, str]],
+    values: Mapping[str, Any],
     outputs: Sequence[str] = (),
     *,
     model: Component | CompiledModel | None = None,
@@ -44,7 +44,8 @@ def result_of(
         In s, increasing.
     values : mapping of str to (array_like, str)
         For each path, as "body.tip.v", an array with one entry for each time, shape (times, *shape), in SI, and the unit of its
-        entries. The entries are scalars, vectors or matrices. What the model does not have is read beside it.
+        entries. The entries are scalars, vectors or matrices. Variables of the model need no unit: the array alone is in
+        theirs. What the model does not have is read beside it.
     outputs : sequence of str
         Paths of the columns of tables and pictures if nothing is asked for. If there are none, the outputs of the model, or
         without one all scalars.
@@ -74,8 +75,8 @@ def result_of(
     [1.0, 0.5]
     """
     times = checked_times(time)
-    columns = checked_columns(times, values)
     if model is None:
+        columns = checked_columns(times, values)
         if parameters:
             raise DeclarationError("parameters= are those of a model: give it by model=")
         kept = kept_of(columns, times.size, title)
@@ -83,6 +84,7 @@ def result_of(
         return Result(times, kept.evaluate, kept, shown, stats, title)
     compiled, p = ready(model_of(model, compiled=True), parameters)
     known = set(names(compiled.tree))
+    columns = checked_columns(times, values, known)
     own = {path: _fitting(compiled, path, *column) for path, column in columns.items() if path in known}
     beside = {path: column for path, column in columns.items() if path not in known}
     shown = checked_outputs(outputs, [*known, *beside]) or compiled.outputs
@@ -99,6 +101,6 @@ def _fitting(compiled: CompiledModel, path: str, given: Any, values: np.ndarray)
     if quantity.shape != given.shape:
         raise DeclarationError(f"`{path}` has shape {quantity.shape} in the model, and {given.shape} in the values")
     for declared, unit in zip(quantity.units, given.units, strict=True):
-        if declared and parse(declared) != parse(unit):
+        if declared and unit and parse(declared) != parse(unit):
             raise DeclarationError(f"`{path}` is in {declared} in the model, and in {unit} in the values")
     return quantity, values

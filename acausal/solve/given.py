@@ -56,6 +56,10 @@ def evaluator_of(
             "states, see `compiled.states`"
         )
     x = np.column_stack([states[k][1] for k in range(compiled.nx)]) if states else np.empty((len(times), 0))
+    for k, row in np.argwhere(~np.isfinite(x.T))[:1]:
+        raise DeclarationError(
+            f"the state `{states[k][0]}` is not finite at t = {times[row]:.6g} s: leave out the times from there on"
+        )
     problem = Problem(compiled, p)
     solver = Consistent(problem)
     return Evaluator(_rows(problem, solver, times, x), solver, known if known.entries else None)
@@ -97,7 +101,7 @@ def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray
     if not len(times):
         return Rows(times, x, np.empty((0, compiled.nz)), np.empty((0, compiled.reduced.constants.numel())))
     layout, timed = compiled.layout, [k for k in guards.timed if k < n]
-    heads = np.array([guards.estimate(p, t)[0] for t in times]).reshape(len(times), -1)
+    heads = np.array([guards.estimate(p, t)[0].copy() for t in times]).reshape(len(times), -1)
     for row, t in zip(heads, times, strict=True):
         row[timed] = guards.holds_at(p, t, 0.0)[0][: len(timed)]
     guess = np.split(compiled.start(p, times[0])[0], [compiled.nx])[1]
@@ -112,7 +116,7 @@ def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray
             return rows
         rows = solver(rows, guards.needs | set(range(compiled.nz)))[0]
         fitting = np.array(
-            [guards.start(at.x, at.z, p, at.time, at.constants.vector)[0] for at in _points(problem, rows)]
+            [guards.start(at.x, at.z, p, at.time, at.constants.vector)[0].copy() for at in _points(problem, rows)]
         )
         if np.array_equal(fitting[:, open_], heads[:, open_]):
             return rows

@@ -52,6 +52,8 @@ class Evaluator:
         arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.constants]
         arguments += [self.known.symbols] if self.known else []
         rows, n = self.rows, len(self.rows)
+        if not n:
+            return np.empty((0, resolved.numel()))
         try:
             call = Call(ca.Function("observe", arguments, [resolved]).map(n))
         except RuntimeError:
@@ -77,12 +79,18 @@ class Evaluator:
         solved, lost = self.solver(self._given, wanted)
         z = self.rows.z.copy()
         z[:, unknowns] = solved.z[:, unknowns]
+        if self.known is not None and lost:
+            z[np.ix_(np.isin(self.rows.times, lost), unknowns)] = np.nan  # there is no integrator that had come near
         self.rows = self.rows.with_z(z)
         self._solved.update(unknowns.tolist())
         if lost:
+            rest = (
+                "near that of the integrator, whose values are returned there"
+                if self.known is None
+                else "that is found"
+            )
             names = ", ".join(f"`{compiled.algebraic[k]}`" for k in sorted(wanted)[:3])
             caution(
                 f"at t = {min(lost):.6g} s, and at {len(lost)} output times in all, the equations of {names} have no unique "
-                "solution near that of the integrator, whose values are returned there: a position is singular, or a law has "
-                "no value."
+                f"solution {rest}: a position is singular, or a law has no value."
             )
