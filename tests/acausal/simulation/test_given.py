@@ -85,7 +85,7 @@ def test_scenes(name):
     result = ac.simulate(compiled, stop_time=0.05, intervals=20)
     own = {re.sub(r"\[[\d,]*\]$", "", state) for state in compiled.states}
     values = {path: result[path] for path in result if path in own}
-    near(ac.result_of(result.time, values, model=compiled), result, 1e-6)
+    near(ac.result_of(result.time, values, model=compiled), result)
 
 
 def test_what_is_given_stays_and_is_propagated():
