@@ -48,7 +48,10 @@ def study(
     ] = None,
     outputs: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATTERN", help="What to compare: paths with * and ?; the scene's outputs if not given."),
+        typer.Option(
+            metavar="PATTERN",
+            help="What to compare: paths with * and ?; what the scene says, or its outputs, if not given.",
+        ),
     ] = None,
     reference: Annotated[
         str | None,

@@ -8,6 +8,7 @@ from typing import Any
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
+from acausal.language.fields import Field
 from acausal.language.values import shown
 from acausal.result.lookup import find, match
 from acausal.simulation.asked import check_intervals
@@ -43,10 +44,9 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
         Paths, with * and ?; if empty, what the model's attribute `compared` names, or else its outputs.
     """
     asked = items("outputs", patterns, '["x", "y"]')
-    if not asked:
-        asked = items(
-            "the attribute `compared` of the model", getattr(type(compiled.tree), "compared", ()), '("x", "y")'
-        )
+    own = getattr(type(compiled.tree), "compared", ())
+    if not asked and not isinstance(own, Field):
+        asked = items("the attribute `compared` of the model", own, '("x", "y")')
     paths = match(compiled.tree, asked) or compiled.outputs
     found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
     if not found:

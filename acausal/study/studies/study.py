@@ -185,7 +185,7 @@ def study(
     parameters : mapping of str to value, optional
         Values by path that all cases have in common; what they fix is not varied.
     outputs : sequence of str
-        Paths of what is compared, with * and ?; the model's outputs if empty.
+        Paths of what is compared, with * and ?; if empty, those of the model's attribute `compared`, or its outputs.
     formulations : sequence of Formulation, optional
         Ways of discretising the model; those that it declares or that follow from its fields if not given.
     tolerances, max_orders, methods : sequence
