@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Result, result_of
+from acausal import DeclarationError, Result, result_of
 from components.fe.arrays import Array
 from components.fe.frame_checks import too_fast
 from components.fe.frame_motion import FrameMotion
@@ -31,8 +31,15 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
     Result
         With `name` before each: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; and r_0, R.T, R.w, v, a, z of `ref`
         and of each frame. The embedded rigid motion has the names `name.embedded.FRAME.r_0`, `v_0` and `a_0`, all
-        resolved in the world. Accelerations are as the variant forms them.
+        resolved in the world. Accelerations are as the variant forms them. Its times are those of the steps.
+
+    Raises
+    ------
+    DeclarationError
+        If it is no such motion, or the name is none.
     """
+    if not isinstance(motion, FrameMotion):
+        raise DeclarationError(f"as_result() takes what simulate_reconfigured() returned, not {motion!r}")
     values = _modes(motion) | _reference(motion)
     for interface in motion.modes.body.interfaces:
         values |= {f"{interface.name}.{key}": value for key, value in _frame(motion, interface).items()}
@@ -43,14 +50,23 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
         {f"{name}.{key}": value for key, value in values.items()},
         [f"{name}.r_0", f"{name}.w_a"],
         model=f"{name}, reconfigured inertial frames, {motion.variant}",
-        steps=len(motion.time) - 1,
+        steps=motion.steps,
+        tolerance=motion.tolerance,
+        break_times=list(motion.breaks),
         states=motion.states.shape[1],
         compile_seconds=motion.march.building,
         solve_seconds=motion.march.building + motion.march.seconds,
         integration_seconds=motion.march.seconds,
         doubts=[doubt] if (doubt := too_fast(motion.modes, motion.w)) else [],
         method=f"reconfigured inertial frames, {motion.variant}",
+        method_reason=_reason(motion),
     )
+
+
+def _reason(motion: FrameMotion) -> str:
+    if not motion.tolerance:
+        return "steps of one size were asked for"
+    return f"tolerance {motion.tolerance:g}: {motion.steps} steps were kept, {motion.rejected} were too long"
 
 
 def _modes(motion: FrameMotion) -> Named:
