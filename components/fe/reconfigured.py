@@ -93,7 +93,7 @@ def simulate_reconfigured(
         If the body is not free, a frame or node is unknown, the step is beyond the limit of stability, or the stop time is
         no multiple of it.
     SimulationError
-        If the motion diverges, or no steps are short enough for the tolerance; `result` holds what was computed.
+        If the motion diverges, or has too many steps; `result` holds what was computed.
     KeyboardInterrupt
         With what was computed as its attribute `result`.
 
