@@ -25,8 +25,15 @@ MOST = 1e9
 MEND = 'reduce_body(M, K, nodes, frames=..., hold="mean-axis", modes=...)'
 
 
-def check_free(body: ReducedBody) -> None:
+def check_free(body: ReducedBody, what: str = "steps in inertial frames need") -> None:
     """Refuse a body whose modes hold rigid motion, or whose reference frame is not at its centre of mass.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        The body.
+    what : str
+        What needs a free one, for the message.
 
     Raises
     ------
@@ -46,8 +53,10 @@ def check_free(body: ReducedBody) -> None:
     A = body.modal_second
     turns = (np.linalg.norm(A - A.transpose(0, 2, 1), axis=(1, 2)) / (size * length)).max(initial=0.0)
     if max(off, moves, turns) > ORTHOGONAL:
-        what = "its reference frame is not at its centre of mass" if off > ORTHOGONAL else "its modes hold rigid motion"
-        raise DeclarationError(f"steps in inertial frames need the modes of a free body, but {what}: {MEND}")
+        wrong = (
+            "its reference frame is not at its centre of mass" if off > ORTHOGONAL else "its modes hold rigid motion"
+        )
+        raise DeclarationError(f"{what} the modes of a free body, but {wrong}: {MEND}")
     squares = np.linalg.eigvals(np.linalg.solve(body.M, body.K)).real if body.n else np.ones(1)
     if squares.min() <= ORTHOGONAL * squares.max():
         raise DeclarationError(

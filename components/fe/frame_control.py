@@ -198,7 +198,7 @@ class _Run:
         rows = np.stack([starts, halves], axis=1).reshape(-1, size)
         rates = np.stack([values[:, :n], values[:, n + size : 2 * n + size]], axis=1).reshape(-1, n)
         times = self.time + dt * np.arange(len(rows))
-        inside = (np.abs(np.vstack([rows[1:], states[-1:]])) <= bounds(self.modes)).all(axis=1)
+        inside: Any = (np.abs(np.vstack([rows[1:], states[-1:]])) <= bounds(self.modes)).all(axis=1)
         kept = len(rows) if inside.all() else int(np.argmin(inside)) + 1
         self.times.append(times[:kept])
         self.states.append(rows[:kept])

@@ -13,7 +13,7 @@ from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
 from components.fe.reduced_body import Interface, ReducedBody
 
-Course = Sequence[float] | Callable[[float], Any]
+Course = Sequence[float] | Array | Callable[[float], Any]
 # Of a run: breaks that are nearer are one, far above rounding of their times.
 APART = 1e-9
 # Of a step: how far from its end a break is at its end, by rounding of the times.
