@@ -7,6 +7,7 @@ dt omega = 1.0, a pair with 12 of them to 2 x 2.83; and fast vibrations bound th
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from components.fe.arrays import Array
 from components.fe.chosen import DEFLECTION
 from components.fe.frame_checks import BELOW, MOST, WHOLE, bounds, diverged, limit
 from components.fe.frame_inputs import Inputs
+from components.fe.frame_load import apart
 from components.fe.frame_motion import FrameMotion
 from components.fe.frame_steps import Loads, State, corrected
 from components.fe.free_modes import FreeModes
@@ -215,14 +217,13 @@ class _Run:
                 self.motion(),
             )
 
-    def finish(self) -> FrameMotion:
-        """The motion, with the rates at the stop time."""
+    def finish(self) -> None:
+        """Take the rates at the stop time."""
         row = np.hstack([[[self.dt]], *[self.inputs.at(np.array([self.stop_time]))] * 5])
         _, values = self.step(self.state, row)
         self.times.append(np.array([self.stop_time]))
         self.states.append(self.state[None])
         self.outputs.append(values[:, : self.modes.size])
-        return self.motion()
 
     def motion(self) -> FrameMotion:
         """What there is."""
@@ -232,8 +233,9 @@ class _Run:
         found = March(states, outputs, False, step.operations, step.building, step.seconds)
         times = np.concatenate([np.empty(0), *self.times])
         breaks = tuple(float(t) for t in self.breaks[:-1])
+        counts = {"steps": max(len(times) - 1, 0), "rejected": self.rejected}
         return FrameMotion(
-            self.modes, times, states, outputs, "corrected", found, self.tolerance, self.rejected, breaks
+            self.modes, times, states, outputs, "corrected", found, tolerance=self.tolerance, breaks=breaks, **counts
         )
 
 
@@ -242,6 +244,7 @@ def controlled(
     inputs: Inputs,
     start: Array,
     breaks: Array,
+    times: Array,
     tolerance: float,
     progress: Callable[[float, int], None] | None,
 ) -> FrameMotion:
@@ -256,7 +259,9 @@ def controlled(
     start : array, shape (15 + 2 N,)
         State at the start.
     breaks : array
-        Times in s at which steps end, the stop time last.
+        Times in s at which loads break, the stop time last.
+    times : array
+        Times in s that are kept, of the start and after; all if there are none.
     tolerance : float
         What the errors of all steps may be, as a part of the largest speed of the points of the body.
     progress : callable or None
@@ -271,13 +276,18 @@ def controlled(
     """
     run = _Run(modes, inputs, start, breaks, tolerance)
     try:
-        for end in breaks:
+        for end in apart(np.concatenate([breaks, times[1:]]), run.stop_time):
             reached = False
             while not reached:
                 reached = run.block(float(end))
                 if progress is not None:
                     progress(run.time / run.stop_time, run.taken)
-        return run.finish()
+        run.finish()
     except KeyboardInterrupt as interrupt:
         interrupt.result = run.motion()  # type: ignore[attr-defined]
         raise
+    found = run.motion()
+    if not len(times):
+        return found
+    rows = np.abs(found.time[:, None] - times).argmin(axis=0)
+    return replace(found, time=times, states=found.states[rows], outputs=found.outputs[rows])

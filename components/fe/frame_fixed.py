@@ -57,7 +57,7 @@ def fixed(
     def motion(found: March) -> FrameMotion:
         done = len(found.outputs)
         variant = "paper" if readings else "corrected"
-        return FrameMotion(modes, times[:done], found.states[:done], found.outputs, variant, found)
+        return FrameMotion(modes, times[:done], found.states[:done], found.outputs, variant, found, max(done - 1, 0))
 
     # A step more than there are: the last one tells the accelerations at the stop time, its end is not looked at.
     rows = inputs.steps(dt, count, readings.middle if readings else "middle")

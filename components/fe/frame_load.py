@@ -168,8 +168,13 @@ def breaks_of(loads: Sequence[FrameLoad], stop_time: float) -> Array:
         if not np.isfinite(times).all():
             raise DeclarationError(f"breaks of the load at {load.place} are times in s, not {load.breaks!r}")
         found.append(times[(times > APART * stop_time) & (times < (1 - APART) * stop_time)])
-    times = np.unique(np.concatenate(found))
-    return times[np.diff(times, prepend=-np.inf) > APART * stop_time]
+    return apart(np.concatenate(found), stop_time)
+
+
+def apart(times: Array, stop_time: float) -> Array:
+    """Return times of a run, increasing, those that rounding parts as one."""
+    found = np.unique(times)
+    return found[np.diff(found, prepend=-np.inf) > APART * stop_time]
 
 
 def check_breaks(loads: Sequence[FrameLoad], stop_time: float, dt: float) -> None:

@@ -31,6 +31,8 @@ class FrameMotion:
         "corrected" or "paper".
     march : March
         The steps with their counts and seconds.
+    steps : int
+        Number of steps from the start to the last time.
     tolerance : float
         What controlled the size of the steps, 0 for steps of one size.
     rejected : int
@@ -45,14 +47,10 @@ class FrameMotion:
     outputs: Array
     variant: str
     march: March
+    steps: int
     tolerance: float = 0.0
     rejected: int = 0
     breaks: tuple[float, ...] = ()
-
-    @property
-    def steps(self) -> int:
-        """Number of steps that led from the start to the last time."""
-        return max(len(self.time) - 1, 0)
 
     @property
     def r_0(self) -> Array:

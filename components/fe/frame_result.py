@@ -31,7 +31,7 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
     Result
         With `name` before each: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; and r_0, R.T, R.w, v, a, z of `ref`
         and of each frame. The embedded rigid motion has the names `name.embedded.FRAME.r_0`, `v_0` and `a_0`, all
-        resolved in the world. Accelerations are as the variant forms them. Its times are those of the steps.
+        resolved in the world. Accelerations are as the variant forms them. Its times are those of the motion.
 
     Raises
     ------

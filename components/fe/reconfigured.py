@@ -34,6 +34,7 @@ def simulate_reconfigured(
     dt: float | None = None,
     *,
     tolerance: float | None = None,
+    intervals: int | None = None,
     variant: str = "corrected",
     readings: Readings | None = None,
     damping: Any = 0.0,
@@ -62,6 +63,8 @@ def simulate_reconfigured(
         Error that controls the size of the steps of the variant "corrected", in place of `dt`, from 1e-10 to 0.1: what the
         errors of all steps come to together, as a part of the largest speed of the points of the body (root mean square
         over its mass, translation apart). Steps end where loads break, see `FrameLoad.breaks`.
+    intervals : int, optional
+        With a tolerance: number of equal intervals of time, at whose ends the motion is kept, instead of after each step.
     variant : str
         "corrected": one frame in each step, order 4; "paper": as printed, order 1, with a wrong angular acceleration in
         spatial motion.
@@ -85,7 +88,7 @@ def simulate_reconfigured(
     Returns
     -------
     FrameMotion
-        Motion at the start and after each step.
+        Motion at the start and after each step, or at the ends of intervals.
 
     Raises
     ------
@@ -119,6 +122,8 @@ def simulate_reconfigured(
     start = _start(modes, A, O, v, w, _amplitudes(q, body.n), _amplitudes(qd, body.n))
     if tolerance is None:
         dt = DT if dt is None else dt
+        if intervals is not None:
+            raise DeclarationError("intervals= is for steps of controlled size, tolerance=: others are kept each")
         count = steps_of(modes, stop_time, dt)
         check_breaks(loads, float(stop_time), float(dt))
         run = fixed(modes, inputs, start, float(dt), count, read, progress)
@@ -126,7 +131,8 @@ def simulate_reconfigured(
         if dt is not None:
             raise DeclarationError("tolerance= controls the size of the steps, in place of dt=: give one of them")
         breaks = breaks_of(loads, positive(stop_time, "the stop time", "s"))
-        run = controlled(modes, inputs, start, breaks, _tolerance(tolerance), progress)
+        times = _times(breaks[-1], intervals)
+        run = controlled(modes, inputs, start, breaks, times, _tolerance(tolerance), progress)
     if doubt := too_fast(modes, run.w):
         warnings.warn(doubt, AcausalWarning, stacklevel=2)
     return run
@@ -145,6 +151,14 @@ def _readings(variant: str, readings: Any, tolerance: Any) -> Readings | None:
     if not isinstance(readings, Readings | None):
         raise DeclarationError(f'readings are Readings(rotation="restarted", ...), not {readings!r}')
     return readings or Readings()
+
+
+def _times(stop_time: float, intervals: Any) -> Array:
+    if intervals is None:
+        return np.empty(0)
+    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
+        raise DeclarationError(f"intervals is a whole number from 1 on, not {intervals!r}")
+    return np.linspace(0.0, stop_time, int(intervals) + 1)
 
 
 def _tolerance(value: Any) -> float:

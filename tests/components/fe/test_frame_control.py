@@ -138,6 +138,24 @@ def test_result():
     assert np.isfinite(found["body.end.a"]).all()
 
 
+def test_intervals():
+    """The motion at equal times, at one of which a load breaks; the others are met by shorter steps."""
+    push = FrameLoad("end", force=jumping, breaks=(JUMP, 0.1 * 3 / 10))
+    given: dict[str, Any] = {"stop_time": 0.1, "damping": 0.05, "spin": (2, -6, 3), "tolerance": 1e-6}
+    found = simulate_reconfigured(plate(), [push], intervals=50, **given)
+    free = simulate_reconfigured(plate(), [push], **given)
+    np.testing.assert_array_equal(found.time, np.linspace(0, 0.1, 51))
+    assert found.breaks == pytest.approx((JUMP, 0.03), rel=1e-12)
+    assert free.steps <= found.steps < 1.5 * free.steps
+    assert free.steps == len(free.time) - 1
+    for name in ("r_0", "w", "q", "al"):
+        a, b = getattr(found, name), getattr(free, name)
+        assert np.abs(a[-1] - b[-1]).max() < 1e-5 * np.abs(b).max()
+    rates = (found.r_0[2:] - found.r_0[:-2]) / 0.004
+    expected = np.einsum("tij,ti->tj", found.T, found.rates[:, :3])[1:-1]
+    assert np.abs(rates - expected).max() < 0.1 * np.abs(expected).max()
+
+
 def test_interrupted_and_resumed():
     told: list[float] = []
 
@@ -178,6 +196,9 @@ def test_a_jump_from_rest_that_nobody_names(tolerance):
     ("given", "words"),
     [
         ({"dt": 1e-4}, "give one of them"),
+        ({"intervals": 0}, "whole number from 1 on, not 0"),
+        ({"intervals": 2.5}, "whole number from 1 on, not 2.5"),
+        ({"intervals": 10, "tolerance": None}, "for steps of controlled size"),
         ({"variant": "paper"}, "steps are of one size"),
         ({"readings": Readings()}, "leaves nothing open"),
         ({"tolerance": 0}, "the tolerance is a positive, finite number, not 0"),
