@@ -92,7 +92,7 @@ from acausal.language import (
     when,
 )
 from acausal.result import Result
-from acausal.simulation import Linearization, March, linearize, march, result_of, simulate
+from acausal.simulation import CompiledStep, Linearization, March, linearize, march, result_of, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [
@@ -104,6 +104,7 @@ __all__ = [
     "AcausalError",
     "AcausalWarning",
     "CompiledModel",
+    "CompiledStep",
     "Component",
     "Condition",
     "ConnectError",

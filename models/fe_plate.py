@@ -10,7 +10,7 @@ from components.fe import FEBody, FrameLoad, ReducedBody, box, by_steps, read_np
 
 SIZE, COUNTS, REST, PEAK, LAST = (1, 0.05, 0.01), (100, 5, 1), fixed((0, 0, 0)), 50 / 2**0.5, 0.1  # N along x and z, s
 PLACES, ELASTIC = {"P1": (-0.5, -0.025, -0.005), "end": (0.5, 0, -0.005)}, {"formulation": "elastic"}
-PULSE = FrameLoad("end", lambda t: [k * PEAK * sin(pi * t / LAST) * (t < LAST) for k in (1, 0, 1)])
+PULSE = FrameLoad("end", lambda t: [k * PEAK * sin(pi * t / LAST) * (t < LAST) for k in (1, 0, 1)], breaks=(LAST,))
 
 
 @cache

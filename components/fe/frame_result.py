@@ -49,8 +49,10 @@ def as_result(
     Raises
     ------
     DeclarationError
-        If a time is no end of a step, or the model has another body of this name.
+        If it is no such motion, the name is none, a time is no end of a step, or the model has another body of this name.
     """
+    if not isinstance(motion, FrameMotion):
+        raise DeclarationError(f"as_result() takes what simulate_reconfigured() returned, not {motion!r}")
     values = _modes(motion) | _reference(motion)
     for interface in motion.modes.body.interfaces:
         own = _frame(motion, interface)
@@ -70,14 +72,18 @@ def as_result(
         equations_reduced=motion.states.shape[1],
         states=motion.states.shape[1],
         algebraic=0,
-        steps=len(motion.time) - 1,
-        residual_evaluations=len(STAGES) * (len(motion.time) - 1),
+        steps=motion.steps,
+        tolerance=motion.tolerance,
+        break_times=list(motion.breaks),
+        # Of controlled steps every two are taken again as one.
+        residual_evaluations=len(STAGES) * (motion.steps + motion.rejected) * (3 if motion.tolerance else 2) // 2,
         operations=motion.march.operations,
         compile_seconds=motion.march.building,
         solve_seconds=motion.march.seconds,
         integration_seconds=motion.march.seconds,
         doubts=[doubt] if (doubt := too_fast(motion.modes, motion.w)) else [],
         method="RK4",
+        method_reason=_reason(motion),
     )
 
 
@@ -94,6 +100,12 @@ def _rows(motion: FrameMotion, times: Any) -> Any:
             f"at t = {wanted[off][0]:.6g} s no step ends: take steps that divide the time between two of those wanted"
         )
     return places
+
+
+def _reason(motion: FrameMotion) -> str:
+    if not motion.tolerance:
+        return "steps of one size were asked for"
+    return f"tolerance {motion.tolerance:g}: {motion.steps} steps were kept, {motion.rejected} were too long"
 
 
 def _modes(motion: FrameMotion) -> Named:

@@ -38,8 +38,9 @@ def run_reconfigured(
     model: CompiledModel,
     stop_time: float,
     times: Sequence[float] | Array,
-    dt: float,
+    dt: float | None = None,
     *,
+    tolerance: float | None = None,
     body: str = "body",
     loads: Loads = (),
     progress: Callable[[float, int], None] | None = None,
@@ -59,6 +60,8 @@ def run_reconfigured(
         Equidistant from 0 to `stop_time`, in s.
     dt : float
         Longest step in s; steps are shortened so that one ends at each of the times.
+    tolerance : float
+        In place of `dt`, of `simulate_reconfigured`.
     body : str
         Path of the body.
     loads : sequence of FrameLoad, or callable
@@ -88,7 +91,9 @@ def run_reconfigured(
         parts,
         given,
         stop_time,
-        span / math.ceil(span / dt - WHOLE),
+        None if dt is None else span / math.ceil(span / dt - WHOLE),
+        tolerance=tolerance,
+        intervals=None if tolerance is None else len(times) - 1,
         damping=model.value(f"{body}.damping_ratio") if model.value(f"{body}.damping") else 0.0,
         gravity=gravity,
         progress=progress,
@@ -102,8 +107,11 @@ def run_reconfigured(
 
 def by_steps(
     settings: Mapping[str, Any], dt: Sequence[float], loads: Loads = (), body: str = "body"
-) -> tuple[Formulation, Formulation]:
-    """Return "reconfigured, as printed" and "reconfigured, corrected", steps in inertial frames as formulations of a scene.
+) -> tuple[Formulation, ...]:
+    """Return steps in inertial frames as formulations of a scene.
+
+    They are "reconfigured, as printed" and "reconfigured, corrected" with steps of one size, and "reconfigured, controlled", the
+    latter with steps whose size follows from a tolerance.
 
     Parameters
     ----------
@@ -116,12 +124,14 @@ def by_steps(
     """
     run = partial(run_reconfigured, loads=loads, body=body)
     names = {"reconfigured, as printed": "paper", "reconfigured, corrected": "corrected"}
-    printed, corrected = (Formulation(n, settings, run=partial(run, variant=v), dt=dt) for n, v in names.items())
-    return printed, corrected
+    sized = (Formulation(name, settings, run=partial(run, variant=kind), dt=dt) for name, kind in names.items())
+    return *sized, Formulation("reconfigured, controlled", settings, run=run)
 
 
 def _check_loads(result: Result, body: str, parts: ReducedBody, loads: Sequence[FrameLoad]) -> None:
     """Refuse loads that are others than those of the scene at the motion that was found."""
+    if any(load.node is not None for load in loads):
+        raise DeclarationError("loads of a scene act at frames of the body, not at nodes")
     for interface in parts.interfaces:
         frame = f"{body}.{interface.name}"
         T, own = result[f"{frame}.R.T"], [load for load in loads if load.frame == interface.name]

@@ -18,6 +18,7 @@ from tests.models.test_fe_scenes import plate as deviation
 from tests.reference.reconfigured_limit import LimitBody
 
 TIMES = np.linspace(0, 0.3, 301)
+STEPS = ("as printed", "corrected", "controlled")
 
 
 @cache
@@ -113,7 +114,7 @@ def test_study(tmp_path):
     rows = {}
     for row in found.rows:
         rows.setdefault(row.case.formulation, []).append(row)
-    assert list(rows) == ["floating frame", "rigid", "reconfigured, as printed", "reconfigured, corrected"]
+    assert list(rows) == ["floating frame", "rigid", *(f"reconfigured, {how}" for how in STEPS)]
     assert found.reference.case.formulation == "floating frame"
     assert set(found.reference.values) == {"P1_x", "P1_z", "w_y"}
     assert rows["floating frame"][-1].error < 2e-5
@@ -122,7 +123,8 @@ def test_study(tmp_path):
     assert 5e-4 < fine < 0.7 * coarse
     # P1_z, 2.2e-6 m of 6.4e-3 m.
     assert [row.error for row in rows["reconfigured, corrected"]] == pytest.approx([3.5e-4] * 2, rel=0.02)
-    assert [gap.partition(":")[0] for gap in found.gaps()] == ["rigid", "reconfigured, corrected"]
+    assert [row.error for row in rows["reconfigured, controlled"]] == pytest.approx([3.5e-4] * 2, rel=0.02)
+    assert [gap.partition(":")[0] for gap in found.gaps()] == ["rigid", *list(rows)[3:]]
     found.plot(tmp_path / "a.png")
 
 
@@ -162,6 +164,8 @@ class Point(FEPlate):
         ({}, {"loads": [PULSE, PULSE]}, "the force at `end` is"),
         ({}, {"loads": [PULSE, FrameLoad("P1", force=(0, 1e-3, 0))]}, "the force at `P1` is"),
         ({"load": "none"}, {}, "the force at `end` is"),
+        ({}, {"loads": [PULSE, FrameLoad(node=3, force=(0, 0, 1))]}, "not at nodes"),
+        ({}, {"tolerance": 1e-5}, "tolerance"),
         ({}, {"body": "plate"}, "plate"),
         ({}, {"body": "world"}, "`world` is no FEBody"),
         ({}, {"dt": 1e-3}, "the limit is 2.91"),

@@ -159,9 +159,9 @@ def cubic(model, stop_time, times, dt, order):
 def test_a_run_that_takes_too_long_is_stopped():
     """In processes by an alarm; in threads, where there is none, when it reports its progress."""
     slow = Formulation("slow", run=stepped.slow)
-    for workers in ({}, {"executor": None, "workers": 1}):
-        found = study(Formulation("engine"), slow, limit=0.5, tolerances=(1e-4,), **workers)
-        assert [row.remark for row in rows(found, "slow")] == ["it was stopped after 0.5 s"]
+    for limit, workers in ((0.5, {}), (4, {"executor": None, "workers": 1})):
+        found = study(Formulation("engine"), slow, limit=limit, tolerances=(1e-4,), **workers)
+        assert [row.remark for row in rows(found, "slow")] == [f"it was stopped after {limit:g} s"]
 
 
 @pytest.mark.parametrize(
