@@ -146,7 +146,7 @@ def test_intervals():
     free = simulate_reconfigured(plate(), [push], **given)
     np.testing.assert_array_equal(found.time, np.linspace(0, 0.1, 51))
     assert found.breaks == pytest.approx((JUMP, 0.03), rel=1e-12)
-    assert free.steps <= found.steps < 1.5 * free.steps
+    assert 0.8 * free.steps < found.steps < 1.5 * free.steps
     assert free.steps == len(free.time) - 1
     for name in ("r_0", "w", "q", "al"):
         a, b = getattr(found, name), getattr(free, name)
