@@ -162,9 +162,13 @@ def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Referen
     if row.case != series[0].case:
         return _between(row, series[0], reference)
     ratio = row.case.control / series[1].case.control
-    # The error of steps is taken to fall with the step, the slowest way in which it does.
-    share = ratio**STUDY.tolerance_power if row.case.dt is None else ratio / (1 - ratio)
-    return _between(row, series[1], reference) * share
+    if row.case.dt is None:
+        return _between(row, series[1], reference) * ratio**STUDY.tolerance_power
+    # Of steps that were shortened, so that outputs lie at their ends, the numbers tell the ratio. Their error is taken to go
+    # with the step, the slowest way in which it does.
+    many, few = (r.measurement.steps for r in series[:2])
+    ratio = few / many if few else ratio
+    return _between(row, series[1], reference) * (ratio / (1 - ratio) if ratio < 1 else 1.0)
 
 
 def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:
