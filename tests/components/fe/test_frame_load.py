@@ -145,7 +145,7 @@ def test_modes_that_are_rigid_motion_are_told_from_soft_ones():
     moves, turns = body.modal_first.copy(), body.modal_second.copy()
     moves[0, 2], turns[3, 0, 1] = 0.1, turns[3, 0, 1] + 0.1
     for wrong in ({"modal_first": moves}, {"modal_second": turns}):
-        with pytest.raises(ac.DeclarationError, match='its modes hold rigid motion: .*hold="mean-axis"'):
+        with pytest.raises(ac.DeclarationError, match=r'its modes hold rigid motion: .*hold="mean-axis"'):
             simulate_reconfigured(replace(body, **wrong), (), 1e-3, 1e-4)
 
 
