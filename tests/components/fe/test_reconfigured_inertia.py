@@ -168,7 +168,7 @@ class Held(Model):
     """A rod on a ball joint, or on a hinge."""
 
     hold: str = structural("its reference frame", default="mean-axis")
-    joint: str = structural("the joint", default="ball", choices=("ball", "hinge"))
+    joint: str = structural("the joint", default="ball", choices=("ball", "hinge", "none"))
     world = World()
 
     @part
@@ -180,7 +180,10 @@ class Held(Model):
         return FEBody(reduced=rod(self.hold), inertia="reconfigured")
 
     def connections(self):
-        yield chain(self.world, self.pin, self.body.frame_a)
+        if self.joint != "none":
+            yield chain(self.world, self.pin, self.body.frame_a)
+        else:
+            yield connect(self.world.frame_b, self.pin.frame_a)
 
 
 @pytest.mark.parametrize("joint", ["ball", "hinge"])
@@ -192,4 +195,4 @@ def test_a_body_on_a_joint_is_refused(joint):
 
 def test_a_body_with_a_held_frame_is_refused():
     with pytest.raises(ac.DeclarationError, match=r'the modes of a free body, but .*hold="mean-axis"'):
-        ac.compile(Held(hold="frame_a"))
+        ac.compile(Held(hold="frame_a", joint="none"))
