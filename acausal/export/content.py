@@ -47,6 +47,8 @@ class Content:
         Where it starts.
     given : Given
         What it is given.
+    nominal : array
+        Sizes of states and algebraic unknowns.
     watched : list of int
         Its guards that are event indicators.
     shown : casadi.SX
@@ -58,6 +60,7 @@ class Content:
     problem: Problem
     beginning: Beginning
     given: Given
+    nominal: np.ndarray
     watched: list[int]
     shown: ca.SX
     span: float
@@ -95,9 +98,9 @@ class Content:
             "coordsto": ints(self._coordinates[1]),
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
-            "damped": floats(sizes(self.problem, self.compiled.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.compiled.nominal]),
-            "natural": floats(self.compiled.nominal[self.compiled.nx :]),
+            "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
+            "nominal": floats([self.span, self.tolerance, *self.nominal]),
+            "natural": floats(self.nominal[self.compiled.nx :]),
         }
 
     @property
@@ -130,7 +133,7 @@ class Content:
             make_equations(x, z, t, p, c, *self.running),
             at.time,
             *(at.x, at.z, self.given.values, at.constants.vector),
-            size=self.compiled.nominal[:nx],
+            size=self.nominal[:nx],
             rate=are_rates(self.problem),
             names=self.compiled.states,
         )
@@ -173,7 +176,7 @@ class Content:
         """Change of each watched excess by nominal changes of the unknowns."""
         r = self.compiled.reduced
         J = ca.jacobian(picked(self.compiled.guards.excess, self.watched), ca.vertcat(r.x, r.z))
-        return ca.fabs(J) @ ca.DM(self.compiled.nominal) if self.watched else ca.SX(0, 1)
+        return ca.fabs(J) @ ca.DM(self.nominal) if self.watched else ca.SX(0, 1)
 
     @property
     def _truths(self) -> ca.SX:

@@ -31,6 +31,7 @@ from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.settings import settled
 from acausal.solve.problem import Problem
+from acausal.solve.run import Task, sizes_of_run
 from acausal.symbols import picked, scalars, stacked
 
 
@@ -77,9 +78,10 @@ def export_fmu(
     beginning = begin(problem, 0.0, min(breaks, default=span) / 2, settings["initial"])
     known = given(compiled, p, beginning)
     guards = watched(compiled, known)
-    table = Table(compiled, known, beginning, tolerance, guards)
+    nominal = _sizes(compiled, p, span, tolerance, settings["initial"])
+    table = Table(compiled, known, beginning, nominal, tolerance, guards)
     variables = table.variables()
-    content = Content(problem, beginning, known, guards, stacked(table.shown), span, tolerance)
+    content = Content(problem, beginning, known, nominal, guards, stacked(table.shown), span, tolerance)
     sections = content.sections
     token = _token(framed(VERSION, sections))
     whole = framed(VERSION, {**sections, "token": token.encode() + b"\0"})
@@ -113,6 +115,14 @@ def _described(content: Content, table: Table, variables: tuple[Variable, ...], 
         step_size=content.span / POLICY.defaults.intervals,
         completes=bool(compiled.constraints.size),
         sources=source_names(),
+    )
+
+
+def _sizes(compiled: CompiledModel, p: np.ndarray, span: float, tolerance: float, initial: str) -> np.ndarray:
+    """Sizes that a run finds: an importer cannot go back where states turn out to be small."""
+    loose = max(tolerance, POLICY.sizes.looking)
+    return sizes_of_run(
+        compiled, p, Task(0.0, span, loose, POLICY.defaults.intervals, initial, "auto", "auto", None, False, None)
     )
 
 

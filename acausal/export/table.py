@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
+import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.export.beginning import Beginning
@@ -53,6 +54,8 @@ class Table:
         What it is given.
     beginning : Beginning
         Where it starts.
+    nominal : array
+        Sizes of states and algebraic unknowns.
     tolerance : float
         Of the method inside.
     watched : list of int
@@ -67,6 +70,7 @@ class Table:
     compiled: CompiledModel
     given: Given
     beginning: Beginning
+    nominal: np.ndarray
     tolerance: float
     watched: list[int]
     shown: list[ca.SX] = field(default_factory=list)
@@ -141,7 +145,7 @@ class Table:
             starts = k in self.beginning.starts
             yield Variable(
                 *(own, self.states[k], "local", "continuous", "exact" if starts else "calculated", unit),
-                *(float(x[k]) if starts else None, text, float(self.compiled.nominal[k])),
+                *(float(x[k]) if starts else None, text, float(self.nominal[k])),
                 reinit=k in jumping,
             )
             rate = f"{unit}/s" if unit else ""

@@ -168,3 +168,5 @@ class Sizes:
     lost: float = 1e-4
     # Runs after which sizes are accepted: each improves those of a motion lost in the tolerance.
     passes: int = 5
+    # Tolerance of the run that finds them for an exported model, where only that factor of 10 matters.
+    looking: float = 1e-3

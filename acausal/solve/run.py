@@ -89,6 +89,17 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     return result
 
 
+@np.errstate(all="ignore")
+def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarray:
+    """Return the sizes of states and algebraic unknowns with which a run is accepted, or ends early; as `run` for the rest."""
+    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
+    plan = _plan(problem, task)
+    done = _integrated(problem, task, plan, begin(problem, task.start_time, plan.inside, task.initial))
+    if isinstance(done.failure, KeyboardInterrupt):
+        raise done.failure
+    return done.integrator.settings.nominal
+
+
 @dataclass(frozen=True)
 class _Plan:
     """Output times, break times that parameters tell, all instants of time alone, and a time before the first of them."""

@@ -156,12 +156,12 @@ class FEBody(MovingBody):
     def equations(self):
         ref, inertia = self.reference, self._inertia
         if self._in_steps:
-            check_free(self._body, 'inertia="reconfigured" needs')
             if not is_root(ref):
                 raise DeclarationError(
                     'inertia="reconfigured" is of a body that nothing guides, and this one is held by what it is connected '
                     'to: take "second_order", "first_order" or "constant", or connect it by forces alone'
                 )
+            check_free(self._body, 'inertia="reconfigured" needs')
         gravity = self.world.acceleration(self._centre()) if self.weight else np.zeros(3)
         force, moment, modal = inertia.forces(ref.a - resolve2(ref.R, gravity), ref.z, ref.R.w)
         f, t, load = ref.f, ref.t, as_expr(np.zeros(self.modes))

@@ -14,6 +14,8 @@ from components.fe.reduced_body import ReducedBody
 
 # Of the size that an integral can have: what is rounding, as of the integrals that `reduce_body` cuts.
 ORTHOGONAL = 1e-7
+# Of the square of the highest frequency: below it a mode has no stiffness; soft bodies with stiff parts come to 1e-8.
+LOOSE = 1e-12
 # Of a step: how far the number of steps may be from a whole one by rounding of stop time and step.
 WHOLE = 1e-6
 # Of the limit of stability: a step that is proposed.
@@ -58,7 +60,7 @@ def check_free(body: ReducedBody, what: str = "steps in inertial frames need") -
         )
         raise DeclarationError(f"{what} the modes of a free body, but {wrong}: {MEND}")
     squares = np.linalg.eigvals(np.linalg.solve(body.M, body.K)).real if body.n else np.ones(1)
-    if squares.min() <= ORTHOGONAL * squares.max():
+    if squares.min() <= LOOSE * squares.max():
         raise DeclarationError(
             f"a mode at {np.sqrt(max(squares.min(), 0.0)) / (2 * np.pi):.4g} Hz stands for a rigid motion: the exact ones come "
             f"from the mass of the body, and the others are made by {MEND}"

@@ -154,14 +154,13 @@ class _Run:
         self.shortest = tolerance * SHARE * self.stop_time
         self.dt = min(self.most, FIRST * self.stop_time)
         self.time, self.state, self.length, self.rejected = 0.0, start, 1, 0
-        self.times: list[Array] = []
-        self.states: list[Array] = []
-        self.outputs: list[Array] = []
+        # Times, states and rates, appended at once: an interrupt may come anywhere.
+        self.kept: list[tuple[Array, Array, Array]] = []
 
     @property
     def taken(self) -> int:
         """Number of steps."""
-        return sum(len(times) for times in self.times)
+        return sum(len(times) for times, _, _ in self.kept)
 
     def block(self, end: float) -> bool:
         """Take pairs towards a break, and return whether it is reached."""
@@ -202,9 +201,7 @@ class _Run:
         times = self.time + dt * np.arange(len(rows))
         inside: Any = (np.abs(np.vstack([rows[1:], states[-1:]])) <= bounds(self.modes)).all(axis=1)
         kept = len(rows) if inside.all() else int(np.argmin(inside)) + 1
-        self.times.append(times[:kept])
-        self.states.append(rows[:kept])
-        self.outputs.append(rates[:kept])
+        self.kept.append((times[:kept], rows[:kept], rates[:kept]))
         end = float(times[kept - 1] + dt)
         if kept < len(rows) or not inside[-1]:
             raise SimulationError(diverged(self.modes, self.motion().w, self.taken, end, dt), self.motion())
@@ -221,17 +218,13 @@ class _Run:
         """Take the rates at the stop time."""
         row = np.hstack([[[self.dt]], *[self.inputs.at(np.array([self.stop_time]))] * 5])
         _, values = self.step(self.state, row)
-        self.times.append(np.array([self.stop_time]))
-        self.states.append(self.state[None])
-        self.outputs.append(values[:, : self.modes.size])
+        self.kept.append((np.array([self.stop_time]), self.state[None], values[:, : self.modes.size]))
 
     def motion(self) -> FrameMotion:
         """What there is."""
-        step, size = self.step, len(self.state)
-        states = np.vstack([np.empty((0, size)), *self.states])
-        outputs = np.vstack([np.empty((0, self.modes.size)), *self.outputs])
+        step, none = self.step, (np.empty(0), np.empty((0, len(self.state))), np.empty((0, self.modes.size)))
+        times, states, outputs = (np.concatenate(parts) for parts in zip(none, *self.kept, strict=True))
         found = March(states, outputs, False, step.operations, step.building, step.seconds)
-        times = np.concatenate([np.empty(0), *self.times])
         breaks = tuple(float(t) for t in self.breaks[:-1])
         counts = {"steps": max(len(times) - 1, 0), "rejected": self.rejected}
         return FrameMotion(

@@ -69,18 +69,26 @@ def sampled(course: Any, times: Array, what: str) -> Array:
         If a value is no finite vector of three numbers.
     """
     moves = callable(course)
-    values: Any = [course(float(t)) for t in times] if moves else [course] * len(times)
+    values: Any = [course(float(t)) for t in times] if moves else [course]
     try:
         found = np.array(values, dtype=float)
     except (TypeError, ValueError):
         found = np.zeros(0)
-    if found.shape != (len(times), 3):
-        given = f"{values[0]!r} at t = {times[0]:.6g} s" if moves else f"{course!r}"
-        raise DeclarationError(f"{what} is a vector of three numbers, not {given}")
-    if not np.isfinite(found).all():
-        first = times[~np.isfinite(found).all(axis=1)][0]
-        raise DeclarationError(f"{what} is not finite" + f" at t = {first:.6g} s" * moves)
-    return found
+    if found.shape != (len(values), 3):
+        wrong = next((k for k, value in enumerate(values) if not _is_vector(value)), 0)
+        at = f" at t = {times[wrong]:.6g} s" * moves
+        raise DeclarationError(f"{what} is a vector of three numbers, not {values[wrong]!r}{at}")
+    finite = np.isfinite(found).all(axis=1)
+    if not finite.all():
+        raise DeclarationError(f"{what} is not finite" + f" at t = {times[int(np.argmin(finite))]:.6g} s" * moves)
+    return np.broadcast_to(found, (len(times), 3))
+
+
+def _is_vector(value: Any) -> bool:
+    try:
+        return np.array(value, dtype=float).shape == (3,)
+    except (TypeError, ValueError):
+        return False
 
 
 def acting(body: ReducedBody, loads: Sequence[FrameLoad]) -> list[tuple[FrameLoad, Interface]]:

@@ -12,6 +12,7 @@ import pytest
 
 pytest.importorskip("fmpy")
 
+from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 import acausal as ac
@@ -85,6 +86,21 @@ def test_co_simulation_is_as_exact_as_simulate(scene: str, version: int, tmp_pat
     found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-5, output=list(exact))
     assert len(found) == 41
     assert error(found, exact) <= 2 * own + 1e-8
+
+
+def test_small_states_have_the_sizes_that_a_run_finds(tmp_path: Path) -> None:
+    model, stop = SCENES["car-axis"]
+    compiled = ac.compile(model)
+    path = exported(compiled, tmp_path / "a.fmu", 3)
+    given = {"stop_time": stop, "intervals": 40}
+    exact = columns(ac.simulate(compiled, tolerance=1e-10, method="idas", **given))
+    own = ac.simulate(compiled, tolerance=1e-7, **given)
+    found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-7, output=list(exact))
+    assert error(found, exact) <= 1.2 * error(columns(own), exact)
+    nominal = {float(v.nominal) for v in read_model_description(str(path)).modelVariables if v.nominal}
+    least = min(own.stats["sizes"].values())
+    assert least < 0.1
+    assert min(nominal) == pytest.approx(least, rel=0.1)  # what a loose run at other places reaches
 
 
 @pytest.mark.parametrize(("scene", "version"), each_in_turn(SOLVED_BY_CVODE))

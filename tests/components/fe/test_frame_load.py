@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,7 @@ def test_a_couple_of_nodes_is_a_moment():
         (FrameLoad("end", force=(0, 0, np.nan)), "force at `end` is not finite$"),
         (FrameLoad("end", force=lambda t: (0, 0, np.inf if t > 0.01 else 0)), r"not finite at t = 0\.01 s"),
         (FrameLoad("end", force=lambda t: None), "not None at t = "),
+        (FrameLoad("end", force=lambda t: 0.0 if t > 0.01 else (0, 0, 1)), r"three numbers, not 0\.0 at t = 0\.01 s"),
         (FrameLoad("end", force=(0, 0, 1), follower="no"), "True or False, not 'no'"),  # type: ignore[arg-type]
         (FrameLoad("end", force=(0, 0, 1), breaks=(np.nan,)), "breaks of the load at `end` are times in s"),
         (FrameLoad("end", force=(0, 0, 1), breaks="now"), "breaks of the load at `end` are times in s"),  # type: ignore[arg-type]
@@ -128,6 +130,23 @@ def test_a_body_without_modes_at_nodes():
 def test_wrong_arguments(given, words):
     with pytest.raises(ac.DeclarationError, match=words):
         simulate_reconfigured(plate(), (), **{"stop_time": 0.01, "dt": 1e-4, **given})
+
+
+def test_modes_that_are_rigid_motion_are_told_from_soft_ones():
+    """As of a mast with a stiff foot: its first frequency is far below the last."""
+    body = plate()
+    K = body.K.copy()
+    K[0, 0] = 1e-9 * K.max()
+    simulate_reconfigured(replace(body, K=K), (), 1e-3, 1e-4)
+    for share in (0.0, -1e-12, 1e-14):
+        K[0, 0] = share * K.max()
+        with pytest.raises(ac.DeclarationError, match="stands for a rigid motion"):
+            simulate_reconfigured(replace(body, K=K), (), 1e-3, 1e-4)
+    moves, turns = body.modal_first.copy(), body.modal_second.copy()
+    moves[0, 2], turns[3, 0, 1] = 0.1, turns[3, 0, 1] + 0.1
+    for wrong in ({"modal_first": moves}, {"modal_second": turns}):
+        with pytest.raises(ac.DeclarationError, match=r'its modes hold rigid motion: .*hold="mean-axis"'):
+            simulate_reconfigured(replace(body, **wrong), (), 1e-3, 1e-4)
 
 
 def test_wrong_points_of_a_reading():

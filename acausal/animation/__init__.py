@@ -1,0 +1,1 @@
+"""Moving pictures of a result, as pages that any browser plays."""
