@@ -11,6 +11,7 @@ heed()
 
 from typing import TYPE_CHECKING, Any
 
+from acausal.animation import geometry
 from acausal.compiler import CompiledModel, compile
 from acausal.errors import (
     AcausalError,
@@ -153,6 +154,7 @@ __all__ = [
     "feedback",
     "fixed",
     "flow",
+    "geometry",
     "guess",
     "in_loop",
     "initial",

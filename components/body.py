@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, outer, parameter, port, require
+from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, geometry, outer, parameter, port, require
+from components.frame import pose
 from components.moving_body import MovingBody
 from components.orientation import resolve1, resolve2
 from components.rigid import wrong_inertia
@@ -70,6 +71,12 @@ class Body(MovingBody):
         frame, w = self.frame_a, self.frame_a.R.w
         v = frame.v + cross(w, self.r_CM)
         return self.m * (dot(v, v) / 2 + self.world.potential(self._centre())) + dot(w, self.I @ w) / 2
+
+    def shapes(self):
+        """A sphere at the centre of mass, and a thin rod to it."""
+        if not self.r_CM.sx.is_zero():
+            yield geometry.Span(self.frame_a.r_0, self._centre())
+        yield geometry.Sphere(pose(self.frame_a), self.r_CM)
 
     def _centre(self):
         return self.frame_a.r_0 + resolve1(self.frame_a.R, self.r_CM)

@@ -14,11 +14,13 @@ from acausal import (
     as_expr,
     cross,
     dot,
+    geometry,
     parameter,
     require,
     sqrt,
     structural,
 )
+from components.frame import pose
 from components.orientation import outer_product
 from components.two_frame_body import TwoFrameBody
 from components.world import require_direction
@@ -76,6 +78,11 @@ class BodyBox(TwoFrameBody):
         )
         yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(given, given)), text)
         yield from super().requirements()
+
+    def shapes(self):
+        """The box."""
+        size = as_expr((self.length, self.width, self.height))
+        yield geometry.Box(pose(self.frame_a), self.r / 2, size, as_expr(self.axes()))
 
     @property
     def length(self) -> Any:

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal import DeclarationError, Matrix33, Scalar, Vector3, dot, parameter, require, sqrt
+from acausal import DeclarationError, Matrix33, Scalar, Vector3, dot, geometry, parameter, require, sqrt
+from components.frame import pose
 from components.orientation import outer_product
 from components.two_frame_body import TwoFrameBody
 
@@ -44,6 +45,10 @@ class BodyCylinder(TwoFrameBody):
         text = f"`inner_diameter` of {name} is not less than `diameter`; give the bore of the pipe, or 0 if it has none"
         yield require(self.inner_diameter < self.diameter, text)
         yield from super().requirements()
+
+    def shapes(self):
+        """The cylinder; it hides the bore of a pipe."""
+        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r, self.diameter)
 
     def cylinder_mass(self) -> Any:
         """Mass in kg."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Matrix33, Scalar, Vector3, parameter
+from acausal import Matrix33, Scalar, Vector3, geometry, parameter
+from components.frame import pose
 from components.orientation import skew
 from components.two_frame_body import TwoFrameBody
 
@@ -23,6 +24,10 @@ class BodyRod(TwoFrameBody):
         default=lambda s: _inertia(s.m, s.r),
         doc="Resolved in frame_a; that of the rod if not given.",
     )
+
+    def shapes(self):
+        """The rod."""
+        yield geometry.Cylinder(pose(self.frame_a), (0, 0, 0), self.r)
 
 
 def _inertia(m: Any, r: Any) -> Any:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal import Component, Vector3, parameter, port, root
-from components.frame import Frame
+from acausal import Component, Vector3, geometry, parameter, port, root
+from components.frame import Frame, pose
 
 
 class Fixed(Component):
@@ -26,3 +26,7 @@ class Fixed(Component):
         yield frame.v == zero
         yield frame.a == zero
         yield frame.z == zero
+
+    def shapes(self):
+        """A point of support."""
+        yield geometry.Sphere(pose(self.frame_b))

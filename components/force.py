@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal import Vector3, cross, dot, input, structural
-from components.frame import TwoFrames
+from components.frame import TwoFrames, force_arrow, torque_arrow
 from components.orientation import resolve1, resolve2
 
 
@@ -28,3 +28,7 @@ class Force(TwoFrames):
         """Power of the force at both frames."""
         a, b = self.frame_a, self.frame_b
         return -(dot(a.f, a.v) + dot(a.t, a.R.w) + dot(b.f, b.v))
+
+    def shapes(self):
+        """The force, and what it is in frame_a."""
+        yield from (force_arrow(self.frame_b), force_arrow(self.frame_a), torque_arrow(self.frame_a))

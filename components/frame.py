@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from acausal import Component, Connector, Vector3, as_expr, cross, der, flow, port, rooted, variable
+from acausal import Component, Connector, Vector3, as_expr, cross, der, flow, geometry, port, rooted, variable
 from components.orientation import (
     Orientation,
     from_quaternion,
@@ -70,6 +70,28 @@ class TwoFrames(Component):
     ends = ("frame_a", "frame_b")
     frame_a: Frame = port(Frame, "coordinate system at the first end")
     frame_b: Frame = port(Frame, "coordinate system at the second end")
+
+    def shapes(self):
+        """Its parts, or a thin rod where none of them has a frame."""
+        parts = list(super().shapes())
+        yield from parts
+        if not any(isinstance(end, Frame) for part in parts for end in part._ports):
+            yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0)
+
+
+def pose(frame: Any) -> geometry.Pose:
+    """Where shapes that are fixed to a frame are."""
+    return geometry.Pose(frame.r_0, frame.R.T)
+
+
+def force_arrow(frame: Any) -> geometry.Arrow:
+    """Force that a component exerts at a frame of its own on what is connected there."""
+    return geometry.Arrow(frame.r_0, -resolve1(frame.R, frame.f))
+
+
+def torque_arrow(frame: Any) -> geometry.Arrow:
+    """Torque that a component exerts at a frame of its own on what is connected there."""
+    return geometry.Arrow(frame.r_0, -resolve1(frame.R, frame.t), "torque")
 
 
 def move(frame_a: Any, frame_b: Any, r: Any, R: Any, offset: Any = None) -> Iterator[Any]:

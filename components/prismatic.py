@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, cross, der, dot, parameter, port, structural, variable
+from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, port, structural, variable
 from components.driven_joint import DrivenJoint
 from components.frame import move
-from components.orientation import null_rotation, unit_vector
+from components.orientation import null_rotation, resolve1, unit_vector
 from components.translational_flange import TranslationalFlange
 
 
@@ -59,6 +59,13 @@ class Prismatic(DrivenJoint):
             yield self.support.s == 0
         else:
             yield self.f == 0
+
+    def shapes(self):
+        """A rail, and the force of a drive."""
+        a, b = self.frame_a, self.frame_b
+        yield geometry.Span(a.r_0, b.r_0, "rail")
+        if self.use_axis_flange:
+            yield geometry.Arrow(b.r_0, resolve1(a.R, unit_vector(self.n) * self.f))
 
     def stored_energy(self):
         """Elastic energy of the drive."""

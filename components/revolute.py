@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, der, dot, parameter, port, structural, variable
+from acausal import PREFER, Scalar, der, dot, geometry, parameter, port, structural, variable
 from components.driven_joint import DrivenJoint
 from components.flange import Flange
-from components.frame import move
+from components.frame import move, pose
 from components.orientation import planar_rotation, resolve1, unit_vector
 
 
@@ -64,6 +64,13 @@ class Revolute(DrivenJoint):
             yield self.support.phi == 0
         else:
             yield self.tau == 0
+
+    def shapes(self):
+        """A pin, and the torque of a drive."""
+        a, n = self.frame_a, unit_vector(self.n)
+        yield geometry.Axle(pose(a), n)
+        if self.use_axis_flange:
+            yield geometry.Arrow(a.r_0, resolve1(a.R, n * self.tau), "torque")
 
     def stored_energy(self):
         """Elastic energy of the drive."""

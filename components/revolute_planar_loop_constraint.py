@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal import as_expr, dot, structural, variable
-from components.frame import TwoFrames
+from acausal import as_expr, dot, geometry, structural, variable
+from components.frame import TwoFrames, pose
 from components.orientation import resolve1, resolve2, unit_vector
 from components.world import require_direction
 
@@ -46,3 +46,7 @@ class RevolutePlanarLoopConstraint(TwoFrames):
         yield b.f == -resolve2(b.R, resolve1(a.R, a.f))
         yield a.t == (0, 0, 0)
         yield b.t == (0, 0, 0)
+
+    def shapes(self):
+        """A pin."""
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from acausal import PREFER, Vector3, branch, der, structural, variable
-from components.frame import TwoFrames, move
+from acausal import PREFER, Vector3, branch, der, geometry, structural, variable
+from components.frame import TwoFrames, move, pose
 from components.orientation import (
     RelativeOrientation,
     axes_rotations,
@@ -56,6 +56,10 @@ class Spherical(TwoFrames):
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == (0, 0, 0)
         yield self.frame_b.t == (0, 0, 0)
+
+    def shapes(self):
+        """A ball."""
+        yield geometry.Sphere(pose(self.frame_a))
 
     def initial_equations(self):
         if self.angles_fixed:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Scalar, parameter
+from acausal import Scalar, geometry, parameter
 from components.line_force import LineForce
 
 
@@ -17,6 +17,10 @@ class Spring(LineForce):
     def law(self):
         """Hooke's law."""
         yield self.f == self.c * (self.s - self.s_unstretched)
+
+    def shapes(self):
+        """A coil."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
 
     def stored_energy(self):
         """Elastic energy."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Scalar, parameter
+from acausal import Scalar, geometry, parameter
 from components.line_force import LineForce
 
 
@@ -18,6 +18,10 @@ class SpringDamperParallel(LineForce):
     def law(self):
         """Hooke's law, and a force proportional to the speed."""
         yield self.f == self.c * (self.s - self.s_unstretched) + self.d * self.v
+
+    def shapes(self):
+        """A coil."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
 
     def stored_energy(self):
         """Elastic energy."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal import Vector3, dot, input, structural
-from components.frame import TwoFrames
+from components.frame import TwoFrames, torque_arrow
 from components.orientation import resolve1, resolve2
 
 
@@ -28,3 +28,7 @@ class Torque(TwoFrames):
         """Power of the torque at both frames."""
         a, b = self.frame_a, self.frame_b
         return -(dot(a.t, a.R.w) + dot(b.t, b.R.w))
+
+    def shapes(self):
+        """The torque at both frames."""
+        yield from (torque_arrow(self.frame_b), torque_arrow(self.frame_a))

@@ -44,6 +44,10 @@ class TwoFrameBody(TwoFrames, MovingBody):
         yield connect(self.frame_a, self.frame_translation.frame_a)
         yield connect(self.frame_translation.frame_b, self.frame_b)
 
+    def shapes(self):
+        """A rod from frame to frame, and the centre of mass."""
+        yield from (*self.frame_translation.shapes(), *self.body.shapes())
+
     def requirements(self):
         yield require(self.I, wrong_inertia)
 

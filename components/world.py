@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, DeclarationError, Scalar, dot, effect, parameter, port, root, sqrt, structural
+from acausal import Component, DeclarationError, Scalar, dot, effect, geometry, parameter, port, root, sqrt, structural
 from components.frame import Frame
 from components.orientation import unit_vector
 
@@ -68,6 +68,10 @@ class World(Component):
         if self.gravity == "point":
             return -self.mu / sqrt(dot(r, r))
         return 0.0
+
+    def shapes(self):
+        """The ground, normal to gravity where that has a direction."""
+        yield geometry.Ground(-unit_vector(self.n) if self.gravity == "uniform" else None)
 
 
 def require_direction(component: Any, vector: Any, name: str) -> None:

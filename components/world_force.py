@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal import Component, Vector3, dot, input, port, structural
-from components.frame import Frame
+from components.frame import Frame, force_arrow
 from components.orientation import resolve2
 
 
@@ -23,3 +23,7 @@ class WorldForce(Component):
     def supplied_power(self):
         """Power of the force."""
         return -dot(self.frame_b.f, self.frame_b.v)
+
+    def shapes(self):
+        """The force."""
+        yield force_arrow(self.frame_b)

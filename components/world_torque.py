@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from acausal import Component, Vector3, dot, input, port, structural
-from components.frame import Frame
+from components.frame import Frame, torque_arrow
 from components.orientation import resolve2
 
 
@@ -23,3 +23,7 @@ class WorldTorque(Component):
     def supplied_power(self):
         """Power of the torque."""
         return -dot(self.frame_b.t, self.frame_b.R.w)
+
+    def shapes(self):
+        """The torque."""
+        yield torque_arrow(self.frame_b)

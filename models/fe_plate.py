@@ -6,7 +6,7 @@ from math import pi, sin
 import acausal as ac
 from acausal import Formulation, Model, Scalar, connect, fixed, output, parameter, part, piecewise, structural, time
 from components import World, WorldForce
-from components.fe import FEBody, FrameLoad, ReducedBody, box, by_steps, read_npz, reduce_body
+from components.fe import FEBody, FrameLoad, Nodes, ReducedBody, box, by_steps, read_npz, reduce_body
 
 SIZE, COUNTS, REST, PEAK, LAST = (1, 0.05, 0.01), (100, 5, 1), fixed((0, 0, 0)), 50 / 2**0.5, 0.1  # N along x and z, s
 PLACES, ELASTIC = {"P1": (-0.5, -0.025, -0.005), "end": (0.5, 0, -0.005)}, {"formulation": "elastic"}
@@ -18,7 +18,7 @@ def plate(mesh: str, modes: int) -> ReducedBody:
     """The plate, made once in a process: free modes, in the axes in which they have no momentum."""
     own = mesh in ("hex20", "tet10")
     M, K, nodes = box(SIZE, COUNTS, mesh, E=7e10, nu=0.33, rho=2700) if own else read_npz(mesh, length=1e-3, mass=1e3)
-    nodes = nodes - (nodes.min(axis=0) + nodes.max(axis=0)) / 2
+    nodes = Nodes(nodes - (nodes.min(axis=0) + nodes.max(axis=0)) / 2, cells=getattr(nodes, "cells", None))
     M.setdiag(M.diagonal() + own * (abs(abs(2 * nodes) - SIZE) < 1e-9).all(axis=1).repeat(3))  # 1 kg at each corner
     frames = {name: [((nodes - place) ** 2).sum(axis=1).argmin()] for name, place in PLACES.items()}
     return reduce_body(M, K, nodes, frames=frames, hold="mean-axis", modes=modes)

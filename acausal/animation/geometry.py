@@ -94,7 +94,7 @@ class Arrow:
 
 @dataclass(frozen=True, eq=False)
 class Values:
-    """A quantity along a curve, by which it is coloured: one entry for each point."""
+    """A quantity along a curve, by which it is coloured: one entry for each point, or a function that makes them if asked."""
 
     name: str
     unit: str

@@ -151,6 +151,14 @@ class Component(f.Template):
         """Power in W that the component brings into the model from outside."""
         return 0
 
+    def shapes(self) -> Iterator[Any]:
+        """Yield what it looks like: kinds of `acausal.geometry`, and parts, which say it themselves; all parts by default."""
+        for name in [name for name, declared in self.fields.items() if isinstance(declared, f.Part)]:
+            inside = getattr(self, name)
+            for part in inside if isinstance(inside, list) else [inside]:
+                if part is not None and not isinstance(part, Connector):
+                    yield part
+
 
 def _constructed_at(component: Component) -> str:
     """Return file and line of the call of a constructor, also from a constructor of the user's own."""

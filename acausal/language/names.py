@@ -23,6 +23,7 @@ EXAMPLES = {
     "check": "...",
     "requirements": "yield require(...)",
     "validity": "yield expect(...)",
+    "shapes": "yield geometry.Sphere(...)",
 }
 
 

@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 from acausal import Scalar, effect, observed, parameter, sqrt, structural
 from components.beams.range import beam_range
+from components.beams.tube import tube
 from components.frame import TwoFrames
 from components.orientation import resolve2
 
@@ -115,6 +116,10 @@ class Beam(TwoFrames):
     def validity(self):
         if self.bending and self.check_range:
             yield from beam_range(self, self.frames)
+
+    def shapes(self):
+        """A tube along the deformed axis."""
+        yield tube(self, self.frames)
 
     @observed
     def middle_deflection(self):

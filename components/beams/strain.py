@@ -103,6 +103,18 @@ class Strain:
         u_1, v_1, a, u_2, v_2, b = (U[3 * j + k] for k in range(6))
         return (u_1 + u_2) / 2 + self.bubble(U, j) / 4, (v_1 + v_2) / 2 + (a - b) / 8
 
+    def tangents(self, U: Any) -> list[tuple[Any, Any]]:
+        """Derivatives of the axis by the part xi of an element, along and across it, at every node, in m.
+
+        Of the stretches on both sides of a node, the mean counts.
+        """
+        stretches, found = [e for e, _ in self._extensions(U, U)], []
+        for k in range(self.elements + 1):
+            near, square = stretches[max(k - 1, 0) : k + 1], (U[3 * k + 2] / self.l) * (U[3 * k + 2] / self.l)
+            shorter = self.l * (square / 2 + square * square / 8) if self.second_order else 0.0
+            found.append((self.l - shorter + sum(near[1:], near[0]) / len(near), U[3 * k + 2]))
+        return found
+
     def _lean(self, e: Bend) -> Any:
         return (e.r / 10 - e.d / 2) / self.l
 

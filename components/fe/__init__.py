@@ -7,6 +7,7 @@ from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
 from components.fe.interface import average, rigid
 from components.fe.nodal_field import NodalField
+from components.fe.nodes import Nodes
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.reduction import reduce_body
 
@@ -17,6 +18,7 @@ __all__ = [
     "Interface",
     "NodalField",
     "NodalResult",
+    "Nodes",
     "Readings",
     "ReducedBody",
     "as_result",

@@ -16,6 +16,7 @@ from acausal import (
     der,
     dot,
     effect,
+    geometry,
     initial,
     is_root,
     outer,
@@ -33,7 +34,8 @@ from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
 from components.fe.reconfigured_inertia import ReconfiguredInertia
 from components.fe.reduced_body import Interface, ReducedBody
-from components.frame import Frame, move
+from components.fe.skin import box_of_inertia, mesh
+from components.frame import Frame, move, pose
 from components.moving_body import MovingBody
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
 from components.world import World
@@ -209,6 +211,14 @@ class FEBody(MovingBody):
     def dissipated_power(self):
         """Power of the damping of the modes."""
         return dot(self._rates(), self._drag())
+
+    def shapes(self):
+        """The skin of its mesh, or the box of its inertia and its frames where it knows no mesh."""
+        at = pose(self.reference)
+        if found := mesh(self.reduced.nodal, at, self.q):  # `_body` may be an equal one without nodes
+            yield found
+        else:
+            yield from (box_of_inertia(self._body, at), *(geometry.Sphere(pose(f)) for f in self.frames.values()))
 
     @property
     def _body(self) -> ReducedBody:

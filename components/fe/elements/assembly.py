@@ -21,7 +21,7 @@ FLAT = ("vertex", "line", "triangle", "quad")
 
 def assemble(
     points: Any, cells: Mapping[str, Any] | Iterable[tuple[str, Any]], *, E: float, nu: float, rho: float
-) -> tuple[Any, Any, np.ndarray]:
+) -> tuple[Any, Any, Nodes]:
     """Mass and stiffness of a solid of one material.
 
     Parameters

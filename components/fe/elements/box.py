@@ -9,6 +9,7 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.elements.assembly import assemble
 from components.fe.elements.quadratic import CORNERS, EDGES
+from components.fe.nodes import Nodes
 
 KINDS = {"hex8": "hexahedron", "hex20": "hexahedron20", "tet10": "tetra10"}
 # Six tetrahedra of a box round its diagonal: steps along the axes from one end of it to the other, each order once. Boxes
@@ -58,7 +59,7 @@ def _places(element: str, fine: int) -> np.ndarray:
     return np.array([[*(fine * c), *(c[i] + c[j] for i, j in edges)] for c in corners])
 
 
-def box(size: Any, counts: Any, element: str, *, E: float, nu: float, rho: float) -> tuple[Any, Any, np.ndarray]:
+def box(size: Any, counts: Any, element: str, *, E: float, nu: float, rho: float) -> tuple[Any, Any, Nodes]:
     """Mass and stiffness of a box with one corner at the origin and edges along the axes.
 
     Parameters
