@@ -132,6 +132,7 @@ __all__ = [
     "UnitsError",
     "Vector3",
     "acos",
+    "animate",
     "apart",
     "as_expr",
     "asin",
@@ -196,9 +197,13 @@ __all__ = [
 
 if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
+    from acausal.result.several import animate
 
 # What few runs need: loading it takes as long as a small simulation.
-_LATER = dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export")
+_LATER = {
+    **dict.fromkeys(("export_dae", "export_fmu", "load_dae"), "acausal.export"),
+    "animate": "acausal.result.several",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -108,6 +108,14 @@ def simulate(
     initial: Initial = None,
     csv: Annotated[str | None, typer.Option(help="Write time and outputs.", metavar="FILE")] = None,
     plot: Annotated[str | None, typer.Option(help="Plot the outputs.", metavar="FILE.png")] = None,
+    animate: Annotated[
+        str | None,
+        typer.Option(help="Write how it moves: a page for any browser, or FILE.gif, FILE.png.", metavar="FILE.html"),
+    ] = None,
+    values: Annotated[
+        list[str] | None,
+        typer.Option(help="What beams can be coloured by there: 'bending moment', 'axial force', all.", metavar="NAME"),
+    ] = None,
     json: Json = None,
     variables: Annotated[
         list[str] | None,
@@ -119,10 +127,10 @@ def simulate(
     with running(json, quiet) as standard_output:
         import acausal as ac
 
-        files = Files(scene, csv, plot, json, standard_output)
-        check_outputs((file_of(scene), effects), csv=csv, plot=plot, json=json)
+        files = Files(scene, csv, plot, json, standard_output, animate, tuple(values or ()))
+        check_outputs((file_of(scene), effects), csv=csv, plot=plot, animate=animate, json=json)
         cls = find_scene(scene)
-        model, values = make_scene(scene, cls, settings, effects)
+        model, given = make_scene(scene, cls, settings, effects)
         how = {
             "tolerance": tolerance,
             "accuracy": accuracy,
@@ -133,16 +141,18 @@ def simulate(
             "initial": initial,
         }
         with blaming(cls):
-            how["stop_time"] = stop_time_of(model, values, stop_time)
-            planned(model, values, how)
-            compiled = ac.compile(model, parameters=values)
+            how["stop_time"] = stop_time_of(model, given, stop_time)
+            planned(model, given, how)
+            compiled = ac.compile(model, parameters=given)
         # Wrong names are refused before any work.
         chosen = match(compiled.tree, variables or ())
+        with blaming(cls):
+            files.check(compiled.tree)
         if csv is not None:
             check_columns(compiled.tree, (*compiled.outputs, *chosen))
         chosen_by = settled(compiled, None, {"tolerance": tolerance, "accuracy": accuracy})["accuracy"]
         again = chosen_by is not None and bool(adaptive(compiled.tree))
-        options = {**how, "parameters": values if again else None, "energy": True}
+        options = {**how, "parameters": given if again else None, "energy": True}
         with blaming(cls):
             subject = model if again else compiled
             result = _rescue(lambda show: ac.simulate(subject, **options, progress=show), files, variables, quiet)

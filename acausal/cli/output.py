@@ -15,6 +15,7 @@ import numpy as np
 from acausal.errors import ExportError
 from acausal.result import Result, check_picture, check_writable, same_file, shown_name
 from acausal.result.files import whole
+from acausal.result.lookup import Tree
 from acausal.result.plots import Series
 from acausal.result.statistics import Statistics
 from acausal.result.tables import Table
@@ -42,6 +43,10 @@ def check_outputs(reads: Iterable[str | None], **writes: str | None) -> None:
     for option, path in files:
         if option == "--plot":
             check_picture(path)
+        elif option == "--animate":
+            from acausal.result.animated import check_animation
+
+            check_animation(path)
         elif (option, path) != ("--json", "-"):
             check_writable(path)
     for (one, first), (other, second) in combinations(files, 2):
@@ -64,6 +69,10 @@ class Files:
         Names of files; `json` may be "-".
     standard_output : text stream
         For `json` "-".
+    animate : str or None
+        Name of a file for the moving picture.
+    values : tuple of str
+        What beams can be coloured by there.
     """
 
     scene: str
@@ -71,6 +80,15 @@ class Files:
     plot: str | None
     json: str | None
     standard_output: IO[str]
+    animate: str | None = None
+    values: tuple[str, ...] = ()
+
+    def check(self, tree: Tree) -> None:
+        """Refuse a moving picture of a model that shows nothing, or of values that it does not have."""
+        if self.animate is not None:
+            from acausal.result.animated import check_visible
+
+            check_visible(tree, self.values)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
         """Write outputs and chosen variables; `more` goes into the JSON document."""
@@ -83,6 +101,8 @@ class Files:
             write_json(
                 {"scene": self.scene, **result.stats, "not_finite": wrong, **more}, self.json, self.standard_output
             )
+        if self.animate:
+            result.animate(self.animate, plots=chosen, values=self.values)
 
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:

@@ -82,6 +82,17 @@ def save(figure: Figure, path: str | Path) -> None:
         figure.savefig(file, format=_ending(path), dpi=DPI)
 
 
+def opened(figure: Figure, path: str | Path | None) -> None:
+    """Open a figure in the system's viewer, which was saved already if it has a path."""
+    import tempfile
+    import webbrowser
+
+    picture = Path(path) if path is not None else Path(tempfile.mkdtemp()) / "result.png"
+    if path is None:
+        save(figure, picture)
+    webbrowser.open(picture.resolve().as_uri())
+
+
 def check_picture(path: str | Path) -> None:
     """Check whether a picture can be written: known ending, writable place.
 

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-import casadi as ca
 import numpy as np
 
-from acausal.errors import DeclarationError, caution
+from acausal.animation.frames import FRAMES
+from acausal.errors import AcausalError, DeclarationError, caution
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.kept import Kept, keep
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
-from acausal.result.plots import Series, draw, save
+from acausal.result.no_numbers import no_numbers
+from acausal.result.plots import Series, draw, opened, save
+from acausal.result.reading import read
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
 
@@ -213,7 +215,7 @@ class Result:
         if path is not None:
             save(figure, path)
         if show:
-            _open(figure, path)
+            opened(figure, path)
         return figure
 
     def _beside(self, key: object) -> bool:
@@ -223,6 +225,53 @@ class Result:
     def _find(self, key: Key) -> Quantity:
         """Return what a key means, of the model or beside it."""
         return find(self._more if self._more and self._beside(key) else self.tree, key)
+
+    @fitting
+    @alone
+    def animate(
+        self,
+        path: str | Path,
+        *,
+        frames: int = FRAMES,
+        plots: Sequence[Key] = (),
+        values: Sequence[str] = (),
+        title: str = "",
+    ) -> None:
+        """Write how the machine moves, with the outputs under it.
+
+        Parameters
+        ----------
+        path : str or Path
+            Name of the file; it ends in .html, a page that any browser plays, .gif, a film, or .png, some moments at once.
+        frames : int
+            A longer result is thinned to about so many times.
+        plots : sequence of str, Path or Expr
+            What is drawn under the picture; the outputs if there is none.
+        values : sequence of str
+            What beams can be coloured by besides what costs nothing: "bending moment", "axial force", or "all".
+        title : str
+            Of the picture.
+
+        Raises
+        ------
+        ExportError
+            If the file cannot be written, before anything is computed.
+        DeclarationError
+            If the result has no time, no model any more, nothing to be seen, or no such values.
+        """
+        from acausal.result.animated import Asked, write
+
+        write({self.title or self._model: self}, path, Asked(frames, plots, values, title))
+
+    @alone
+    def _repr_html_(self) -> str | None:
+        """Show a notebook how the machine moves, where there is something to be seen."""
+        from acausal.result.animated import in_notebook
+
+        try:
+            return in_notebook(self)
+        except AcausalError:
+            return None  # its text is shown instead
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])
@@ -235,58 +284,18 @@ class Result:
         for quantity, array in found:
             if quantity.name not in self._told and not np.isfinite(array).all():
                 self._told.add(quantity.name)
-                caution(self._no_numbers(quantity, array))
+                why = getattr(self._evaluate, "why", None) if quantity.declared else None
+                caution(no_numbers(quantity, array, self.time, why))
         return found
-
-    def _no_numbers(self, quantity: Quantity, array: np.ndarray) -> str:
-        """Describe where a quantity stops being a number, and why."""
-        wrong, n = ~np.isfinite(array), self.time.size
-        rows = wrong.reshape(n, -1).any(axis=1)
-        row = int(np.argmax(rows))
-        name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
-        nan = bool(np.isnan(array[wrong]).any())
-        what = "not a number (NaN)" if nan else "infinite"
-        cause = (
-            "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
-        )
-        why = getattr(self._evaluate, "why", None) if quantity.declared else None
-        mend = (why and why(row)) or f"Check the equation that gives it: {cause}."
-        return (
-            f"`{name}` is {what} at {rows.sum()} of {n} times, first at t = {self.time[row]:.6g} s. "
-            f"{mend[0].upper()}{mend[1:]}"
-        )
 
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
         kept = self.tree if isinstance(self.tree, Kept) else self._more
-        arrays: dict[Quantity, np.ndarray] = {}
-        for places in (False, True):
-            some = [q for q in new if isinstance(q.column, np.ndarray) is places]
-            ends = np.cumsum([q.size for q in some], dtype=int)
-            if not some or not ends[-1]:
-                values = np.empty((self.time.size, 0))
-            elif kept is not None and places:
-                values = kept.evaluate(np.concatenate([q.column for q in some]))
-            else:
-                values = np.asarray(self._evaluate(ca.vertcat(*(q.column for q in some))))
-            for q, block in zip(some, np.split(values, ends[:-1], axis=1), strict=False):
-                arrays[q] = block.reshape(self.time.size, *q.shape, order="F")
-                arrays[q].flags.writeable = False
-                if q.declared:
-                    self._arrays[q.name] = arrays[q]
+        arrays = read(new, self._evaluate, kept, self.time.size)
+        self._arrays |= {q.name: array for q, array in arrays.items() if q.declared}
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
 
 
 def _loaded(time: np.ndarray, kept: Kept, outputs: tuple[str, ...], stats: Statistics, title: str) -> Result:
     return Result(time, kept.evaluate, kept, outputs, stats, title)
-
-
-def _open(figure: Figure, path: str | Path | None) -> None:
-    import tempfile
-    import webbrowser
-
-    picture = Path(path) if path is not None else Path(tempfile.mkdtemp()) / "result.png"
-    if path is None:
-        save(figure, picture)
-    webbrowser.open(picture.resolve().as_uri())

@@ -37,6 +37,8 @@ class Statistics(Mapping[str, Any]):
         What the ranks of loops showed at the start.
     doubts : list of str
         What was used outside its range.
+    stopped : str
+        Why the run ended before its stop time.
     energy_supplied, energy_stored_change, energy_dissipated, energy_method : float
         In J, if requested; the last is what the method itself lost.
     consistent_evaluations : int
@@ -78,6 +80,7 @@ class Statistics(Mapping[str, Any]):
     independent_states: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
     operations: int | None = None
+    stopped: str | None = None
     energy_supplied: float | None = None
     energy_stored_change: float | None = None
     energy_dissipated: float | None = None

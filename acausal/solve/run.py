@@ -83,7 +83,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
         done.integrator.trace.cut(met.time)
     result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)
     if met:
-        raise SimulationError(met.text, result)
+        raise SimulationError(met.text, result.with_stats(stopped=met.text))
     if done.failure is not None:
         _raise(done, result)
     return result
@@ -188,14 +188,14 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
 def _raise(done: _Done, result: Result) -> NoReturn:
     """Raise what ended a run, with what was computed."""
     failure: Any = done.failure
-    if isinstance(failure, Failure):
-        text = failure_text(done.integrator, done.at, done.begun.redundancy, failure)
-        error = SimulationError(text, result)
-        error.begun = failure.time > done.at.time
+    if isinstance(failure, Failure | Chattering):
+        text = str(failure)
+        if isinstance(failure, Failure):
+            text = failure_text(done.integrator, done.at, done.begun.redundancy, failure)
+        error = SimulationError(text, result.with_stats(stopped=text))
+        error.begun = isinstance(failure, Chattering) or failure.time > done.at.time
         raise error
-    if isinstance(failure, Chattering):
-        raise SimulationError(str(failure), result)
-    failure.result = result
+    failure.result = result.with_stats(stopped="interrupted")
     raise failure
 
 

@@ -17,7 +17,8 @@ MAY = {
     "reduce": BASE | {"language", "flatten", "structure"},
     "core": BASE,
     "compiler": BASE | {"language", "flatten", "reduce", "core"},
-    "result": BASE | {"language", "flatten"},
+    "animation": BASE | {"language"},
+    "result": BASE | {"language", "flatten", "animation"},
     "solve": BASE | {"language", "flatten", "structure", "reduce", "core", "compiler", "result"},
     "simulation": BASE | {"language", "flatten", "compiler", "result", "solve"},
     "export": BASE

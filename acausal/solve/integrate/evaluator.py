@@ -36,6 +36,12 @@ class Evaluator:
         self._given = rows
         self._solved: set[int] = set()
 
+    def at(self, places: np.ndarray) -> Evaluator:
+        """Return one for some of the rows, which knows what was solved for already."""
+        some = Evaluator(self._given[places], self.solver)
+        some.rows, some._solved = self.rows[places], set(self._solved)
+        return some
+
     @property
     def evaluations(self) -> int:
         """Evaluations of the equations so far."""

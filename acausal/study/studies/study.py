@@ -100,7 +100,9 @@ class Study:
             own = [row for row in self.rows if row.case.formulation == name and not row.remark]
             least = min(own, key=lambda row: row.error, default=None)
             if least is not None and least.limit == MODEL:
-                lines.append(f"{name}: another model than the reference, {least.error:.1e} of the range away at its best")
+                lines.append(
+                    f"{name}: another model than the reference, {least.error:.1e} of the range away at its best"
+                )
         return lines
 
     def document(self) -> dict[str, Any]:

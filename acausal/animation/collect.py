@@ -1,0 +1,59 @@
+"""What a model looks like: the shapes of its parts, with their paths."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from acausal.animation.geometry import Shape
+from acausal.errors import DeclarationError
+from acausal.language.component import Component
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A shape and the part that looks like it.
+
+    Parameters
+    ----------
+    path : str
+        Of the part; "" is the model.
+    kind : str
+        Name of the part's class.
+    shape : Shape
+        Its geometry.
+    """
+
+    path: str
+    kind: str
+    shape: Any
+
+
+def collect(component: Component) -> list[Seen]:
+    """Return the shapes of a bound model; each part is asked once, however many yield it.
+
+    Raises
+    ------
+    DeclarationError
+        If shapes() yields anything else than shapes and parts.
+    """
+    return list(_collected(component, set()))
+
+
+def _collected(component: Component, asked: set[int]) -> Iterator[Seen]:
+    if id(component) in asked:
+        return
+    asked.add(id(component))
+    found: Any = component.shapes()
+    if not hasattr(found, "__iter__"):
+        raise DeclarationError(f"shapes() of {component!r} returns {found!r}; yield each shape: `yield Sphere(...)`.")
+    for item in found:
+        if isinstance(item, Component):
+            yield from _collected(item, asked)
+        elif isinstance(item, Shape):
+            yield Seen(component._path, type(component).__name__, item)
+        else:
+            raise DeclarationError(
+                f"shapes() of {component!r} yields {item!r}; it yields kinds of acausal.geometry, such as Sphere(...), and parts."
+            )

@@ -1,0 +1,242 @@
+"""A frame of a scene as coloured polygons, those that are nearer later."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from acausal.animation import geometry as g
+from acausal.animation.camera import Camera, level
+from acausal.animation.scene import Scene, corners, placed
+
+PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
+DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
+ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
+GRID = "#d9dee6"
+# Of the scene: its longest arrow, grid lines to each side.
+ARROW, LINES = 0.25, 8
+SIDES, BETWEEN, TURNS = 20, 10, 9
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """Corners (n, 2) to the right and upwards in m, how near the eye it is, and its colour (3,)."""
+
+    corners: np.ndarray
+    depth: float
+    colour: np.ndarray
+
+
+Pieces = Iterator[Polygon]
+
+
+class Drawing:
+    """Draws the frames of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        With sizes.
+    camera : Camera
+        From where.
+    colours : callable, optional
+        From values along a curve, shape (n,), to colours (n, 3).
+    by : str
+        Name of the values that `colours` takes.
+    """
+
+    def __init__(
+        self, scene: Scene, view: Camera, colours: Callable[[np.ndarray], np.ndarray] | None = None, by: str = ""
+    ) -> None:
+        self.scene, self.view, self.colours, self.by = scene, view, colours, by
+        paths = dict.fromkeys(
+            one.path for one in scene.seen if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
+        )
+        self.colour = {path: rgb(PALETTE[k % len(PALETTE)]) for k, path in enumerate(paths)}
+        self.longest = {kind: self._longest(kind) for kind in ARROWS}
+
+    def _longest(self, kind: str) -> float:
+        lengths = [
+            float(np.max(np.linalg.norm(one.shape.vector, axis=1)))
+            for one in self.scene.seen
+            if isinstance(one.shape, g.Arrow) and one.shape.quantity == kind
+        ]
+        return max(lengths, default=0.0)
+
+    def frame(self, k: int) -> list[Polygon]:
+        """Return what is seen at the frame k, the ground aside."""
+        found = [
+            p for one in self.scene.seen for p in DRAW[type(one.shape)](self, one.shape, k, self.colour.get(one.path))
+        ]
+        return sorted(found, key=lambda polygon: polygon.depth)
+
+    def grid(self) -> Pieces:
+        """Lines on the ground, as low as the scene hangs; none where there is no ground."""
+        scene = self.scene
+        if not any(isinstance(one.shape, g.Ground) for one in scene.seen):
+            return
+        low = min(0.0, float(np.min(corners(scene.low, scene.high) @ scene.up)))
+        first = level(scene.up)
+        sides = np.array([first, np.cross(scene.up, first)])
+        middle = (scene.low + scene.high) / 2
+        middle = middle - (middle @ scene.up - low) * scene.up
+        step = float(np.linalg.norm(scene.high - scene.low)) / LINES
+        for k in range(-LINES // 2, LINES // 2 + 1):
+            for along, across in (sides, sides[::-1]):
+                end = middle + k * step * across
+                ends = np.array([end - LINES / 2 * step * along, end + LINES / 2 * step * along])
+                yield from self.strip(ends, 0.002 * scene.size, rgb(GRID))
+
+    def strip(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
+        """A line of some width through points of the world; `colour` (3,), or (n - 1, 3) along it."""
+        seen = self.view.seen(points)
+        steps = np.diff(seen, axis=0)
+        length = np.linalg.norm(steps[:, :2], axis=1)
+        colours = np.broadcast_to(colour, (len(steps), 3))
+        for a, b, step, l, c in zip(seen[:-1], seen[1:], steps, length, colours, strict=True):
+            if l > 0:
+                across = radius * np.array([-step[1], step[0]]) / l
+                yield Polygon(
+                    np.array([a[:2] + across, b[:2] + across, b[:2] - across, a[:2] - across]), (a[2] + b[2]) / 2, c
+                )
+
+    def tube(self, points: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
+        """A strip with a lighter middle and round ends."""
+        yield from (
+            self.disc(points[0], radius, colour.reshape(-1, 3)[0]),
+            self.disc(points[-1], radius, colour.reshape(-1, 3)[-1]),
+        )
+        yield from self.strip(points, radius, colour)
+        nearer = points + radius * self.view.axes[2]
+        yield from self.strip(nearer, radius / 2, 0.75 * colour + 0.25)
+
+    def disc(self, center: np.ndarray, radius: float, colour: np.ndarray) -> Polygon:
+        """A circle that faces the eye."""
+        seen = self.view.seen(center)
+        return Polygon(seen[:2] + radius * _circle(), float(seen[2]), colour)
+
+    def faces(self, points: np.ndarray, faces: Any, colour: np.ndarray) -> Pieces:
+        """Faces of a solid, (n, m) places of points of the world, outward anticlockwise; those that look away are left out."""
+        seen = self.view.seen(points)
+        at = points[faces]
+        normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
+        size = np.linalg.norm(normals, axis=1)
+        front = normals @ self.view.axes[2] > 0
+        shades = self.view.shade(colour, normals / np.where(size > 0, size, 1)[:, None])
+        for face, shade in zip(np.asarray(faces)[front], shades[front], strict=True):
+            yield Polygon(seen[face, :2], float(np.mean(seen[face, 2])), shade)
+
+    def prism(self, start: np.ndarray, end: np.ndarray, radius: float, colour: np.ndarray) -> Pieces:
+        """A cylinder between two points of the world."""
+        along = (end - start) / (np.linalg.norm(end - start) or 1)
+        one = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+        one /= np.linalg.norm(one) or 1
+        ring = radius * _circle() @ np.array([one, np.cross(along, one)])
+        points = np.concatenate([start + ring, end + ring])
+        k = np.arange(SIDES)
+        after = (k + 1) % SIDES
+        yield from self.faces(points, np.stack([k, after, after + SIDES, k + SIDES], axis=1), colour)
+        yield from self.faces(points, np.array([k[::-1], k + SIDES]), colour)
+
+    def box(self, s: g.Box, k: int, colour: np.ndarray) -> Pieces:
+        """Six faces."""
+        half = np.asarray(s.size) / 2
+        local = s.center + corners(-half, half) @ s.axes
+        hand = np.linalg.det(s.axes) > 0
+        faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+        yield from self.faces(_at(s.pose, local, k), faces if hand else faces[:, ::-1], colour)
+
+    def cylinder(self, s: g.Cylinder, k: int, colour: np.ndarray) -> Pieces:
+        """Its side and both ends."""
+        start, end = _at(s.pose, np.array([s.start, s.end]), k)
+        yield from self.prism(start, end, s.diameter / 2, colour)
+
+    def sphere(self, s: g.Sphere, k: int, colour: np.ndarray) -> Pieces:
+        """A disc with a light spot."""
+        (center,) = _at(s.pose, np.array([s.center]), k)
+        radius = s.diameter / 2
+        yield self.disc(center, radius, 0.8 * colour)
+        spot = center + radius * self.view.axes[2] + 0.25 * radius * (self.view.axes[1] - self.view.axes[0])
+        yield self.disc(spot, radius / 2, 0.7 * colour + 0.3)
+
+    def axle(self, s: g.Axle, k: int, _: Any) -> Pieces:
+        """A short pin."""
+        half = np.asarray(s.axis) / np.linalg.norm(s.axis) * s.length / 2
+        start, end = _at(s.pose, np.array([-half, half]), k)
+        yield from self.prism(start, end, s.diameter / 2, rgb(DARK))
+
+    def span(self, s: g.Span, k: int, _: Any) -> Pieces:
+        """A rod, or a coil."""
+        a, b = s.start[k], s.end[k]
+        if s.style != "coil":
+            yield from self.tube(np.array([a, b]), s.diameter / 2, rgb(ROD))
+            return
+        across = np.cross(self.view.axes[2], b - a)
+        across = s.diameter / 2 * across / (np.linalg.norm(across) or 1)
+        zigzag = np.concatenate([[0, 0], np.tile([1, -1], TURNS), [0, 0]])
+        way = np.concatenate([[0], np.linspace(0.1, 0.9, 2 * TURNS + 2), [1]])
+        yield from self.tube(a + way[:, None] * (b - a) + zigzag[:, None] * across, s.diameter / 10, rgb(COIL))
+
+    def arrow(self, s: g.Arrow, k: int, _: Any) -> Pieces:
+        """A shaft and a head; its length is that part of the longest one."""
+        longest = self.longest[s.quantity]
+        vector = s.vector[k] * (ARROW * self.scene.size / longest if longest else 0)
+        at, tip = self.view.seen(np.array([s.at[k], s.at[k] + vector]))
+        way = (tip - at)[:2]
+        length, head = float(np.linalg.norm(way)), 0.03 * self.scene.size
+        if length > 0:
+            along = way / length
+            across = np.array([-along[1], along[0]])
+            neck = max(length - head, 0) * along + at[:2]
+            near, colour = max(at[2], tip[2]) + self.scene.size, rgb(ARROWS[s.quantity])
+            wide = head / 8 * across
+            yield Polygon(np.array([at[:2] + wide, neck + wide, neck - wide, at[:2] - wide]), near, colour)
+            yield Polygon(np.array([neck + head / 3 * across, tip[:2], neck - head / 3 * across]), near, colour)
+
+    def curve(self, s: g.Curve, k: int, colour: np.ndarray) -> Pieces:
+        """A tube along the cubics between the points."""
+        points, tangents = s.points[k], s.tangents[k]
+        x = np.linspace(0, 1, BETWEEN + 1)[:, None, None]
+        a, b = (2 * x - 3) * x * x + 1, (x - 2) * x * x + x
+        pieces = a * points[:-1] + (1 - a) * points[1:] + b * tangents[:-1] + (x - 1) * x * x * tangents[1:]
+        values = next((v.entries[k] for v in s.values if v.name == self.by), None)
+        if self.colours and values is not None:
+            middle = (x[1:, :, 0] + x[:-1, :, 0]) / 2
+            colour = self.colours((values[:-1] + middle * np.diff(values)).T.ravel())
+        axis = np.concatenate([pieces[:-1].transpose(1, 0, 2).reshape(-1, 3), points[-1:]])
+        yield from self.tube(axis, float(np.mean(s.section)), colour)
+
+    def mesh(self, s: g.Mesh, k: int, colour: np.ndarray) -> Pieces:
+        """Its triangles, deformed."""
+        moved = s.vertices if s.q is None or s.modes is None else s.vertices + np.tensordot(s.q[k], s.modes, 1)
+        yield from self.faces(_at(s.pose, moved, k), s.triangles, colour)
+
+
+DRAW: dict[type, Callable[[Drawing, Any, int, Any], Pieces]] = {
+    g.Ground: lambda *_: iter(()),
+    g.Box: Drawing.box,
+    g.Cylinder: Drawing.cylinder,
+    g.Sphere: Drawing.sphere,
+    g.Axle: Drawing.axle,
+    g.Span: Drawing.span,
+    g.Arrow: Drawing.arrow,
+    g.Curve: Drawing.curve,
+    g.Mesh: Drawing.mesh,
+}
+
+
+def rgb(text: str) -> np.ndarray:
+    """Return a colour as numbers from 0 to 1."""
+    return np.array([int(text[k : k + 2], 16) / 255 for k in (1, 3, 5)])
+
+
+def _circle() -> np.ndarray:
+    angle = 2 * np.pi * np.arange(SIDES) / SIDES
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def _at(pose: g.Pose, points: Any, k: int) -> np.ndarray:
+    return placed(g.Pose(pose.r[k : k + 1], pose.T[k : k + 1]), points)[0]

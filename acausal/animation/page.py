@@ -1,0 +1,83 @@
+"""The page that plays a document: one HTML text with everything inside, which asks nothing of the network."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from base64 import b64encode
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Any
+
+FOLDER = Path(__file__).with_name("page")
+# In this order they make one script: what is used while it is read stands before.
+SCRIPTS = (
+    *("vectors", "data", "solids", "tube", "curve", "spans", "mesh", "colours", "stage", "run", "views", "traces"),
+    *("names", "hover", "clock", "record", "plots", "viewer", "choice", "address", "controls", "main"),
+)
+
+
+def html(document: dict[str, Any]) -> str:
+    """Return the page that plays a document.
+
+    Parameters
+    ----------
+    document : dict
+        What `acausal.animation` collected of one or several runs. Its title and names may hold any characters; its numbers
+        are finite.
+
+    Returns
+    -------
+    str
+        One HTML text with style, scripts and document inside. Its policy forbids everything else: no address is asked, and
+        no script runs but the two that are named in it by their hashes.
+
+    Raises
+    ------
+    ValueError
+        If the document holds a number that is not finite.
+    """
+    bundle, viewer, style = bundled(), script(), part("viewer.css")
+    # In JSON "<" stands within strings only, where it may be written by its number: no tag can begin or end.
+    data = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    fields = {
+        "policy": "; ".join(
+            (
+                "default-src 'none'",
+                f"script-src {hashed(bundle)} {hashed(viewer)}",
+                f"style-src {hashed(style)}",
+                "base-uri 'none'",
+                "form-action 'none'",
+            )
+        ),
+        "title": escape(str(document.get("title") or "animation")),
+        "style": style,
+        "document": data,
+        "bundle": bundle,
+        "viewer": viewer,
+    }
+    first, *pieces = part("index.html").split("@")
+    # The template holds names of fields between @ and @, and no other @; what is put in is not looked at again.
+    return first + "".join(fields[piece] if k % 2 == 0 else piece for k, piece in enumerate(pieces))
+
+
+def script() -> str:
+    """Return the viewer as one script."""
+    return "(() => {\n" + '"use strict";\n' + "".join(part(f"{name}.js") for name in SCRIPTS) + "})();\n"
+
+
+def bundled() -> str:
+    """Return three.js as one script that defines THREE; page/BUNDLE.md says how it was made."""
+    return part("three.min.js")
+
+
+def hashed(text: str) -> str:
+    """Return how the page's policy names a script or style that stands in it."""
+    return f"'sha256-{b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+@cache
+def part(name: str) -> str:
+    """Return the text of one of the page's files."""
+    return (FOLDER / name).read_text(encoding="utf-8")

@@ -1,0 +1,94 @@
+// Colours of parts, and of values: a table of colours, its range over all runs, and the bar that explains it.
+
+const PALETTE = ["#4c8bf5", "#f2994a", "#27ae80", "#c868d8", "#e2596b", "#2db5c9", "#b59f3b", "#8d7bf0"];
+const OF_KIND = {
+  axle: "#5b6472", coil: "#d08a2e", rod: "#8f99a8", rail: "#7b8594", force: "#e5484d", torque: "#8e4ec6", ground: "#888888",
+};
+const GHOST = ["#3d6fd0", "#e0218a", "#7a3ff2", "#0f9d9d"]; // of runs and traces: none is a body's
+
+/** The colour of a shape that has none of its own: by kind, and by part for bodies. */
+function colourOf(shape, bodies) {
+  const known = shape.color ?? OF_KIND[shape.style ?? shape.quantity ?? shape.kind];
+  if (known) return known;
+  if (!bodies.has(shape.part)) bodies.set(shape.part, bodies.size);
+  return PALETTE[bodies.get(shape.part) % PALETTE.length];
+}
+
+const SEQUENTIAL = ["#3b3fae", "#2f7fd0", "#26b3b0", "#7fce5c", "#f3d03e", "#f08a2c", "#d5303e"];
+const DIVERGING = ["#1f5fd0", "#5f9cf0", "#b9d2f5", "#e6e6e6", "#f6c3a8", "#ea7a55", "#c8263b"];
+
+class ColourScale {
+  constructor() {
+    this.active = false;
+    this.name = "none";
+  }
+
+  /** All values that shapes offer: name, unit and range over all runs and times. */
+  static offered(runs) {
+    const found = new Map();
+    const add = (name, unit, low, high) => {
+      const entry = found.get(name) ?? { name, unit, low: Infinity, high: -Infinity };
+      found.set(name, { ...entry, low: Math.min(entry.low, low), high: Math.max(entry.high, high) });
+    };
+    for (const run of runs) {
+      for (const item of run.items) {
+        for (const value of (item instanceof Curve && item.shape.values) || []) {
+          for (const k of value.columns) {
+            const series = run.columns.series(k);
+            add(value.name, value.unit, series.reduce((a, b) => Math.min(a, b)), series.reduce((a, b) => Math.max(a, b)));
+          }
+        }
+        if (item instanceof Skin && item.modes.length) add("deflection", "m", 0, item.largest());
+      }
+    }
+    return [...found.values()];
+  }
+
+  choose(entry) {
+    this.active = Boolean(entry);
+    this.name = entry ? entry.name : "none";
+    if (!entry) return;
+    let { low, high } = entry;
+    // Values of both signs get a scale whose middle is zero.
+    const both = low < -1e-6 * high && high > -1e-6 * low;
+    if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
+    else if (low >= 0) low = 0;
+    else high = 0;
+    if (!(high > low)) [low, high] = [0, 1];
+    Object.assign(this, { low, high, unit: entry.unit, stops: both ? DIVERGING : SEQUENTIAL });
+    this.table = new Float32Array(3 * 256);
+    // Mixed as the eye and the bar of the page have it, stored as light is added.
+    const colours = this.stops.map((c) => new THREE.Color(c).convertLinearToSRGB());
+    for (let i = 0; i < 256; i++) {
+      const place = (i / 255) * (colours.length - 1);
+      const k = Math.min(Math.floor(place), colours.length - 2);
+      colours[k].clone().lerp(colours[k + 1], place - k).convertSRGBToLinear().toArray(this.table, 3 * i);
+    }
+  }
+
+  /** The place of a value in the table. */
+  place(value) {
+    return 3 * Math.round(255 * clamp((value - this.low) / (this.high - this.low), 0, 1));
+  }
+
+  /** Draw the bar with numbers and unit into an element. */
+  draw(element) {
+    element.hidden = !this.active;
+    if (!this.active) return;
+    const middle = (this.low + this.high) / 2;
+    element.replaceChildren(
+      make("div", { className: "bar-name", textContent: `${this.name} (${this.unit || "1"})` }),
+      make("div", { className: "bar-strip" }),
+      make("div", { className: "bar-numbers" }, [this.low, middle, this.high].map((v) => make("span", { textContent: written(v, 3) }))),
+    );
+    element.children[1].style.background = `linear-gradient(to right, ${this.stops.join(", ")})`;
+  }
+}
+
+/** An element with properties and children. */
+function make(tag, properties = {}, children = []) {
+  const element = document.createElement(tag);
+  Object.assign(element, properties);
+  element.append(...children);
+  return element;
+}

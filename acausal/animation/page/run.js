@@ -1,0 +1,67 @@
+// One run: its columns, its bodies, and one drawn item for each shape.
+
+class Run {
+  static async of(stage, run, number) {
+    const made = new Run();
+    Object.assign(made, { stage, run, number, name: run.name, stopped: run.stopped, parts: run.parts });
+    made.columns = await Columns.of(run);
+    made.group = new THREE.Group();
+    made.poses = run.poses.map((pose) => new Pose(stage, made.columns, pose));
+    for (const pose of made.poses) made.group.add(pose.group);
+    made.materials = [];
+    made.bodies = new Map();
+    made.items = [];
+    for (const shape of run.shapes) made.items.push(await made.item(shape));
+    made.items.forEach((item, index) => {
+      item?.object.traverse((object) => (object.userData = { run: made, index }));
+    });
+    made.grounded = run.shapes.some((shape) => shape.kind === "ground");
+    stage.scene.add(made.group);
+    return made;
+  }
+
+  item(shape) {
+    const kinds = { curve: Curve, span: Span, arrow: Arrow, box: Solid, cylinder: Solid, sphere: Solid, axle: Solid };
+    if (shape.kind === "ground") return { update() {}, positions: () => [], object: new THREE.Group(), anchor: null };
+    if (shape.kind === "mesh") return Skin.of(this, shape);
+    return new kinds[shape.kind](this, shape);
+  }
+
+  colour(shape) {
+    return colourOf(shape, this.bodies);
+  }
+
+  /** A material for a shape; tubes and skins carry their colours in their vertices. */
+  look(shape, more = {}) {
+    const plain = more.vertexColors ? "#ffffff" : this.colour(shape);
+    const material = new THREE.MeshPhongMaterial({ color: plain, specular: "#333333", shininess: 40, ...more });
+    this.materials.push({ material, plain, painted: Boolean(more.vertexColors) });
+    return material;
+  }
+
+  /** All runs but the first are ghosts: seen through, in one colour each. */
+  haunt(ghosts) {
+    const ghost = ghosts && this.number > 0;
+    for (const { material, plain, painted } of this.materials) {
+      const coloured = painted && this.stage.colours.active;
+      material.vertexColors = painted && (!ghost || coloured);
+      material.color.set(ghost && !coloured ? GHOST[this.number % GHOST.length] : plain);
+      material.transparent = ghost;
+      material.opacity = ghost ? 0.42 : 1;
+      material.depthWrite = !ghost;
+      material.needsUpdate = true;
+    }
+  }
+
+  update(t) {
+    this.columns.seek(t);
+    for (const pose of this.poses) pose.update();
+    for (const item of this.items) item.update();
+  }
+
+  /** Where an item's anchor is at the present time of the columns. */
+  anchorOf(part, touched = null, index = -1) {
+    const item = index >= 0 ? this.items[index] : this.items.find((one, k) => one.anchor && this.run.shapes[k].part === part);
+    return item?.anchor ? item.anchor(touched) : null;
+  }
+}

@@ -1,0 +1,116 @@
+// Rigid things: boxes, cylinders, spheres and pins, drawn once and carried by the pose of their body.
+
+const UNIT = {
+  box: () => new THREE.BoxGeometry(1, 1, 1),
+  cylinder: () => new THREE.CylinderGeometry(0.5, 0.5, 1, 40),
+  sphere: () => new THREE.SphereGeometry(0.5, 40, 24),
+  cone: () => new THREE.CylinderGeometry(0, 0.5, 1, 24),
+};
+const made = {};
+
+/** The geometry of unit size, one for all; cylinders and cones stand along y. */
+function unitGeometry(kind) {
+  return (made[kind] ??= UNIT[kind]());
+}
+
+/** The matrix that takes the unit cylinder to one between two points. */
+function standing(from, to, diameter) {
+  const axis = unit(minus(to, from), [0, 1, 0]);
+  const side = across(axis);
+  const third = cross(side, axis);
+  return frameMatrix(mix(from, to, 0.5), [side, axis, third], [diameter, length(minus(to, from)), diameter]);
+}
+
+function frameMatrix(center, axes, sizes) {
+  const columns = axes.map((axis, k) => times(sizes[k], axis));
+  const [a, b, c] = columns;
+  // prettier-ignore
+  return new THREE.Matrix4().set(
+    a[0], b[0], c[0], center[0],
+    a[1], b[1], c[1], center[1],
+    a[2], b[2], c[2], center[2],
+    0, 0, 0, 1,
+  );
+}
+
+/** One body's frame, as a group that carries what is fixed to it. */
+class Pose {
+  constructor(stage, columns, pose) {
+    this.columns = columns;
+    this.pose = pose;
+    this.stage = stage;
+    this.group = new THREE.Group();
+    this.axes = null;
+  }
+
+  update() {
+    const r = minus(this.columns.vector(this.pose.r), this.stage.origin);
+    const q = this.columns.quaternion(this.pose.q);
+    this.group.position.set(r[0], r[1], r[2]);
+    this.group.quaternion.set(q[1], q[2], q[3], q[0]);
+  }
+
+  /** Where a point of the body is in the world, from the columns. */
+  point(local) {
+    return plus(this.columns.vector(this.pose.r), turned(this.columns.quaternion(this.pose.q), local));
+  }
+
+  /** The axes of the frame, made when they are asked for. */
+  showAxes(wanted) {
+    if (wanted && !this.axes) {
+      this.axes = tripod(0.07 * this.stage.extent);
+      this.group.add(this.axes);
+    }
+    if (this.axes) this.axes.visible = wanted;
+  }
+}
+
+class Solid {
+  constructor(context, shape) {
+    this.pose = context.poses[shape.pose];
+    this.stage = context.stage;
+    this.object = new THREE.Mesh(unitGeometry(shape.kind === "axle" ? "cylinder" : shape.kind), context.look(shape));
+    const { matrix, marks, middle } = Solid[shape.kind](shape, context.stage);
+    this.object.matrixAutoUpdate = false;
+    this.object.matrix.copy(matrix);
+    this.marks = marks;
+    this.middle = middle;
+    this.pose.group.add(this.object);
+  }
+
+  static box(shape) {
+    const matrix = frameMatrix(shape.center, shape.axes, shape.size);
+    return { matrix, middle: shape.center, marks: [[0, 0, 0], [-0.5, 0, 0], [0.5, 0, 0]] };
+  }
+
+  static cylinder(shape) {
+    const middle = mix(shape.from, shape.to, 0.5);
+    const matrix = standing(shape.from, shape.to, shape.diameter);
+    return { matrix, middle, marks: [[0, 0, 0], [0, -0.5, 0], [0, 0.5, 0]] };
+  }
+
+  static sphere(shape) {
+    const size = shape.diameter;
+    const matrix = frameMatrix(shape.center, [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [size, size, size]);
+    return { matrix, middle: shape.center, marks: [[0, 0, 0]] };
+  }
+
+  static axle(shape) {
+    const half = times(shape.length / 2, unit(shape.axis, [0, 0, 1]));
+    return Solid.cylinder({
+      from: minus(shape.center, half), to: plus(shape.center, half), diameter: shape.diameter,
+    });
+  }
+
+  update() {}
+
+  positions() {
+    return this.marks.map((mark) => this.stage.drawn(this.object, mark));
+  }
+
+  /** What follows the shape, given where it was touched (in the world) or not at all. */
+  anchor(touched) {
+    const local = touched ? this.stage.held(this.pose.group, touched) : this.middle;
+    return () => this.pose.point(local);
+  }
+}

@@ -1,0 +1,201 @@
+// What things stand on: renderer, lights, ground, axes, and the panels that show one run each or all as ghosts.
+
+class Stage {
+  constructor(element, view) {
+    this.element = element;
+    // Everything is drawn relative to the middle of the scene, in double precision up to there.
+    this.origin = mix(view.low, view.high, 0.5);
+    this.low = minus(view.low, this.origin);
+    this.high = minus(view.high, this.origin);
+    this.extent = length(minus(view.high, view.low)) || view.size || 1;
+    this.up = unit(view.up, [0, 1, 0]);
+    this.thinnest = 0.0025 * this.extent; // the half of some pixels where the whole scene is seen: colours can be told
+    this.deformation = 1;
+    this.arrowScale = {};
+    this.show = { force: false, torque: false, grid: true, axes: true, frames: false };
+    this.colours = new ColourScale();
+    this.ghosts = false;
+    this.runs = [];
+    this.renders = 0;
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
+    this.camera.up.set(...this.up);
+    this.scene.add(this.camera);
+    this.light();
+    this.furnish();
+    this.renderer = this.open();
+  }
+
+  /** The renderer, or null where there is no WebGL. */
+  open() {
+    try {
+      const canvas = document.createElement("canvas");
+      // Asked first, since the renderer complains on the console where there is none.
+      if (!canvas.getContext("webgl2", { antialias: true, alpha: false })) return null;
+      const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+      renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+      renderer.autoClear = false;
+      this.element.prepend(canvas);
+      return renderer;
+    } catch {
+      return null;
+    }
+  }
+
+  light() {
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#9aa3b0", 1.5));
+    // Over the left shoulder of whoever looks, so that no side of the scene is ever dark.
+    const sun = new THREE.DirectionalLight("#ffffff", 2.1);
+    sun.position.set(-0.6, 1, 0.9);
+    this.camera.add(sun, sun.target);
+    sun.target.position.set(0, 0, -0.2);
+  }
+
+  /** Ground grid and axes of the world. */
+  furnish() {
+    this.ground = new THREE.Group();
+    this.scene.add(this.ground);
+    const { along, front } = this.directions();
+    const step = roundDown(this.extent / 8);
+    const floor = this.floor(step);
+    // The grid covers the scene's shadow and a margin, in whole steps from the world's origin.
+    const world = times(-1, this.origin);
+    const ranges = [along, front].map((axis) => {
+      const half = Math.max(this.reach(axis), 0.3 * this.extent) + 2 * step;
+      const offset = dot(world, axis);
+      return [Math.floor((-half - offset) / step), Math.ceil((half - offset) / step)];
+    });
+    const thin = [];
+    const thick = [];
+    const point = (i, j) => plus(plus(world, times(floor, this.up)), plus(times(i * step, along), times(j * step, front)));
+    for (let i = ranges[0][0]; i <= ranges[0][1]; i++) {
+      (i % 5 === 0 ? thick : thin).push(...point(i, ranges[1][0]), ...point(i, ranges[1][1]));
+    }
+    for (let j = ranges[1][0]; j <= ranges[1][1]; j++) {
+      (j % 5 === 0 ? thick : thin).push(...point(ranges[0][0], j), ...point(ranges[0][1], j));
+    }
+    this.gridLines = [thin, thick].map((list, k) => {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(list), 3));
+      const material = new THREE.LineBasicMaterial({ transparent: true, opacity: k ? 0.55 : 0.28 });
+      const lines = new THREE.LineSegments(geometry, material);
+      lines.frustumCulled = false;
+      this.ground.add(lines);
+      return lines;
+    });
+    this.corners = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([a, b]) => point(ranges[0][a], ranges[1][b]));
+    this.axes = tripod(0.08 * this.extent);
+    this.axes.position.set(...world);
+    this.scene.add(this.axes);
+  }
+
+  /** The box that the picture shows: the scene, and the axes of the world where they stand in it. */
+  framed() {
+    const world = times(-1, this.origin);
+    const near = world.every((v, k) => v > this.low[k] - 0.05 * this.extent && v < this.high[k] + 0.05 * this.extent);
+    if (!near || !this.show.axes) return this;
+    return { low: this.low, high: this.high.map((v, k) => Math.max(v, world[k] + 0.08 * this.extent)) };
+  }
+
+  /** How far the scene reaches from its middle along an axis. */
+  reach(axis) {
+    return [0, 1, 2].reduce((sum, k) => sum + Math.abs(axis[k]) * this.high[k], 0);
+  }
+
+  /** Height of the grid above the world's origin: there, or below a scene that hangs lower. */
+  floor(step) {
+    const lowest = dot(this.origin, this.up) - this.reach(this.up);
+    return lowest < -1e-3 * this.extent ? step * Math.floor(lowest / step + 1e-9) : 0;
+  }
+
+  /** To the right and towards whoever looks from the front: x and z where y is up, x and -y where z is. */
+  directions() {
+    const along = across(this.up, [1, 0, 0]);
+    return { along, front: cross(along, this.up) };
+  }
+
+  /** A point of an object in the world, as it is drawn. */
+  drawn(object, mark) {
+    const p = new THREE.Vector3(mark[0], mark[1], mark[2]).applyMatrix4(object.matrixWorld);
+    return plus([p.x, p.y, p.z], this.origin);
+  }
+
+  /** A point of the world, resolved in a group. */
+  held(group, point) {
+    const p = new THREE.Vector3(...minus(point, this.origin)).applyMatrix4(group.matrixWorld.clone().invert());
+    return [p.x, p.y, p.z];
+  }
+
+  /** The panels of the picture: place in it as fractions (from the left, from the top), and the runs to be seen. */
+  panels() {
+    const n = this.runs.length;
+    if (this.ghosts || n < 2) return [{ x: 0, y: 0, width: 1, height: 1, runs: this.runs }];
+    const { clientWidth, clientHeight } = this.element;
+    // As many side by side as make the panels most like the scene from the front.
+    const { along } = this.directions();
+    const shape = clamp(this.reach(along) / this.reach(this.up) || 1, 0.5, 2);
+    const rowsOf = (columns) => Math.ceil(n / columns);
+    const unlike = (columns) => Math.abs(Math.log((clientWidth * rowsOf(columns)) / (columns * clientHeight * shape)));
+    const columns = this.runs.map((_, k) => k + 1).reduce((best, next) => (unlike(next) < unlike(best) ? next : best));
+    const rows = rowsOf(columns);
+    return this.runs.map((run, k) => ({
+      x: (k % columns) / columns, y: Math.floor(k / columns) / rows, width: 1 / columns, height: 1 / rows, runs: [run],
+    }));
+  }
+
+  /** The panel under a place of the picture, and the place in it as the camera counts, -1 ... 1. */
+  panelAt(x, y) {
+    const [u, v] = [x / this.element.clientWidth, y / this.element.clientHeight];
+    const panel = this.panels().find((p) => u >= p.x && u < p.x + p.width && v >= p.y && v < p.y + p.height);
+    return panel && { panel, x: (2 * (u - panel.x)) / panel.width - 1, y: 1 - (2 * (v - panel.y)) / panel.height };
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    const [panel] = this.panels();
+    this.camera.aspect = Math.max(width * panel.width, 1) / Math.max(height * panel.height, 1);
+    this.renderer?.setSize(width, height, false);
+  }
+
+  dress() {
+    const style = getComputedStyle(document.documentElement);
+    this.scene.background = new THREE.Color(style.getPropertyValue("--sky").trim());
+    for (const lines of this.gridLines) lines.material.color.set(style.getPropertyValue("--grid").trim());
+  }
+
+  /** Planes that hold all there is, the near one as far out as can be: for the precision of the depths. */
+  cut() {
+    const { camera } = this;
+    const ahead = camera.getWorldDirection(new THREE.Vector3()).toArray();
+    const here = camera.position.toArray();
+    const reach = this.extent * Math.max(1, Math.min(this.deformation, 30) / 10);
+    const depths = this.corners.map((p) => dot(minus(p, here), ahead));
+    const middle = dot(minus([0, 0, 0], here), ahead);
+    camera.far = Math.max(...depths, middle + reach, 1e-3 * this.extent) * 1.05;
+    const distance = length(minus(here, this.target ?? [0, 0, 0]));
+    camera.near = clamp(Math.min(...depths, middle - reach) * 0.9, 0.02 * distance, 0.5 * camera.far);
+    camera.updateProjectionMatrix();
+  }
+
+  render() {
+    this.renders += 1;
+    this.ground.visible = this.show.grid;
+    this.axes.visible = this.show.axes;
+    if (!this.renderer) return;
+    this.cut();
+    const { clientWidth: width, clientHeight: height } = this.element;
+    this.renderer.setScissorTest(false);
+    this.renderer.setClearColor(this.scene.background);
+    this.renderer.clear();
+    this.renderer.setScissorTest(true);
+    for (const panel of this.panels()) {
+      for (const run of this.runs) run.group.visible = panel.runs.includes(run);
+      const place = [panel.x * width, (1 - panel.y - panel.height) * height, panel.width * width, panel.height * height];
+      this.renderer.setViewport(...place);
+      this.renderer.setScissor(...place);
+      this.renderer.clear();
+      this.renderer.render(this.scene, this.camera);
+    }
+    for (const run of this.runs) run.group.visible = true;
+  }
+}

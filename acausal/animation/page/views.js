@@ -1,0 +1,87 @@
+// The camera: orbit, standard views, fitting the scene, following a part.
+
+const VIEWS = ["front", "top", "right", "iso"];
+
+class Views {
+  constructor(stage, changed) {
+    this.stage = stage;
+    this.followed = null;
+    this.controls = new THREE.OrbitControls(stage.camera, $("glass"));
+    this.controls.zoomToCursor = true;
+    this.controls.screenSpacePanning = true;
+    this.controls.addEventListener("change", () => {
+      stage.target = this.controls.target.toArray();
+      this.name = null;
+      changed();
+    });
+  }
+
+  /** The direction from the scene to the camera, and what is up in the picture. */
+  direction(name) {
+    const { along, front } = this.stage.directions();
+    const up = this.stage.up;
+    const iso = unit(plus(plus(times(0.75, along), times(0.55, up)), front));
+    // Straight from above the horizon turns; a hair beside it, it does not.
+    return { front, right: along, top: unit(plus(up, times(1e-4, front))), iso }[name] ?? iso;
+  }
+
+  /** A flat scene is looked at face to face, any other from a corner. */
+  natural() {
+    const sizes = minus(this.stage.high, this.stage.low);
+    const thin = sizes.map((s) => s < 0.12 * this.stage.extent);
+    const { along, front } = this.stage.directions();
+    const flat = (axis) => axis.every((v, k) => Math.abs(v) < 1e-6 || thin[k]);
+    if (flat(front)) return "front";
+    if (flat(this.stage.up)) return "iso";
+    return flat(along) ? "right" : "iso";
+  }
+
+  look(name) {
+    this.place(this.direction(name));
+    this.name = name;
+  }
+
+  /** The whole scene from the present side. */
+  fit() {
+    this.place(unit(minus(this.stage.camera.position.toArray(), this.controls.target.toArray()), [0, 0, 1]));
+  }
+
+  place(direction) {
+    const { camera, up, extent } = this.stage;
+    const { low, high } = this.stage.framed();
+    const right = unit(cross(up, direction), [1, 0, 0]);
+    const above = cross(direction, right);
+    const tall = Math.tan((camera.fov * Math.PI) / 360) * 0.92;
+    const wide = tall * camera.aspect;
+    let distance = 0;
+    const margin = 0.03 * extent;
+    for (let k = 0; k < 8; k++) {
+      const corner = [0, 1, 2].map((j) => ((k >> j) & 1 ? high[j] + margin : low[j] - margin));
+      const depth = dot(corner, direction);
+      distance = Math.max(distance, Math.abs(dot(corner, right)) / wide + depth, Math.abs(dot(corner, above)) / tall + depth);
+    }
+    const target = this.followed ? this.last : [0, 0, 0];
+    this.controls.target.set(...target);
+    camera.position.set(...plus(target, times(distance, direction)));
+    this.controls.update();
+    this.stage.target = target;
+  }
+
+  /** Keep a moving point where it is in the picture; null lets go. */
+  follow(point) {
+    this.followed = point;
+    this.last = point && minus(point(), this.stage.origin);
+  }
+
+  carry() {
+    if (!this.followed) return;
+    const now = minus(this.followed(), this.stage.origin);
+    const step = new THREE.Vector3(...minus(now, this.last));
+    this.last = now;
+    if (step.lengthSq() === 0) return;
+    this.controls.target.add(step);
+    this.stage.camera.position.add(step);
+    this.stage.target = this.controls.target.toArray();
+    this.stage.camera.updateMatrixWorld();
+  }
+}

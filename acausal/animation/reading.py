@@ -1,0 +1,176 @@
+"""From expressions in shapes to their values: all that a scene asks for is evaluated at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from acausal.animation import geometry as g
+from acausal.animation.collect import Seen
+from acausal.errors import DeclarationError
+from acausal.language.expression import as_expr
+from acausal.symbols import dense, stacked, vec
+
+Evaluate = Callable[[Any], np.ndarray]
+# Shapes of what varies with time, and of what does not; None is any number, and may be one thing or another.
+MOVING: dict[type, dict[str, tuple[int | None, ...]]] = {
+    g.Pose: {"r": (3,), "T": (3, 3)},
+    g.Span: {"start": (3,), "end": (3,)},
+    g.Arrow: {"at": (3,), "vector": (3,)},
+    g.Curve: {"points": (None, 3), "tangents": (None, 3), "up": (3,)},
+    g.Values: {"entries": (None,)},
+    g.Mesh: {"q": (None,)},
+}
+FIXED: dict[type, dict[str, tuple[int | None, ...]]] = {
+    g.Ground: {"up": (3,)},
+    g.Box: {"center": (3,), "size": (3,), "axes": (3, 3)},
+    g.Cylinder: {"start": (3,), "end": (3,), "diameter": ()},
+    g.Sphere: {"center": (3,), "diameter": ()},
+    g.Axle: {"axis": (3,), "length": (), "diameter": ()},
+    g.Span: {"diameter": ()},
+    g.Curve: {"section": (2,), "rest_points": (None, 3)},
+    g.Mesh: {"vertices": (None, 3), "triangles": (None, 3), "modes": (None, None, 3)},
+}
+# What "does not vary" means of evaluated numbers, relative to the largest of them: rounding.
+STILL = 1e-9
+
+
+def read(
+    seen: Sequence[Seen], more: Iterable[Any], evaluate: Evaluate, times: int
+) -> tuple[list[Seen], list[np.ndarray]]:
+    """Return the shapes with arrays in place of expressions, and further scalars over time.
+
+    What varies has the shape (times, ...); None stays None, and is NaN in a section.
+
+    Parameters
+    ----------
+    seen : sequence of Seen
+        As collected, values along curves without calls.
+    more : iterable of casadi.SX, shape (1, 1)
+        Scalars.
+    evaluate : callable
+        From a column of n expressions in the model's symbols to an array of shape (times, n).
+    times : int
+        How many.
+
+    Raises
+    ------
+    DeclarationError
+        If an entry has not the shape that its kind of geometry needs, or varies where it may not.
+    """
+    asking = _Asking()
+    for one in seen:
+        _resolved(one.shape, one, asking)
+    scalars = [asking.column(expression) for expression in more]
+    giving = _Giving(asking, evaluate, times)
+    return [replace(one, shape=_resolved(one.shape, one, giving)) for one in seen], [
+        giving.values[:, at].reshape(times) for at in scalars
+    ]
+
+
+def _resolved(shape: Any, of: Seen, take: Any) -> Any:
+    """Return a shape whose entries are what `take` makes of them, in a fixed order."""
+    known = take.poses.get(id(shape)) if isinstance(shape, g.Pose) else None
+    if known is not None:
+        return known
+    found: dict[str, Any] = {}
+    for name in ("pose", "rest"):
+        if getattr(shape, name, None) is not None:
+            found[name] = _resolved(getattr(shape, name), of, take)
+    if isinstance(shape, g.Curve):
+        found["values"] = tuple(_resolved(values, of, take) for values in shape.values)
+    for moves, names in ((True, MOVING), (False, FIXED)):
+        for name, size in names.get(type(shape), {}).items():
+            value = getattr(shape, name)
+            if value is not None:
+                found[name] = take(
+                    value, size, moves, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_of(of)}"
+                )
+    made = replace(shape, **found)
+    if isinstance(shape, g.Pose):
+        take.poses[id(shape)] = made
+    return made
+
+
+def _of(seen: Seen) -> str:
+    return f"{seen.path or 'the model'} ({seen.kind})"
+
+
+class _Asking:
+    """Stacks expressions."""
+
+    def __init__(self) -> None:
+        self.columns: list[Any] = []
+        self.size = 0
+        self.places: list[slice | None] = []
+        self.sizes: list[tuple[int, ...]] = []
+        self.poses: dict[int, Any] = {}
+
+    def column(self, column: Any) -> slice:
+        """Add a column; return its place."""
+        self.columns.append(dense(column))
+        self.size += column.numel()
+        return slice(self.size - column.numel(), self.size)
+
+    def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
+        value = _number(value)
+        if isinstance(value, np.ndarray):
+            self.places.append(None)
+            shape = value.shape
+        else:
+            expression = _expression(value, name)
+            shape = expression.shape
+            self.places.append(self.column(vec(expression.sx)))
+        if len(shape) != len(size) or any(n not in (None, m) for n, m in zip(size, shape, strict=True)):
+            wanted = tuple("n" if n is None else n for n in size)
+            raise DeclarationError(f"{name()} has shape {shape}; it needs {wanted}.".replace("'", ""))
+        self.sizes.append(shape)
+        return value
+
+
+class _Giving:
+    """Hands out values in the order in which they were asked for."""
+
+    def __init__(self, asked: _Asking, evaluate: Evaluate, times: int) -> None:
+        self.times = times
+        self.values = np.asarray(evaluate(stacked(asked.columns))) if asked.size else np.empty((times, 0))
+        self.poses: dict[int, Any] = {}
+        self._next = iter(zip(asked.places, asked.sizes, strict=True))
+
+    def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
+        place, shape = next(self._next)
+        if place is None:
+            numbers = _number(value)
+            return np.broadcast_to(numbers, (self.times, *shape)) if moves else numbers
+        found = self.values[:, place]
+        found = found.reshape(self.times, *shape, order="F") if shape else found[:, 0]
+        if moves:
+            return found
+        if np.max(np.abs(found - found[0]), initial=0) > STILL * np.max(np.abs(found), initial=0):
+            raise DeclarationError(
+                f"{name()} varies with time; only the pose of such a shape may, or the ends of a Span or points of a Curve."
+            )
+        return found[0]
+
+
+def _number(value: Any) -> Any:
+    """Return numbers as an array, None among them as NaN, and anything else as it is."""
+    if isinstance(value, np.ndarray) and value.dtype.kind in "buif":
+        return value
+    if value is None or isinstance(value, int | float | np.number):
+        return np.array(np.nan if value is None else value, dtype=float)
+    if isinstance(value, list | tuple):
+        rows = [_number(row) for row in value]
+        if all(isinstance(row, np.ndarray) and row.shape == rows[0].shape for row in rows):
+            return np.array(rows)
+    return value
+
+
+def _expression(value: Any, name: Callable[[], str]) -> Any:
+    try:
+        return as_expr([np.nan if v is None else v for v in value] if isinstance(value, list | tuple) else value)
+    except DeclarationError as error:
+        raise DeclarationError(f"{name()}: {error}") from None

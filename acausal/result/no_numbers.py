@@ -1,0 +1,36 @@
+"""What is said of values that are no numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from acausal.result.lookup import Quantity
+
+
+def no_numbers(quantity: Quantity, array: np.ndarray, time: np.ndarray, why: Callable[[int], str] | None) -> str:
+    """Describe where a quantity stops being a number, and why.
+
+    Parameters
+    ----------
+    quantity : Quantity
+        With an entry that is not finite at some time.
+    array : array, shape (times, *shape)
+        Its values.
+    time : array, shape (times,)
+        In s.
+    why : callable, optional
+        From a row to the equations that have no value there, "" if all have one.
+    """
+    wrong, n = ~np.isfinite(array), time.size
+    rows = wrong.reshape(n, -1).any(axis=1)
+    row = int(np.argmax(rows))
+    name = next((name for index, name, _ in quantity.entries if wrong[(row, *index)]), quantity.name)
+    nan = bool(np.isnan(array[wrong]).any())
+    what = "not a number (NaN)" if nan else "infinite"
+    cause = "the square root or logarithm of a negative number, or 0/0" if nan else "a division by 0, or an overflow"
+    mend = (why and why(row)) or f"Check the equation that gives it: {cause}."
+    return (
+        f"`{name}` is {what} at {rows.sum()} of {n} times, first at t = {time[row]:.6g} s. {mend[0].upper()}{mend[1:]}"
+    )

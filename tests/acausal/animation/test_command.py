@@ -1,0 +1,93 @@
+"""acausal simulate --animate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+from acausal.cli import app
+
+MODELS = '''
+import acausal as ac
+from acausal import Model, Scalar, geometry, output, variable
+
+
+class Falls(Model):
+    """It ends at the time 1."""
+
+    stop_time = 0.5
+    x: Scalar = variable("coordinate", unit="m", start=1.0)
+    height: Scalar = output("height", unit="m")
+
+    def equations(self):
+        yield ac.der(self.x) == ac.quantity(-0.5, "m2/s") / self.x
+        yield self.height == self.x
+
+    def initial_equations(self):
+        yield self.x == 1
+
+    def shapes(self):
+        yield geometry.Span((0, 0, 0), (0.2, self.x, 0))
+
+
+class Nothing(Falls):
+    def shapes(self):
+        yield geometry.Ground()
+'''
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
+    (tmp_path / "mine.py").write_text(MODELS)
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: CliRunner().invoke(app, ["simulate", *map(str, arguments)])
+
+
+@pytest.mark.parametrize("name", ["run.html", "run.HTM", "run.gif", "run.png"])
+def test_one_file_is_written(run: Callable[..., Any], tmp_path: Path, name: str) -> None:
+    done = run("mine.py:Falls", "--animate", name, "--intervals", 20, "--quiet")
+    assert (done.exit_code, done.output) == (0, "")
+    assert {p.name for p in tmp_path.iterdir() if p.is_file()} == {"mine.py", name}
+    if name.lower().endswith("m") or name.endswith("html"):
+        assert '"name":"height","unit":"m"' in (tmp_path / name).read_text()
+    else:
+        assert Image.open(tmp_path / name).width == 640
+
+
+def test_chosen_variables_are_plotted(run: Callable[..., Any], tmp_path: Path) -> None:
+    assert run("mine.py:Falls", "--animate", "a.html", "--variables", "x", "--quiet").exit_code == 0
+    assert '"plots":[{"name":"x","unit":"m"' in (tmp_path / "a.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("mine.py:Falls", "--animate", "run.mp4"), "ends in .html"),
+        (("mine.py:Falls", "--animate", "no/run.html"), "there is no directory"),
+        (("mine.py:Falls", "--animate", "mine.py"), "ends in .html"),
+        (("mine.py:Falls", "--animate", "a.png", "--plot", "a.png"), "--plot and --animate both write a.png"),
+        (("mine.py:Nothing", "--animate", "a.html"), "nothing to be seen in Nothing"),
+        (("mine.py:Falls", "--animate", "a.html", "--values", "stress"), 'there are no values "stress"'),
+    ],
+)
+def test_refused_before_any_work(
+    run: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.setattr("acausal.simulate", lambda *_, **__: pytest.fail("it was simulated"))
+    done = run(*arguments)
+    assert done.exit_code == 2
+    assert said in done.stderr
+    assert {p.name for p in tmp_path.iterdir() if p.is_file()} == {"mine.py"}
+
+
+def test_a_failed_run_shows_what_was_computed(run: Callable[..., Any], tmp_path: Path) -> None:
+    done = run("mine.py:Falls", "--stop-time", 2, "--animate", "a.html", "--quiet")
+    assert done.exit_code == 1
+    page = (tmp_path / "a.html").read_text()
+    assert '"stopped":"' in page
+    assert '"stopped":null' not in page

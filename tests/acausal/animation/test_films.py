@@ -1,0 +1,145 @@
+"""Films and stills: polygons where the shapes are, files as long as the motion."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import acausal as ac
+from acausal import Model, Scalar, geometry, output
+from acausal.animation.camera import Camera, camera
+from acausal.animation.document import scenes
+from acausal.animation.drawing import Drawing, Polygon
+from acausal.result.animated import run_of
+from acausal.result.films import _speed
+
+FRONT = Camera(np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]))
+
+
+class Orbit(Model):
+    """Every kind of shape in a frame that turns about the z axis and goes round."""
+
+    angle: Scalar = output("angle", unit="rad")
+
+    def equations(self):
+        yield self.angle == ac.time
+
+    def shapes(self):
+        c, s = ac.cos(self.angle), ac.sin(self.angle)
+        here = geometry.Pose((3 * c, 3 * s, 0), ac.as_expr([[c, s, 0], [-s, c, 0], [0, 0, 1]]))
+        yield geometry.Ground()
+        yield geometry.Box(here, (1, 0, 0), (2, 0.4, 0.2))
+        yield geometry.Cylinder(here, (0, 0, 0), (0, 2, 0), 0.2)
+        yield geometry.Sphere(here, (0, 0, 1), 0.5)
+        yield geometry.Axle(here, (0, 0, 3))
+        yield geometry.Span((0, 0, 0), here.r, "coil")
+        yield geometry.Span((0, 0, 0), here.r, "rail")
+        yield geometry.Arrow(here.r, (c, s, 0))
+        yield geometry.Curve(
+            ((0, 0, 0), (c, s, 0), (2 * c, 2 * s, 0)), values=(geometry.Values("load", "N", (0, c, s)),)
+        )
+        vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        yield geometry.Mesh(here, vertices, triangles, np.ones((1, 4, 3)), ac.as_expr([self.angle * 0.1]))
+
+
+@pytest.fixture(scope="module")
+def orbit() -> ac.Result:
+    return ac.simulate(Orbit(), stop_time=3, intervals=60)
+
+
+def drawn(result: ac.Result, kind: type, k: int, view: Camera = FRONT) -> list[Polygon]:
+    """Polygons of the first shape of a kind at a frame."""
+    (scene,) = scenes({"orbit": run_of(result)}).values()
+    (shape, *_) = (one.shape for one in scene.seen if isinstance(one.shape, kind))
+    seen = [one for one in scene.seen if one.shape is shape]
+    scene.seen[:] = seen
+    return Drawing(scene, view).frame(k)
+
+
+def edges(polygons: list[Polygon]) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest coordinates of polygons."""
+    points = np.concatenate([polygon.corners for polygon in polygons])
+    return points.min(axis=0), points.max(axis=0)
+
+
+@pytest.mark.parametrize("k", [0, 17, 60])
+def test_polygons_are_where_the_shapes_are(orbit: ac.Result, k: int) -> None:
+    a = orbit.time[k]
+    turn = np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]])
+    (top,) = drawn(orbit, geometry.Box, k)
+    local = top.corners @ turn.T - [3, 0]
+    assert np.sort(local, axis=0) == pytest.approx(np.array([[0, -0.2], [0, -0.2], [2, 0.2], [2, 0.2]]), abs=1e-12)
+    assert top.depth == pytest.approx(0.1)
+    low, high = edges(drawn(orbit, geometry.Sphere, k)[:1])
+    assert (low + high) / 2 == pytest.approx(3 * turn[0], abs=1e-12)
+    assert high - low == pytest.approx(0.5)
+    faces = drawn(orbit, geometry.Cylinder, k)
+    area = sum(abs(_area(face.corners)) for face in faces)
+    assert area == pytest.approx(2 * 0.2, rel=0.02)  # seen from the side
+    pin = drawn(orbit, geometry.Axle, k)
+    assert len(pin) == 1  # seen from its end
+    assert len(drawn(orbit, geometry.Mesh, k)) == 1  # the others look away
+    low, high = edges([p for p in drawn(orbit, geometry.Curve, k) if len(p.corners) == 4])
+    assert np.linalg.norm(high - low) == pytest.approx(2, rel=0.1)
+    tip = drawn(orbit, geometry.Arrow, k)[-1].corners[1] - 3 * turn[0]
+    assert tip / np.linalg.norm(tip) == pytest.approx(turn[0], abs=1e-9)
+
+
+def _area(corners: np.ndarray) -> float:
+    x, y = corners.T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
+
+
+def test_nearer_things_are_drawn_later(orbit: ac.Result) -> None:
+    (scene,) = scenes({"orbit": run_of(orbit)}).values()
+    depths = [p.depth for p in Drawing(scene, camera(scene.low, scene.high, scene.up)).frame(5)]
+    assert depths == sorted(depths)
+
+
+@pytest.mark.parametrize("up", [(0, 1, 0), (0, 0, 1), (1, 0, 0), (-0.6, 0, 0.8), (0, -1, 0)])
+@pytest.mark.parametrize("size", [(1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1)])
+def test_cameras_stand_upright(up: tuple[float, ...], size: tuple[float, ...]) -> None:
+    view = camera(np.zeros(3), np.array(size, dtype=float), np.array(up, dtype=float))
+    assert view.axes @ view.axes.T == pytest.approx(np.eye(3), abs=1e-14)
+    assert np.linalg.det(view.axes) == pytest.approx(1)
+    assert view.axes[0] @ up == pytest.approx(0, abs=1e-14)
+    assert view.axes[1] @ up > 0.9
+    assert view.axes[2] @ up > -1e-14
+
+
+@pytest.mark.parametrize(
+    ("seconds", "speed"), [(2, 1), (10, 1), (1.6, 0.2), (0.03, 0.005), (20, 5), (3600, 500), (0, 1)]
+)
+def test_films_are_neither_short_nor_long(seconds: float, speed: float) -> None:
+    assert _speed(seconds) == pytest.approx(speed)
+
+
+def test_files_hold_the_motion(orbit: ac.Result, tmp_path: Path) -> None:
+    orbit.animate(tmp_path / "orbit.gif")
+    with Image.open(tmp_path / "orbit.gif") as film:
+        count: int = film.n_frames
+        assert (film.format, count, film.info["duration"], film.info["loop"]) == ("GIF", 60, 50, 0)
+    orbit.animate(tmp_path / "orbit.png", values=["load"])
+    with Image.open(tmp_path / "orbit.png") as still:
+        assert (still.format, still.width) == ("PNG", 640)
+        colours = np.unique(np.asarray(still).reshape(-1, 3), axis=0)
+        assert len(colours) > 50
+    ac.animate({"a": orbit, "b": orbit}, tmp_path / "two.png")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["orbit.gif", "orbit.png", "two.png"]
+
+
+def test_one_moment_is_a_picture(tmp_path: Path) -> None:
+    result: Any = ac.simulate(Orbit(), stop_time=1, intervals=1)
+    one = ac.Result(
+        result.time[:1], lambda column: np.asarray(result._evaluate(column))[:1], result.tree, (), result.stats
+    )
+    one.animate(tmp_path / "one.png")
+    one.animate(tmp_path / "one.gif")
+    one.animate(tmp_path / "one.html")
+    assert Image.open(io.BytesIO((tmp_path / "one.png").read_bytes())).width == 640
