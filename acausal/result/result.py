@@ -291,8 +291,7 @@ class Result:
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
-        kept = self.tree if isinstance(self.tree, Kept) else self._more
-        arrays = read(new, self._evaluate, kept, self.time.size)
+        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Kept) else self._more, self.time.size)
         self._arrays |= {q.name: array for q, array in arrays.items() if q.declared}
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
 
