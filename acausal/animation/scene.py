@@ -227,3 +227,12 @@ def smooth(points: np.ndarray) -> np.ndarray:
     if points.shape[1] < 2:
         return np.zeros_like(points)
     return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
+
+
+def fractions(curve: g.Curve) -> list[float]:
+    """Return where the points of a curve are along its chord, undeformed, from 0 to 1."""
+    if curve.rest_points is not None:
+        way = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)
+    else:
+        way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points[0], axis=0), axis=1))])
+    return (way / way[-1] if way[-1] else np.linspace(0, 1, len(way))).tolist()

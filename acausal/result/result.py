@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from acausal.animation.frames import FRAMES
-from acausal.errors import AcausalError, DeclarationError, caution
+from acausal.errors import DeclarationError, caution
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -236,6 +236,7 @@ class Result:
         plots: Sequence[Key] = (),
         values: Sequence[str] = (),
         title: str = "",
+        deformation: float = 1.0,
     ) -> None:
         """Write how the machine moves, with the outputs under it.
 
@@ -251,6 +252,8 @@ class Result:
             What beams can be coloured by besides what costs nothing: "bending moment", "axial force", or "all".
         title : str
             Of the picture.
+        deformation : float
+            Scale of deformations, 1 to 1000; the page can change it.
 
         Raises
         ------
@@ -261,17 +264,14 @@ class Result:
         """
         from acausal.result.animated import Asked, write
 
-        write({self.title or self._model: self}, path, Asked(frames, plots, values, title))
+        write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
 
     @alone
     def _repr_html_(self) -> str | None:
         """Show a notebook how the machine moves, where there is something to be seen."""
         from acausal.result.animated import in_notebook
 
-        try:
-            return in_notebook(self)
-        except AcausalError:
-            return None  # its text is shown instead
+        return in_notebook(self)
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
         check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])

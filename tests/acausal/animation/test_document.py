@@ -348,7 +348,19 @@ def test_files_are_refused_before_any_work(
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("asked", [{"frames": 1}, {"frames": 2.5}, {"values": "all"}, {"plots": "phi"}, {"title": 3}])
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"frames": 1},
+        {"frames": 2.5},
+        {"values": "all"},
+        {"plots": "phi"},
+        {"title": 3},
+        {"deformation": 0.5},
+        {"deformation": 2000},
+        {"deformation": "10"},
+    ],
+)
 def test_arguments_are_refused(machine: ac.Result, tmp_path: Path, asked: dict[str, Any]) -> None:
     with pytest.raises(ac.DeclarationError, match=next(iter(asked))):
         machine.animate(tmp_path / "run.html", **asked)
@@ -395,6 +407,7 @@ def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     assert [run["name"] for run in found["runs"]] == ["a", "b"]
     assert (found["title"], found["start"]) == ("both", "")
     assert document({"a": run_of(machine), "b": run_of(other)})["title"] == "Machine"
+    assert document({"a": run_of(machine)}, deformation=10.0)["start"] == "x=10"
     assert found["runs"][0]["size"] == found["runs"][1]["size"]
     ac.animate({"a": machine, "b": other}, tmp_path / "both.html", title="</script><b>")
     text = (tmp_path / "both.html").read_text()
