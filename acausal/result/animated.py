@@ -14,7 +14,7 @@ from acausal.animation.document import scenes, written
 from acausal.animation.frames import FRAMES, thinned
 from acausal.animation.page import html
 from acausal.animation.scene import Plot, Run, shown
-from acausal.errors import DeclarationError, ExportError
+from acausal.errors import AcausalError, DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.values import shown as code
 from acausal.result.files import check_writable, shown_name, whole
@@ -116,15 +116,18 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         shown([tree], values)
 
 
-def in_notebook(result: Moving) -> str:
+def in_notebook(result: Moving) -> str | None:
     """Return the page of a result as a frame of a notebook, which runs its scripts and nothing else.
 
     Parameters
     ----------
     result : Result
-        With a model that has something to be seen; without, DeclarationError is raised.
+        Where there is nothing to be seen, None is returned: the notebook shows its text instead.
     """
-    page = html(written(scenes({result.title: run_of(result)})))
+    try:
+        page = html(written(scenes({result.title: run_of(result)})))
+    except AcausalError:
+        return None
     return (
         '<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 600px; border: 0" '
         f'srcdoc="{escape(page)}"></iframe>'
