@@ -8,6 +8,7 @@
 #define LEVEL 0.01      /* of the width: a condition has changed where it is beyond 0 by that */
 #define HALVINGS 60     /* of the part in which an event lies: then its time is known to rounding */
 #define AHEAD 100       /* spans of a run: where no stop time is known */
+#define RETURN 64       /* steps after which closed loops go back to their constraints, as `simulate` does */
 #define CROWDED 1e-9    /* of a run: within that time ... */
 #define MOST_CROWDED 100 /* ... so many events are chattering */
 
@@ -53,10 +54,21 @@ static int32_t begin(ac_instance *i, double to) {
         i->rodas->h = kept;
         i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
     }
-    if (!goes_on) i->now.looked = 0;
+    if (!goes_on) i->now.looked = i->now.taken = 0;
     i->now.integrates = 1, i->going = 1;
     i->now.to = i->ends[0];
     return AC_OK;
+}
+
+/* Go on from where the constraints have the states: errors that lead away from there would add up. */
+static void go_back(ac_instance *i) {
+    const ac_unit *u = i->of;
+    if (!u->constraints || i->now.taken++ < RETURN) return;
+    i->now.taken = 1;
+    stand(i, i->now.to);
+    const double *w = ac_run(i, AC_COORDINATES);
+    for (int32_t k = 0; k < u->tape[AC_COORDINATES].outputs; k++) i->after[u->coordinate[k]] = w[u->tape[AC_COORDINATES].output[k]];
+    ac_rodas_move(i->rodas, i->after, i->after + ac_states(i));
 }
 
 /* One step that is accepted. */
@@ -68,6 +80,7 @@ static int32_t advance(ac_instance *i, double *left) {
     const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
     ac_progress done = {0};
     int32_t end = AC_MORE;
+    go_back(i);
     while (end == AC_MORE && !done.kept) {
         if ((*left)-- <= 0) return ac_fail(i, AC_RETRY, "more steps are needed than the setting allows.");
         end = ac_rodas_go(i->rodas, 1, &done);

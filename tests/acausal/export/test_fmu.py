@@ -88,6 +88,17 @@ def test_co_simulation_is_as_exact_as_simulate(scene: str, version: int, tmp_pat
     assert error(found, exact) <= 2 * own + 1e-8
 
 
+def test_closed_loops_go_back_to_their_constraints(tmp_path: Path) -> None:
+    model, stop = SCENES["four-bar-spatial"]
+    compiled = ac.compile(model)
+    path = exported(compiled, tmp_path / "a.fmu", 3)
+    given = {"stop_time": stop, "intervals": 40}
+    exact = columns(ac.simulate(compiled, tolerance=1e-10, **given))
+    own = error(columns(ac.simulate(compiled, tolerance=1e-6, **given)), exact)
+    found = simulated(path, "CoSimulation", stop, relative_tolerance=1e-6, output=list(exact))
+    assert error(found, exact) <= 1.5 * own  # twice where errors that lead away from the constraints add up
+
+
 def test_small_states_have_the_sizes_that_a_run_finds(tmp_path: Path) -> None:
     model, stop = SCENES["car-axis"]
     compiled = ac.compile(model)
