@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from acausal import as_expr, cos, geometry, in_loop, sin, sqrt
+from acausal import as_expr, cos, geometry, in_loop, rooted, sin, sqrt
 from components.frame import pose
 from components.orientation import resolve1
 
@@ -14,7 +14,8 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
     """Return the axis of a beam that consists of flexible beams `frames`, with the ellipse of its moments of area.
 
     An ellipse of half-axes a, b and area A has A b^2 / 4 as second moment of area; its own area, pi a b, is another one.
-    In closed loops deformations are measured from the chord, which is where the mechanism holds both ends.
+    Deformations are measured from the end section that is nearer to the root of the machine; in closed loops, where the
+    machine holds both ends, from the chord.
 
     Parameters
     ----------
@@ -24,14 +25,15 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
         Its frames, from frame_a to frame_b.
     """
     count = len(frames) * frames[0].elements
+    held, first = (beam.frame_a, 0) if rooted(frames[0].ref, frames[0].frame_b) else (beam.frame_b, count)
     about_y = beam.J if beam.J_y.sx.is_zero() else beam.J_y
     return geometry.Curve(
         points=beam.node_r_0,
         tangents=_of_nodes(frames, _tangents),
         section=(2 * sqrt(about_y / beam.A), 2 * sqrt(beam.J / beam.A)),
         up=resolve1(beam.frame_a.R, as_expr((0.0, 1.0, 0.0))),
-        rest=None if in_loop(beam) else pose(beam.frame_a),
-        rest_points=as_expr([[k * beam.length / count, 0.0, 0.0] for k in range(count + 1)]),
+        rest=None if in_loop(beam) else pose(held),
+        rest_points=as_expr([[(k - first) * beam.length / count, 0.0, 0.0] for k in range(count + 1)]),
         values=(
             geometry.Values("bending moment", "N.m", lambda: _of_nodes(frames, _moments)),
             geometry.Values("axial force", "N", lambda: _of_nodes(frames, _axial_forces)),

@@ -188,7 +188,8 @@ def test_values_along_a_cantilever(kind):
         ("deflection", "m"),
     ]
     x, arm = np.arange(5) / 4, result["beam.frame_b.r_0"][0] - result["beam.node_r_0"][0]
-    moment, force, deflection = (result[v.entries()][0] for v in values.values())
+    asked = [v.entries() if callable(v.entries) else v.entries for v in values.values()]
+    moment, force, deflection = (result[entries][0] for entries in asked)
     np.testing.assert_allclose(moment, np.cross(arm, (1e-3, 2e-3, 0))[:, 2], atol=1e-12)
     np.testing.assert_allclose(moment, 2e-3 * (1 - x), atol=1e-3 * 2e-3)
     slope = 2e-3 * (2 * x - x**2) / 2
@@ -205,14 +206,16 @@ def test_axial_force_is_along_the_deflected_axis():
     assert angle[-1] > 0.1
 
 
-def test_values_are_built_only_where_they_are_asked_for(monkeypatch):
+def test_loads_are_built_only_where_they_are_asked_for(monkeypatch):
+    """They cost most; deflections cost little, and can be chosen in every page."""
     result = at_rest({"f_y": 1.0}, elements=2)
-    for name in ("node_moment", "node_force", "node_deflection"):
+    for name in ("node_moment", "node_force"):
         monkeypatch.setattr(vars(FlexibleBeam)[name], "compute", lambda beam: 1 / 0)
     curve = curve_of(result)
     assert np.isfinite(result[curve.tangents]).all()
-    with pytest.raises(ZeroDivisionError):
-        curve.values[0].entries()
+    for values in curve.values[:2]:
+        with pytest.raises(ZeroDivisionError):
+            values.entries()
 
 
 def test_section_is_the_ellipse_of_the_moments_of_area():
@@ -255,3 +258,36 @@ def test_deformation_is_measured_from_the_root_elsewhere(make):
     assert 0 < away[1] < 0.5 * away[-1]
     if "pendulum" in result.title.lower():
         np.testing.assert_allclose(points[0], rest[0], atol=1e-12 * length)
+
+
+class Held(Model):
+    """A heavy beam that is clamped at one of its ends, and moves."""
+
+    end: str = structural("what is clamped", default="frame_b")
+    reference: str = structural("reference frame", default="tangent")
+    volumes: int = structural("volumes", default=0)
+    world = World(g=0.3)
+
+    @part
+    def beam(self):
+        values = UNIT | {"reference": self.reference}
+        return SubstructuredBeam(**values, volumes=self.volumes) if self.volumes else FlexibleBeam(**values, elements=3)
+
+    def connections(self):
+        yield connect(self.world.frame_b, getattr(self.beam, self.end))
+
+
+@pytest.mark.parametrize("volumes", [0, 3])
+@pytest.mark.parametrize("reference", ["tangent", "pinned"])
+@pytest.mark.parametrize("end", ["frame_a", "frame_b"])
+def test_deformation_is_measured_from_the_end_that_is_held(end, reference, volumes):
+    """Clamped, this end stands still on the place and along the tangent of the beam at rest, and the other one moves."""
+    result = ac.simulate(Held(end=end, reference=reference, volumes=volumes), stop_time=0.5, intervals=4)
+    curve, sense = curve_of(result), 1 if end == "frame_a" else -1
+    rest = np.einsum("tij,tki->tkj", result[curve.rest.T], result[curve.rest_points]) + result[curve.rest.r][:, None]
+    x = np.arange(4) / 3
+    expected = np.stack([x if end == "frame_a" else x - 1, 0 * x, 0 * x], axis=1)
+    np.testing.assert_allclose(rest, np.broadcast_to(expected, rest.shape), atol=1e-9)
+    off = np.linalg.norm(result[curve.points] - rest, axis=2)[-1, ::sense]
+    assert off[0] < 1e-9
+    assert off[-1] > 1e-3

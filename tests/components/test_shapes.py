@@ -69,7 +69,7 @@ def entries(shape: Any) -> Iterator[tuple[str, Any]]:
     for field in fields(shape):
         value = getattr(shape, field.name)
         if field.name == "values":
-            yield from ((v.name, v.entries()) for v in value)
+            yield from ((v.name, v.entries() if callable(v.entries) else v.entries) for v in value)
         elif is_dataclass(value):
             yield from entries(value)
         elif value is not None and not isinstance(value, str):
@@ -77,6 +77,7 @@ def entries(shape: Any) -> Iterator[tuple[str, Any]]:
 
 
 SIZES = {"r": (3,), "T": (3, 3), "up": (3,), "center": (3,), "axes": (3, 3), "axis": (3,), "at": (3,), "vector": (3,)}
+NAMED = ("bending moment", "axial force", "deflection")
 SIZES |= {"section": (2,), "diameter": (), "length": ()}
 
 
@@ -102,7 +103,12 @@ def test_shapes_are_kinds_of_geometry(name):
                 )
         if isinstance(shape, geometry.Curve):
             n = shape.points.shape[0]
-            several = [shape.points, shape.tangents, shape.rest_points, *(v.entries() for v in shape.values)]
+            several = [
+                shape.points,
+                shape.tangents,
+                shape.rest_points,
+                *(value for name, value in entries(shape) if name in NAMED),
+            ]
             assert all(value.shape[0] == n for value in several)
 
 
