@@ -116,7 +116,8 @@ class Curve:
     up : shape (3,), optional
         Direction of the second half-axis at the first point, resolved in the world.
     rest : Pose, optional
-        Where it is undeformed, with `rest_points`; None measures deformations from the chord.
+        Where it is undeformed, with `rest_points`. Deformations are measured from the chord where it is None, and where
+        something else stands at the end that is not at rest.
     rest_points : shape (n, 3), optional
         Undeformed points, resolved in `rest`; for the chord their distances from the first count.
     values : sequence of Values
