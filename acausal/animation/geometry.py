@@ -8,7 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
+
+Style = Literal["coil", "rod", "rail"]
+Quantity = Literal["force", "torque"]
+STYLES, QUANTITIES = get_args(Style), get_args(Quantity)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +83,7 @@ class Span:
 
     start: Any
     end: Any
-    style: Literal["coil", "rod", "rail"] = "rod"
+    style: Style = "rod"
     diameter: Any = None
 
 
@@ -89,7 +93,7 @@ class Arrow:
 
     at: Any
     vector: Any
-    quantity: Literal["force", "torque"] = "force"
+    quantity: Quantity = "force"
 
 
 @dataclass(frozen=True, eq=False)
