@@ -92,8 +92,8 @@ from acausal.language import (
     variable,
     when,
 )
-from acausal.result import Result, result_of
-from acausal.simulation import Linearization, March, linearize, march, simulate
+from acausal.result import Result
+from acausal.simulation import CompiledStep, Linearization, March, linearize, march, result_of, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
 __all__ = [
@@ -105,6 +105,7 @@ __all__ = [
     "AcausalError",
     "AcausalWarning",
     "CompiledModel",
+    "CompiledStep",
     "Component",
     "Condition",
     "ConnectError",

@@ -12,7 +12,7 @@ from acausal.animation import geometry as g
 from acausal.animation.collect import Seen
 from acausal.animation.columns import Columns, blob
 from acausal.animation.rotations import quaternions, turns
-from acausal.animation.scene import ALL, Run, Scene, scene_of, shown
+from acausal.animation.scene import ALL, Run, Scene, fractions, scene_of, shown
 from acausal.errors import DeclarationError, caution
 
 VERSION = 1
@@ -23,7 +23,9 @@ TURN = 0.5
 NOTHING = 1e-9
 
 
-def document(runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "") -> dict[str, Any]:
+def document(
+    runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "", deformation: float = 1.0
+) -> dict[str, Any]:
     """Return what a page needs to show runs.
 
     Parameters
@@ -34,6 +36,8 @@ def document(runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "
         Values along curves to be evaluated although they cost time, by name; "all" are all.
     title : str
         Of the page; those of the runs if it is not given.
+    deformation : float
+        Scale of deformations with which the page begins.
 
     Returns
     -------
@@ -45,7 +49,7 @@ def document(runs: Mapping[str, Run], values: Sequence[str] = (), title: str = "
     DeclarationError
         If a run has nothing to be seen, no such values, or an entry of a shape that is none.
     """
-    return written(scenes(runs, values), values, title)
+    return written(scenes(runs, values), values, title, deformation)
 
 
 def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Scene]:
@@ -56,13 +60,16 @@ def scenes(runs: Mapping[str, Run], values: Sequence[str] = ()) -> dict[str, Sce
     return {name: scene.suited(size) for name, scene in found.items()}
 
 
-def written(found: Mapping[str, Scene], values: Sequence[str] = (), title: str = "") -> dict[str, Any]:
+def written(
+    found: Mapping[str, Scene], values: Sequence[str] = (), title: str = "", deformation: float = 1.0
+) -> dict[str, Any]:
     """Return the document of some scenes, which begins with the first of the values that were asked for."""
     titles = dict.fromkeys(scene.run.title for scene in found.values() if scene.run.title)
+    start = {"colour": values[0]} if values and values[0] != ALL else {}
     return {
         "version": VERSION,
         "title": title or ", ".join(titles),
-        "start": urlencode({"colour": values[0]}) if values and values[0] != ALL else "",
+        "start": urlencode(start | ({"x": f"{deformation:g}"} if deformation != 1 else {})),
         "runs": [_Writer(name, scene).document() for name, scene in found.items()],
     }
 
@@ -174,7 +181,7 @@ class _Writer:
     def curve(self, one: Seen) -> dict[str, Any]:
         """What it is deformed from is a chord, or points in a pose."""
         s = one.shape
-        rest: dict[str, Any] = {"chord": True, "fractions": _fractions(s)}
+        rest: dict[str, Any] = {"chord": True, "fractions": fractions(s)}
         if s.rest is not None:
             if s.rest_points is None or s.rest_points.shape != s.points.shape[1:]:
                 raise DeclarationError(
@@ -219,12 +226,3 @@ WRITE: dict[type, Callable[[_Writer, Seen], dict[str, Any]]] = {
 
 def _plain(numbers: Any) -> Any:
     return np.asarray(numbers, dtype=float).tolist()
-
-
-def _fractions(curve: g.Curve) -> list[float]:
-    """Return where the points of a curve are along its chord, undeformed, from 0 to 1."""
-    if curve.rest_points is not None:
-        way = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)
-    else:
-        way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points[0], axis=0), axis=1))])
-    return (way / way[-1] if way[-1] else np.linspace(0, 1, len(way))).tolist()

@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.camera import Camera, level
-from acausal.animation.scene import Scene, corners, placed
+from acausal.animation.scene import Scene, corners, fractions, placed
 
 PALETTE = ("#3b6fd1", "#e08a3c", "#2a9d78", "#d6556b", "#a05fc9", "#3aa7b5", "#a58b2d", "#7d6ee0")
 DARK, ROD, COIL = "#4a5260", "#8a93a3", "#b9772a"
@@ -18,7 +18,7 @@ ARROWS = {"force": "#d32f2f", "torque": "#8e24aa"}
 GRID = "#d9dee6"
 # Of the scene: its longest arrow, grid lines to each side.
 ARROW, LINES = 0.25, 8
-SIDES, BETWEEN, TURNS = 20, 10, 9
+SIDES, BETWEEN, TURNS = 32, 10, 9
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,20 @@ class Drawing:
         From values along a curve, shape (n,), to colours (n, 3).
     by : str
         Name of the values that `colours` takes.
+    deformation : float
+        Scale of deformations.
     """
 
     def __init__(
-        self, scene: Scene, view: Camera, colours: Callable[[np.ndarray], np.ndarray] | None = None, by: str = ""
+        self,
+        scene: Scene,
+        view: Camera,
+        colours: Callable[[np.ndarray], np.ndarray] | None = None,
+        by: str = "",
+        deformation: float = 1.0,
     ) -> None:
         self.scene, self.view, self.colours, self.by = scene, view, colours, by
+        self.deformation = deformation
         paths = dict.fromkeys(
             one.path for one in scene.seen if isinstance(one.shape, g.Box | g.Cylinder | g.Sphere | g.Curve | g.Mesh)
         )
@@ -198,7 +206,10 @@ class Drawing:
 
     def curve(self, s: g.Curve, k: int, colour: np.ndarray) -> Pieces:
         """A tube along the cubics between the points."""
-        points, tangents = s.points[k], s.tangents[k]
+        rest = self.undeformed(s, k)
+        points = rest + self.deformation * (s.points[k] - rest)
+        slope = np.gradient(rest, axis=0)
+        tangents = slope + self.deformation * (s.tangents[k] - slope)
         x = np.linspace(0, 1, BETWEEN + 1)[:, None, None]
         a, b = (2 * x - 3) * x * x + 1, (x - 2) * x * x + x
         pieces = a * points[:-1] + (1 - a) * points[1:] + b * tangents[:-1] + (x - 1) * x * x * tangents[1:]
@@ -209,9 +220,18 @@ class Drawing:
         axis = np.concatenate([pieces[:-1].transpose(1, 0, 2).reshape(-1, 3), points[-1:]])
         yield from self.tube(axis, float(np.mean(s.section)), colour)
 
+    def undeformed(self, s: g.Curve, k: int) -> np.ndarray:
+        """Return the points of the world where those of a curve would be without deformation."""
+        if s.rest is not None:
+            return _at(s.rest, s.rest_points, k)
+        first, last = s.points[k, 0], s.points[k, -1]
+        return first + np.array(fractions(s))[:, None] * (last - first)
+
     def mesh(self, s: g.Mesh, k: int, colour: np.ndarray) -> Pieces:
         """Its triangles, deformed."""
-        moved = s.vertices if s.q is None or s.modes is None else s.vertices + np.tensordot(s.q[k], s.modes, 1)
+        moved = s.vertices
+        if s.q is not None and s.modes is not None:
+            moved = moved + self.deformation * np.tensordot(s.q[k], s.modes, 1)
         yield from self.faces(_at(s.pose, moved, k), s.triangles, colour)
 
 

@@ -1,7 +1,7 @@
 """Kinds of geometry that parts say they look like: points, axes and lengths, and nothing of mechanics.
 
-Points, vectors and matrices may vary with time: anything that a result can be read by. Sizes do not: numbers, or
-expressions of parameters; None is what suits the scene.
+What is resolved in the world may vary with time: expressions of variables, as in an equation, or numbers. What is resolved
+in a pose and sizes do not: numbers, or expressions of parameters; a size that is None suits the scene.
 """
 
 from __future__ import annotations

@@ -22,6 +22,8 @@ DIAMETER = {g.Cylinder: 0.02, g.Sphere: 0.03, g.Axle: 0.025}
 AXLE = 0.06
 SPAN = {"rod": 0.008, "rail": 0.012, "coil": 0.04}
 TUBE = 0.006
+# What is a point beside its path, as a body alone without sizes, is as large as this part of the path suits.
+POINT, ALONE = 1e-6, 0.5
 ALL = "all"
 
 
@@ -77,7 +79,8 @@ class Scene:
     low, high : array, shape (3,)
         Corners of the box that holds everything at all times, in m, along the axes of the world.
     size : float
-        Median over time of the diagonal of the box that holds everything at a time, in m.
+        Median over time of the diagonal of the box that holds everything at a time, in m; where this is a point, a part of
+        its path.
     up : array, shape (3,)
         Unit vector, resolved in the world.
     """
@@ -154,10 +157,13 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
     size = float(np.median(np.linalg.norm(high - low, axis=1)))
+    path = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    if size <= POINT * path:
+        size = ALONE * path or 1.0
     ups = [one.shape.up for one in found if isinstance(one.shape, g.Ground) and one.shape.up is not None]
     up = np.asarray(ups[0] if ups else (0, 1, 0), dtype=float)
     plots = [replace(plot, values=values) for plot, values in zip(run.plots, scalars, strict=True)]
-    return Scene(run, found, plots, low.min(axis=0), high.max(axis=0), size or 1.0, up / np.linalg.norm(up))
+    return Scene(run, found, plots, low.min(axis=0), high.max(axis=0), size, up / np.linalg.norm(up))
 
 
 def _box(shape: Any) -> tuple[np.ndarray, np.ndarray] | None:
@@ -231,3 +237,12 @@ def smooth(points: np.ndarray) -> np.ndarray:
     if points.shape[1] < 2:
         return np.zeros_like(points)
     return np.gradient(points, axis=1, edge_order=min(points.shape[1] - 1, 2))
+
+
+def fractions(curve: g.Curve) -> list[float]:
+    """Return where the points of a curve are along its chord, undeformed, from 0 to 1."""
+    if curve.rest_points is not None:
+        way = np.linalg.norm(curve.rest_points - curve.rest_points[0], axis=1)
+    else:
+        way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(curve.points[0], axis=0), axis=1))])
+    return (way / way[-1] if way[-1] else np.linspace(0, 1, len(way))).tolist()

@@ -116,6 +116,9 @@ def simulate(
         list[str] | None,
         typer.Option(help="What beams can be coloured by there: 'bending moment', 'axial force', all.", metavar="NAME"),
     ] = None,
+    deformation: Annotated[
+        float, typer.Option(help="Scale of deformations there, 1 to 1000.", metavar="X", show_default=False)
+    ] = 1.0,
     json: Json = None,
     variables: Annotated[
         list[str] | None,
@@ -127,7 +130,7 @@ def simulate(
     with running(json, quiet) as standard_output:
         import acausal as ac
 
-        files = Files(scene, csv, plot, json, standard_output, animate, tuple(values or ()))
+        files = Files(scene, csv, plot, json, standard_output, animate, tuple(values or ()), deformation)
         check_outputs((file_of(scene), effects), csv=csv, plot=plot, animate=animate, json=json)
         cls = find_scene(scene)
         model, given = make_scene(scene, cls, settings, effects)

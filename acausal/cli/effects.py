@@ -30,7 +30,10 @@ def effects(
     ] = None,
     outputs: Annotated[
         list[str] | None,
-        typer.Option(help="What to compare: paths with * and ?; the scene's outputs if not given.", metavar="PATTERN"),
+        typer.Option(
+            help="What to compare: paths with * and ?; what the scene says, or its outputs, if not given.",
+            metavar="PATTERN",
+        ),
     ] = None,
     tolerance: Annotated[
         float, typer.Option(help="Relative tolerance of a step.", metavar="R")

@@ -73,6 +73,8 @@ class Files:
         Name of a file for the moving picture.
     values : tuple of str
         What beams can be coloured by there.
+    deformation : float
+        Scale of deformations there.
     """
 
     scene: str
@@ -82,12 +84,14 @@ class Files:
     standard_output: IO[str]
     animate: str | None = None
     values: tuple[str, ...] = ()
+    deformation: float = 1.0
 
     def check(self, tree: Tree) -> None:
         """Refuse a moving picture of a model that shows nothing, or of values that it does not have."""
         if self.animate is not None:
-            from acausal.result.animated import check_visible
+            from acausal.result.animated import Asked, check_visible
 
+            Asked(values=self.values, deformation=self.deformation).check()
             check_visible(tree, self.values)
 
     def write(self, result: Result, chosen: list[str], **more: Any) -> None:
@@ -102,7 +106,7 @@ class Files:
                 {"scene": self.scene, **result.stats, "not_finite": wrong, **more}, self.json, self.standard_output
             )
         if self.animate:
-            result.animate(self.animate, plots=chosen, values=self.values)
+            result.animate(self.animate, plots=chosen, values=self.values, deformation=self.deformation)
 
 
 def write_json(document: Mapping[str, Any], path: str, standard_output: IO[str]) -> None:

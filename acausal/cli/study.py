@@ -43,9 +43,15 @@ def study(
         list[str] | None,
         typer.Option("--switch", metavar="NAME=VALUE,VALUE", help="Another parameter to vary."),
     ] = None,
+    dt: Annotated[
+        str | None, typer.Option(metavar="R,R,...", help="Steps in s of formulations that have their own.")
+    ] = None,
     outputs: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATTERN", help="What to compare: paths with * and ?; the scene's outputs if not given."),
+        typer.Option(
+            metavar="PATTERN",
+            help="What to compare: paths with * and ?; what the scene says, or its outputs, if not given.",
+        ),
     ] = None,
     reference: Annotated[
         str | None,
@@ -92,6 +98,7 @@ def study(
             if constraints
             else None,
             "switches": read_switches(switches or ()),
+            "dt": None if dt is None else _list(dt, float, "dt", "steps in s, such as 1e-3,1e-4"),
             "outputs": outputs or (),
         }
         numbers = {"accuracy": accuracy, "intervals": intervals, "initial": initial, "repeats": repeats, "limit": limit}

@@ -278,6 +278,11 @@ class CompiledModel:
         """Return the values of all free parameters after some changes; see `Settable`."""
         return self._settable.values(changes)
 
+    @alone
+    def value(self, path: str) -> Any:
+        """Return the value with which a parameter, structural parameter or effect was compiled; see `Settable`."""
+        return self._settable.value(path)
+
     @property
     def requirements(self) -> Requirements:
         """What components require of parameters, and of variables at the start."""

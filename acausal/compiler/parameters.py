@@ -19,7 +19,7 @@ from acausal.flatten.numeric import misshapen, numeric
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
-from acausal.symbols import dense, vec
+from acausal.symbols import dense, scalars, vec
 
 
 class Settable:
@@ -50,6 +50,29 @@ class Settable:
         self._check_limits(values)
         self.requirements.check(values)
         return values
+
+    def value(self, path: str) -> Any:
+        """Return the value of a parameter, as a number or an array, or that of a structural parameter or an effect.
+
+        Raises
+        ------
+        DeclarationError
+            If the path names something else.
+        """
+        value: Any = self.tree
+        try:
+            for name in path.replace("[", ".[").split("."):
+                value = value[int(name[1:-1])] if name.startswith("[") else getattr(value, name)
+        except (AttributeError, IndexError, TypeError, ValueError):
+            known = [*self.own.names, *self.own.structural_zeros, *self.own.bound, *self._structural_names]
+            raise DeclarationError(not_settable(path, self.tree, known)) from None
+        if not isinstance(value, Expr):
+            return value
+        known = {s.element_hash() for s in scalars(self.own.symbols)}
+        if any(s.element_hash() not in known for s in ca.symvar(value.sx)):
+            raise DeclarationError(f"`{path}` is a variable, whose values a result has: result[{path!r}].")
+        found = Call(ca.Function("value", [self.own.symbols], [ca.densify(value.sx)]))(self.values(None))[0]
+        return found.reshape(value.shape, order="F").copy() if value.shape else float(found[0])
 
     def _set(self, values: np.ndarray, path: str, value: Any) -> None:
         if isinstance(value, Expr):

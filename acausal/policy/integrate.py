@@ -130,6 +130,8 @@ class Consistent:
     # Times at which sizes of terms are taken, and times in a call from which on that is repeated: it costs little then.
     looks: int = 4
     many: int = 200
+    # Of the largest value of a variable that is given under two names: they differ by rounding of what they were made of.
+    given: float = 1e-9
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from acausal.result.files import check_writable, document, read_text, same_file, shown_name
 from acausal.result.lookup import check_columns, match, names
-from acausal.result.made import result_of
 from acausal.result.plots import check_picture
 from acausal.result.result import Result
 
@@ -15,7 +14,6 @@ __all__ = [
     "match",
     "names",
     "read_text",
-    "result_of",
     "same_file",
     "shown_name",
 ]

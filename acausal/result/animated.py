@@ -14,13 +14,15 @@ from acausal.animation.document import scenes, written
 from acausal.animation.frames import FRAMES, thinned
 from acausal.animation.page import html
 from acausal.animation.scene import Plot, Run, shown
-from acausal.errors import DeclarationError, ExportError
+from acausal.errors import AcausalError, DeclarationError, ExportError
 from acausal.language.component import Component
 from acausal.language.values import shown as code
 from acausal.result.files import check_writable, shown_name, whole
 from acausal.result.lookup import Key, Tree, find
+from acausal.result.plots import canvas
 
 PAGES = (".html", ".htm")
+EXAGGERATED = 1000  # times a deformation, at most
 ENDINGS = (*PAGES, ".gif", ".png")
 
 
@@ -47,6 +49,7 @@ class Asked:
     plots: Sequence[Key] = ()
     values: Sequence[str] = ()
     title: str = ""
+    deformation: float = 1.0
 
     def check(self) -> None:
         """Refuse what no picture can be made of."""
@@ -56,6 +59,9 @@ class Asked:
             given = getattr(self, name)
             if isinstance(given, str) or not isinstance(given, Sequence):
                 raise DeclarationError(f'{name} is a list, such as ["{example}"], not {code(given)}.')
+        number = not isinstance(self.deformation, bool) and isinstance(self.deformation, int | float | np.number)
+        if not number or not 1 <= self.deformation <= EXAGGERATED:
+            raise DeclarationError(f"deformation is a number from 1 to {EXAGGERATED}, not {code(self.deformation)}.")
         if not isinstance(self.title, str):
             raise DeclarationError(f"title is a text, not {code(self.title)}.")
 
@@ -71,11 +77,11 @@ def write(results: Mapping[str, Moving], path: str | Path, asked: Asked) -> None
     found = scenes({name: run_of(result, asked) for name, result in results.items()}, asked.values)
     if _ending(path) in PAGES:
         with whole(path) as file:
-            file.write(html(written(found, asked.values, title)))
+            file.write(html(written(found, asked.values, title, asked.deformation)))
         return
     from acausal.result.films import film, still
 
-    data = (film if _ending(path) == ".gif" else still)(found, title, asked.values)
+    data = (film if _ending(path) == ".gif" else still)(found, title, asked.values, asked.deformation)
     with whole(path, "wb") as file:
         file.write(data)
 
@@ -94,6 +100,8 @@ def check_animation(path: str | Path) -> None:
             "or in .gif or .png."
         )
     check_writable(path)
+    if _ending(path) not in PAGES:
+        canvas(1, 1, "tight")  # refuses where matplotlib cannot be loaded
 
 
 def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
@@ -108,15 +116,18 @@ def check_visible(tree: Tree, values: Sequence[str] = ()) -> None:
         shown([tree], values)
 
 
-def in_notebook(result: Moving) -> str:
+def in_notebook(result: Moving) -> str | None:
     """Return the page of a result as a frame of a notebook, which runs its scripts and nothing else.
 
     Parameters
     ----------
     result : Result
-        With a model that has something to be seen; without, DeclarationError is raised.
+        Where there is nothing to be seen, None is returned: the notebook shows its text instead.
     """
-    page = html(written(scenes({result.title: run_of(result)})))
+    try:
+        page = html(written(scenes({result.title: run_of(result)})))
+    except AcausalError:
+        return None
     return (
         '<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 600px; border: 0" '
         f'srcdoc="{escape(page)}"></iframe>'

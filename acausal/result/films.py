@@ -11,7 +11,6 @@ import numpy as np
 from acausal.animation.camera import Camera, camera
 from acausal.animation.drawing import Drawing, Polygon, rgb
 from acausal.animation.scene import ALL, Scene, corners
-from acausal.errors import ExportError
 from acausal.result.plots import DPI, canvas
 
 WIDTH, LEAST, MOST = 640, 240, 560  # pixels
@@ -20,12 +19,12 @@ RATE = 20  # frames of a film in a second
 SHORTEST, LONGEST, USUAL = 2.0, 10.0, 6.0  # seconds of a film
 MOMENTS = 5  # of a still
 FAINT = 0.75  # of the way to white: earlier moments, and all runs but the first
-NEARLY_WHITE = 250
+NEARLY_WHITE = 245
 COLOURS, SAMPLES = 128, 8  # of a film, and frames that tell which
 OTHERS = ("#2f6fdf", "#d1495b", "#2a9d78", "#a05fc9")
 
 
-def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) -> bytes:
+def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), deformation: float = 1.0) -> bytes:
     """Return the motion as GIF, as fast as it is or at a speed that is told.
 
     Parameters
@@ -36,16 +35,19 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) ->
         Written above.
     values : sequence of str
         The first one colours beams, unless it is "all".
+    deformation : float
+        Scale of deformations.
     """
-    from PIL import Image
+    picture = _Picture(scenes, title, values, deformation)
+    from PIL import Image  # matplotlib, which is loaded now, has it
 
-    picture = _Picture(scenes, title, values)
     begin, end = picture.span
     speed = _speed(end - begin)
     count = max(2, round((end - begin) / speed * RATE))
+    digits = max(0, 2 - int(np.floor(np.log10(end - begin)))) if end > begin else 2
     frames = []
     for t in np.linspace(begin, end, count):
-        told = f"t = {t:.3g} s" if end - begin >= 1 else f"t = {t:.4f} s"
+        told = f"t = {t:.{digits}f} s"
         frames.append(picture.pixels([(float(t), 0.0)], told + (f"   (speed x {speed:g})" if speed != 1 else "")))
     palette = _joined(frames[:: max(1, len(frames) // SAMPLES)]).quantize(COLOURS)
     # The mean of what is nearly white would be a box on a white page.
@@ -56,13 +58,13 @@ def film(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) ->
     return file.getvalue()
 
 
-def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = ()) -> bytes:
+def still(scenes: Mapping[str, Scene], title: str, values: Sequence[str] = (), deformation: float = 1.0) -> bytes:
     """Return some moments in one picture as PNG, the earlier ones the fainter; arguments as of `film`."""
-    picture = _Picture(scenes, title, values)
+    picture = _Picture(scenes, title, values, deformation)
     begin, end = picture.span
     times = np.linspace(begin, end, MOMENTS) if end > begin else [end]
     faint = np.linspace(FAINT, 0, len(times))
-    told = f"t = {begin:.3g} to {end:.3g} s" if end > begin else f"t = {end:.3g} s"
+    told = f"t = {begin:.4g} to {end:.4g} s" if end > begin else f"t = {end:.4g} s"
     file = io.BytesIO()
     picture.pixels(list(zip(map(float, times), map(float, faint), strict=True)), told).save(file, "PNG", optimize=True)
     return file.getvalue()
@@ -87,13 +89,7 @@ def _speed(seconds: float) -> float:
 class _Picture:
     """Draws moments of scenes on one canvas."""
 
-    def __init__(self, scenes: Mapping[str, Scene], title: str, values: Sequence[str]) -> None:
-        try:
-            import PIL.Image  # noqa: F401
-        except ImportError as error:
-            raise ExportError(
-                f"films and stills need Pillow, which cannot be loaded: {error}; .html needs nothing."
-            ) from None
+    def __init__(self, scenes: Mapping[str, Scene], title: str, values: Sequence[str], deformation: float) -> None:
         self.scenes = list(scenes.values())
         low = np.min([s.low for s in self.scenes], axis=0)
         high = np.max([s.high for s in self.scenes], axis=0)
@@ -102,8 +98,9 @@ class _Picture:
         self._lay_out(self.view, low, high)
         by = values[0] if values and values[0] != ALL else ""
         colours = self._colour_bar(by)
-        self.drawings = [Drawing(scene, self.view, colours, by) for scene in self.scenes]
-        self._title(title or self.scenes[0].run.title, list(scenes))
+        self.drawings = [Drawing(scene, self.view, colours, by, deformation) for scene in self.scenes]
+        more = f"   (deformation x {deformation:g})" if deformation != 1 else ""
+        self._title((title or self.scenes[0].run.title) + more, list(scenes))
 
     def _lay_out(self, view: Camera, low: np.ndarray, high: np.ndarray) -> None:
         from matplotlib.collections import PolyCollection

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 import numpy as np
@@ -53,6 +53,35 @@ class Kept:
     def names(self) -> list[str]:
         """Paths of all quantities."""
         return list(self.quantities)
+
+    def holds(self, path: str) -> bool:
+        """Whether a path, with or without indices at its end, names one of these quantities."""
+        return (
+            path in self.quantities
+            or path.partition("[")[0] in self.quantities
+            or path.rpartition("[")[0] in self.quantities
+        )
+
+    def joined(self, other: Kept) -> Kept:
+        """Return these quantities and others of the same run, by other names.
+
+        Parameters
+        ----------
+        other : Kept
+            Of as many times.
+        """
+        width, more, before = self.values.shape[1], other.values.shape[1], len(self.constants)
+        quantities = {}
+        for kept, own in ((self, True), (other, False)):
+            for name, q in kept.quantities.items():
+                varies = q.column < kept.values.shape[1]
+                shifted = np.where(
+                    varies, q.column + (0 if own else width), q.column + (more if own else width + before)
+                )
+                quantities[name] = replace(q, column=shifted)
+        values = np.hstack([self.values, other.values])
+        constants = np.concatenate([self.constants, other.constants])
+        return Kept(self.model, quantities, self.refused | other.refused, values, constants)
 
     def evaluate(self, places: np.ndarray) -> np.ndarray:
         """Return the values at some places, shape (times, places)."""

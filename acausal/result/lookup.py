@@ -245,6 +245,28 @@ def _units(unit: Any, expr: Expr) -> tuple[str, ...]:
     return tuple(str(u) or "1" for u in each) * columns
 
 
+def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
+    """Refuse a table in which a quantity would have the name of the column of time.
+
+    Parameters
+    ----------
+    tree : Component or Kept
+        As of a result.
+    keys : iterable of str, Path or Expr
+        The other columns.
+    """
+    if has_time(tree) and any(find(tree, key).name.partition("[")[0] == "time" for key in keys):
+        raise DeclarationError(
+            "a table cannot hold `time`: its first column has that name. Give the variable of the model another one, "
+            "for instance `clock`."
+        )
+
+
+def has_time(tree: Any) -> bool:
+    """Whether the model has something of its own by the name of time."""
+    return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)
+
+
 def not_readable(path: str, value: Any) -> str:
     """Return the message for a member that does not vary with time."""
     if isinstance(value, list):
@@ -269,25 +291,3 @@ def no_path(key: object) -> str:
         text = word if isinstance(key, kind) else text
     mend = "; give several one by one." if isinstance(key, list | tuple | set) else "."
     return f"a result is read by a path such as 'beam.frame_b.r_0', not by {text}{mend}"
-
-
-def check_columns(tree: Tree, keys: Iterable[Key]) -> None:
-    """Refuse a table in which a quantity would have the name of the column of time.
-
-    Parameters
-    ----------
-    tree : Component or Kept
-        As of a result.
-    keys : iterable of str, Path or Expr
-        The other columns.
-    """
-    if has_time(tree) and any(find(tree, key).name.partition("[")[0] == "time" for key in keys):
-        raise DeclarationError(
-            "a table cannot hold `time`: its first column has that name. Give the variable of the model another one, "
-            "for instance `clock`."
-        )
-
-
-def has_time(tree: Any) -> bool:
-    """Whether the model has something of its own by the name of time."""
-    return "time" in (tree.fields if isinstance(tree, Component) else tree.quantities)

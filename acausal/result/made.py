@@ -2,92 +2,119 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
 from acausal.result.kept import Kept
 from acausal.result.lookup import Quantity
-from acausal.result.result import Result
 from acausal.units import parse as unit_of
 
+# Of a result: its values by path, as columns of shape (times, n), in column-major order.
+Columns = Mapping[str, tuple[Quantity, np.ndarray]]
 
-@fitting
-def result_of(
-    time: Any,
-    values: Mapping[str, tuple[Any, str]],
-    outputs: Sequence[str] = (),
-    *,
-    model: str = "",
-    **stats: Any,
-) -> Result:
-    """Return a result that holds given arrays.
 
-    Parameters
-    ----------
-    time : array_like, shape (times,)
-        In s, increasing.
-    values : mapping of str to (array_like, str)
-        For each path, as "body.tip.v", an array with one entry for each time, shape (times, *shape), in SI, and the unit of its
-        entries. The entries are scalars, vectors or matrices.
-    outputs : sequence of str
-        Paths of the columns of tables and pictures if nothing is asked for; all scalars if there are none.
-    model : str
-        What the arrays are of, for titles.
-    **stats : Any
-        Statistics, as `Result.stats` has them.
-
-    Returns
-    -------
-    Result
-        Of these quantities alone, as one that was loaded without its model.
+def checked_times(time: Any) -> np.ndarray:
+    """Return times as an array.
 
     Raises
     ------
     DeclarationError
-        If an array has not one entry for each time, a path is none, a unit is not known, or an output is not among the
-        values.
-
-    Examples
-    --------
-    >>> result_of([0.0, 1.0], {"ball.r_0": ([[0, 0, 1], [0, 0, 0.5]], "m")})["ball.r_0[2]"].tolist()
-    [1.0, 0.5]
+        If they are none.
     """
-    times = np.array(time, dtype=float)
+    try:
+        times = np.array(time, dtype=float)
+    except (TypeError, ValueError):
+        times = np.full((1, 1), np.nan)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
         raise DeclarationError("the times of a result are a vector of finite numbers that increase")
-    quantities: dict[str, Quantity] = {}
-    columns, first = [np.empty((times.size, 0))], 0
-    for path, (given, unit) in values.items():
-        array = np.array(given, dtype=float)
+    return times
+
+
+def checked_columns(
+    times: np.ndarray, values: Any, known: Collection[str] = ()
+) -> dict[str, tuple[Quantity, np.ndarray]]:
+    """Return each array that is given by its path as columns, with what it is called and its unit.
+
+    Parameters
+    ----------
+    times : array, shape (times,)
+        In s.
+    values : mapping of str to (array_like, str)
+        See `result_of`.
+    known : collection of str
+        Paths of which the unit is known, and need not be given; it is "" then.
+
+    Raises
+    ------
+    DeclarationError
+        If something else is given.
+    """
+    if not isinstance(values, Mapping):
+        raise DeclarationError('values are arrays by path with their units: {"body.tip.v": (array, "m/s")}')
+    found = {}
+    for path, entry in values.items():
+        measured = isinstance(entry, tuple | list) and len(entry) == 2 and isinstance(entry[1], str)
+        if not measured and path not in known:
+            raise DeclarationError(f'`{path}` needs an array and its unit: (array, "m/s")')
+        given, unit = entry if measured else (entry, "")
+        try:
+            array = np.array(given, dtype=float)
+        except (TypeError, ValueError):
+            array = np.empty((0, 0, 0, 0))
         if array.shape[:1] != times.shape or array.ndim > 3:
             raise DeclarationError(
                 f"`{path}` has shape {array.shape}: a scalar, vector or matrix for each of {times.size} times is needed"
             )
         shape = array.shape[1:]
         size = int(np.prod(shape))
-        columns.append(
-            array.reshape(times.size, size) if len(shape) < 2 else array.transpose(0, 2, 1).reshape(-1, size)
-        )
-        quantities[_path(path)] = Quantity(path, np.arange(first, first + size), shape, (_unit(unit),) * size)
-        first += size
-    missing = [name for name in outputs if name not in quantities]
+        columns = array.reshape(times.size, size) if len(shape) < 2 else array.transpose(0, 2, 1).reshape(-1, size)
+        if measured:
+            unit_of(unit)
+        found[_path(path)] = Quantity(path, np.arange(size), shape, (unit,) * size), columns
+    return found
+
+
+def kept_of(columns: Columns, times: int, title: str = "") -> Kept:
+    """Return arrays as what is kept of a result.
+
+    Parameters
+    ----------
+    columns : mapping of str to (Quantity, array)
+        From `checked_columns`.
+    times : int
+        Number of times.
+    title : str
+        What the arrays are of.
+    """
+    quantities, blocks, first = {}, [np.empty((times, 0))], 0
+    for path, (quantity, block) in columns.items():
+        places = np.arange(first, first + block.shape[1])
+        quantities[path] = Quantity(path, places, quantity.shape, quantity.units)
+        blocks.append(block)
+        first += block.shape[1]
+    return Kept(title or "Result", quantities, {}, np.hstack(blocks), np.empty(0))
+
+
+def checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of outputs.
+
+    Raises
+    ------
+    DeclarationError
+        If one is not among the names of what there is.
+    """
+    if isinstance(outputs, str) or not all(isinstance(name, str) for name in outputs):
+        raise DeclarationError(f'outputs are a list of paths, ["body.tip.v"], not {outputs!r}')
+    missing = [name for name in outputs if name not in names]
     if missing:
         raise DeclarationError(f"the output `{missing[0]}` is not among the values")
-    kept = Kept(model or "Result", quantities, {}, np.hstack(columns), np.empty(0))
-    shown = tuple(outputs) or tuple(name for name, q in quantities.items() if not q.shape)
-    return Result(times, kept.evaluate, kept, shown, stats, model)
+    return tuple(outputs)
 
 
-def _unit(unit: str) -> str:
-    unit_of(unit)
-    return unit
-
-
-def _path(path: str) -> str:
+def _path(path: Any) -> str:
     if not isinstance(path, str) or not all(part.split("[")[0].isidentifier() for part in path.split(".")):
         raise DeclarationError(f'a quantity is named by a path, as "body.tip.v", not {path!r}')
     return path

@@ -8,11 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-import casadi as ca
 import numpy as np
 
 from acausal.animation.frames import FRAMES
-from acausal.errors import AcausalError, DeclarationError, caution
+from acausal.errors import DeclarationError, caution
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
@@ -20,6 +19,7 @@ from acausal.result.kept import Kept, keep
 from acausal.result.lookup import Key, Quantity, check_columns, find, has_time, names
 from acausal.result.no_numbers import no_numbers
 from acausal.result.plots import Series, draw, opened, save
+from acausal.result.reading import read
 from acausal.result.statistics import Statistics
 from acausal.result.tables import write_csv
 
@@ -47,6 +47,8 @@ class Result:
         Sizes, counts and seconds of the run.
     title : str
         Title of plots.
+    more : Kept, optional
+        What can be read beside the quantities of the model.
 
     Examples
     --------
@@ -63,6 +65,7 @@ class Result:
         outputs: tuple[str, ...],
         stats: Mapping[str, Any],
         title: str = "",
+        more: Kept | None = None,
     ) -> None:
         self.time = np.asarray(time, dtype=float)
         self.tree = tree
@@ -70,6 +73,7 @@ class Result:
         self._stats = stats if isinstance(stats, Statistics) else Statistics(**stats)
         self.title = title
         self._evaluate = evaluate
+        self._more = more
         self._arrays = {"time": self.time} if not has_time(tree) else {}
         self._told: set[str] = set()
 
@@ -81,7 +85,8 @@ class Result:
 
     def with_stats(self, **values: Any) -> Result:
         """Return the same result with other statistics."""
-        return Result(self.time, self._evaluate, self.tree, self.outputs, replace(self.stats, **values), self.title)
+        stats = replace(self.stats, **values)
+        return Result(self.time, self._evaluate, self.tree, self.outputs, stats, self.title, self._more)
 
     def __repr__(self) -> str:
         span = f", {self.time[0]:g} to {self.time[-1]:g} s" if self.time.size else ""
@@ -94,16 +99,18 @@ class Result:
     @alone
     def __reduce__(self) -> tuple[Any, ...]:
         """Keep the values of all quantities, and nothing of the model."""
-        kept = keep(self.tree, self._evaluate, self.time.size) if isinstance(self.tree, Component) else self.tree
+        live = isinstance(self.tree, Component)
+        kept = keep(self.tree, self._evaluate, self.time.size) if live else self.tree
+        kept = kept.joined(self._more) if self._more else kept
         return _loaded, (self.time, kept, self.outputs, self.stats, self.title)
 
     def __copy__(self) -> Result:
-        return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title)
+        return Result(self.time, self._evaluate, self.tree, self.outputs, self.stats, self.title, self._more)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Result:
         # The model and its values are never changed.
         own = deepcopy(self._stats, memo)
-        return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title)
+        return Result(self.time.copy(), self._evaluate, self.tree, self.outputs, own, self.title, self._more)
 
     @alone
     def __getitem__(self, key: Key) -> np.ndarray:
@@ -128,16 +135,16 @@ class Result:
 
     def __contains__(self, key: object) -> bool:
         try:
-            find(self.tree, cast("Key", key))
+            self._find(cast("Key", key))
         except DeclarationError:
             return False
         return True
 
     def __iter__(self) -> Iterator[str]:
-        return iter(names(self.tree))
+        return iter([*names(self.tree), *(self._more.names if self._more else ())])
 
     def _ipython_key_completions_(self) -> list[str]:
-        return names(self.tree)
+        return list(self)
 
     @fitting
     @alone
@@ -211,6 +218,14 @@ class Result:
             opened(figure, path)
         return figure
 
+    def _beside(self, key: object) -> bool:
+        """Whether a key names what is read beside the model."""
+        return self._more is not None and isinstance(key, str | Path) and self._more.holds(str(key))
+
+    def _find(self, key: Key) -> Quantity:
+        """Return what a key means, of the model or beside it."""
+        return find(self._more if self._more and self._beside(key) else self.tree, key)
+
     @fitting
     @alone
     def animate(
@@ -221,6 +236,7 @@ class Result:
         plots: Sequence[Key] = (),
         values: Sequence[str] = (),
         title: str = "",
+        deformation: float = 1.0,
     ) -> None:
         """Write how the machine moves, with the outputs under it.
 
@@ -236,6 +252,8 @@ class Result:
             What beams can be coloured by besides what costs nothing: "bending moment", "axial force", or "all".
         title : str
             Of the picture.
+        deformation : float
+            Scale of deformations, 1 to 1000; the page can change it.
 
         Raises
         ------
@@ -246,25 +264,22 @@ class Result:
         """
         from acausal.result.animated import Asked, write
 
-        write({self.title or self._model: self}, path, Asked(frames, plots, values, title))
+        write({self.title or self._model: self}, path, Asked(frames, plots, values, title, deformation))
 
     @alone
     def _repr_html_(self) -> str | None:
         """Show a notebook how the machine moves, where there is something to be seen."""
         from acausal.result.animated import in_notebook
 
-        try:
-            return in_notebook(self)
-        except AcausalError:
-            return None  # its text is shown instead
+        return in_notebook(self)
 
     def _columns(self, keys: Iterable[Key]) -> dict[str, np.ndarray]:
-        check_columns(self.tree, keys or self.outputs)
+        check_columns(self.tree, [key for key in keys or self.outputs if not self._beside(key)])
         return {"time": self.time} | {s.name: s.values for s in self.series(*keys)}
 
     def _look(self, keys: Iterable[Key]) -> list[tuple[Quantity, np.ndarray]]:
         """Return quantities with their arrays for a user, and warn of values that are not numbers."""
-        quantities = [find(self.tree, key) for key in keys]
+        quantities = [self._find(key) for key in keys]
         found = list(zip(quantities, self._read(quantities), strict=True))
         for quantity, array in found:
             if quantity.name not in self._told and not np.isfinite(array).all():
@@ -276,16 +291,8 @@ class Result:
     def _read(self, quantities: list[Quantity]) -> list[np.ndarray]:
         """Return the arrays of quantities, computing those that are new in one call."""
         new = [q for q in quantities if not (q.declared and q.name in self._arrays)]
-        arrays: dict[Quantity, np.ndarray] = {}
-        ends = np.cumsum([q.size for q in new], dtype=int)
-        columns = [q.column for q in new]
-        column: Any = np.concatenate(columns) if isinstance(self.tree, Kept) and new else ca.vertcat(*columns)
-        values = np.asarray(self._evaluate(column)) if new and ends[-1] else np.empty((self.time.size, 0))
-        for q, block in zip(new, np.split(values, ends[:-1], axis=1), strict=False):
-            arrays[q] = block.reshape(self.time.size, *q.shape, order="F")
-            arrays[q].flags.writeable = False
-            if q.declared:
-                self._arrays[q.name] = arrays[q]
+        arrays = read(new, self._evaluate, self.tree if isinstance(self.tree, Kept) else self._more, self.time.size)
+        self._arrays |= {q.name: array for q, array in arrays.items() if q.declared}
         return [arrays[q] if q in arrays else self._arrays[q.name] for q in quantities]
 
 

@@ -25,6 +25,7 @@ def animate(
     plots: Sequence[Key] = (),
     values: Sequence[str] = (),
     title: str = "",
+    deformation: float = 1.0,
 ) -> None:
     """Write the moving picture of several runs, side by side or one over the other, so that it is seen what differs.
 
@@ -42,6 +43,8 @@ def animate(
         What beams can be coloured by besides what costs nothing, as of `Result.animate`.
     title : str
         Of the picture; the names of the models if not given.
+    deformation : float
+        Scale of deformations, 1 to 1000; the page can change it.
 
     Raises
     ------
@@ -62,4 +65,6 @@ def animate(
         raise DeclarationError(
             f'results are given by the names that are shown, {{"rigid": a, "elastic": b}}, not by {shown(results)}.'
         )
-    write({str(name): result for name, result in results.items()}, path, Asked(frames, plots, values, title))
+    write(
+        {str(name): result for name, result in results.items()}, path, Asked(frames, plots, values, title, deformation)
+    )

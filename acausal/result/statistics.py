@@ -19,6 +19,8 @@ class Statistics(Mapping[str, Any]):
         Scalar equations before and after the reduction, states and algebraic unknowns.
     steps, factorisations, residual_evaluations, calls, choices : int
         Of the integrators; `choices` counts how often states of loops were chosen.
+    operations : int
+        Instructions of a step, or of the equations, where the method of the run tells.
     compile_seconds, solve_seconds, integration_seconds : float
         Seconds; the first are those of the model and of the integrators that the run made, the last those inside them. Where
         the run before began in the same way, its beginning is taken, and its seconds count again.
@@ -77,6 +79,7 @@ class Statistics(Mapping[str, Any]):
     loops: list[dict[str, Any]] = field(default_factory=list)
     independent_states: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
+    operations: int | None = None
     stopped: str | None = None
     energy_supplied: float | None = None
     energy_stored_change: float | None = None

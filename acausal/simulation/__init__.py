@@ -1,7 +1,9 @@
 """The front door: from a model to a result, with what the model declares about its own simulation and with an accuracy."""
 
+from acausal.simulation.compiled_step import CompiledStep
+from acausal.simulation.given import result_of
 from acausal.simulation.linearize import Linearization, linearize
 from acausal.simulation.march import March, march
 from acausal.simulation.simulate import simulate
 
-__all__ = ["Linearization", "March", "linearize", "march", "simulate"]
+__all__ = ["CompiledStep", "Linearization", "March", "linearize", "march", "result_of", "simulate"]

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-import time as clock
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import casadi as ca
 import numpy as np
 
-from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
 from acausal.language.arguments import fitting
-from acausal.language.expression import Expr, as_expr
 from acausal.locks import alone
 from acausal.policy import POLICY
+from acausal.simulation.compiled_step import CompiledStep, Step
 from acausal.solve.integrate.settings import Progress
-
-Step = Callable[[Expr, Expr], tuple[Any, Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,62 +89,25 @@ def march(
         raise DeclarationError(
             f"march() needs a vector of states and a row of inputs for each step, not shapes {x.shape} and {u.shape}."
         )
-    began = clock.perf_counter()
-    one = _compiled(step, x.size, u.shape[1])
-    blocks = _Blocks(one, clock.perf_counter() - began)
-    states, outputs = np.empty((len(u) + 1, x.size)), np.empty((len(u), one.size1_out(1)))
+    one = CompiledStep(step, x.size, u.shape[1])
+    states, outputs = np.empty((len(u) + 1, x.size)), np.empty((len(u), one.outputs))
     states[0], done, diverged = x, 0, False
     limits = np.broadcast_to(np.asarray(bounds, dtype=float), x.shape)
+
+    def found(diverged: bool) -> March:
+        return March(states[: done + 1], outputs[:done], diverged, one.operations, one.building, one.seconds)
+
     try:
         while done < len(u) and not diverged:
             count = min(POLICY.calls.steps_of_a_block, len(u) - done)
-            found, values = blocks(states[done], u[done : done + count])
-            inside = (np.abs(found) <= limits).all(axis=1)  # false for what is no number
+            after, values = one(states[done], u[done : done + count])
+            inside = (np.abs(after) <= limits).all(axis=1)  # false for what is no number
             count, diverged = (count, False) if inside.all() else (int(np.argmin(inside)), True)
-            states[done + 1 : done + 1 + count], outputs[done : done + count] = found[:count], values[:count]
+            states[done + 1 : done + 1 + count], outputs[done : done + count] = after[:count], values[:count]
             done += count
             if progress is not None:
                 progress(done / len(u), done)
     except KeyboardInterrupt as interrupt:
-        interrupt.result = blocks.march(states[: done + 1], outputs[:done], False)  # type: ignore[attr-defined]
+        interrupt.result = found(False)  # type: ignore[attr-defined]
         raise
-    return blocks.march(states[: done + 1], outputs[:done], diverged)
-
-
-class _Blocks:
-    """A step that is mapped over blocks of steps, each length built when it is first needed."""
-
-    def __init__(self, step: ca.Function, building: float) -> None:
-        self.step, self.building, self.seconds = step, building, 0.0
-        self._calls: dict[int, Call] = {}
-
-    def __call__(self, state: np.ndarray, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """States after each step and outputs of each."""
-        began, count = clock.perf_counter(), len(inputs)
-        if count not in self._calls:
-            self._calls[count] = Call(self.step.mapaccum("block", count))
-            self.building += clock.perf_counter() - began
-            began = clock.perf_counter()
-        states, outputs = self._calls[count](state, inputs.ravel())
-        self.seconds += clock.perf_counter() - began
-        return states.reshape(count, -1), outputs.reshape(count, -1)
-
-    def march(self, states: np.ndarray, outputs: np.ndarray, diverged: bool) -> March:
-        """What was found so far."""
-        return March(states, outputs, diverged, self.step.n_instructions(), self.building, self.seconds)
-
-
-def _compiled(step: Step, n: int, m: int) -> ca.Function:
-    x, u = (Expr(ca.SX.sym(name, size), shape=(size,)) for name, size in (("state", n), ("input", m)))
-    after, values = (as_expr(part) for part in step(x, u))
-    if after.shape != (n,) or len(values.shape) != 1:
-        raise DeclarationError(
-            f"a step returns the new state, shape ({n},), and a vector of other values, not shapes {after.shape} and "
-            f"{values.shape}."
-        )
-    try:
-        return ca.Function("step", [x.sx, u.sx], [ca.densify(after.sx), ca.densify(values.sx)])
-    except RuntimeError as error:
-        raise DeclarationError(
-            "a step may depend on its state and its inputs alone: give other values as inputs."
-        ) from error
+    return found(diverged)

@@ -25,6 +25,7 @@ __all__ = [
     "assemble",
     "average",
     "box",
+    "by_steps",
     "read_abaqus",
     "read_ansys",
     "read_calculix",
@@ -36,6 +37,7 @@ __all__ = [
     "reduce_body",
     "rigid",
     "rows_of",
+    "run_reconfigured",
     "simulate_reconfigured",
     "write_sid",
 ]
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
     from components.fe.frame_load import FrameLoad
     from components.fe.frame_motion import FrameMotion
     from components.fe.frame_result import as_result
+    from components.fe.frame_run import by_steps, run_reconfigured
     from components.fe.frame_steps import Readings
     from components.fe.nodes import rows_of
     from components.fe.reconfigured import simulate_reconfigured
@@ -63,6 +66,7 @@ _LATER = {
     "NodalResult": "recover",
     "Readings": "frame_steps",
     "as_result": "frame_result",
+    "by_steps": "frame_run",
     "read_abaqus": "formats.abaqus",
     "read_ansys": "formats.ansys",
     "read_calculix": "formats.calculix",
@@ -71,6 +75,7 @@ _LATER = {
     "read_nastran": "formats.nastran",
     "read_sid": "formats.sid",
     "rows_of": "nodes",
+    "run_reconfigured": "frame_run",
     "simulate_reconfigured": "reconfigured",
     "write_sid": "formats.sid",
 }

@@ -8,6 +8,7 @@ import numpy as np
 
 from acausal import (
     PREFER,
+    DeclarationError,
     Scalar,
     as_expr,
     branch,
@@ -17,6 +18,7 @@ from acausal import (
     effect,
     geometry,
     initial,
+    is_root,
     outer,
     parameter,
     port,
@@ -27,8 +29,10 @@ from acausal import (
     variable,
 )
 from components.fe.chosen import critical_damping, nominal, with_modes
+from components.fe.frame_checks import check_free
 from components.fe.modal_inertia import ModalInertia
 from components.fe.range import Moments, spinning
+from components.fe.reconfigured_inertia import ReconfiguredInertia
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
@@ -92,9 +96,11 @@ class FEBody(MovingBody):
     inertia: str = effect(
         "inertia of the deformed body",
         default="second_order",
-        choices=("second_order", "first_order", "constant"),
+        choices=("second_order", "first_order", "constant", "reconfigured"),
+        tries=("second_order", "first_order", "constant"),
         doc="second_order: all that the displacements imply; first_order: mass matrix to first order in q; constant: that of "
-        "the undeformed body, in which energy is not conserved.",
+        "the undeformed body, in which energy is not conserved; reconfigured: the limit of short steps in reconfigured inertial "
+        "frames, of a body with mean axes that nothing guides, in which energy is not conserved either.",
     )
     centrifugal: bool = effect(
         "centrifugal forces of the deformation",
@@ -151,6 +157,13 @@ class FEBody(MovingBody):
 
     def equations(self):
         ref, inertia = self.reference, self._inertia
+        if self._in_steps:
+            if not is_root(ref):
+                raise DeclarationError(
+                    'inertia="reconfigured" is of a body that nothing guides, and this one is held by what it is connected '
+                    'to: take "second_order", "first_order" or "constant", or connect it by forces alone'
+                )
+            check_free(self._body, 'inertia="reconfigured" needs')
         gravity = self.world.acceleration(self._centre()) if self.weight else np.zeros(3)
         force, moment, modal = inertia.forces(ref.a - resolve2(ref.R, gravity), ref.z, ref.R.w)
         f, t, load = ref.f, ref.t, as_expr(np.zeros(self.modes))
@@ -162,8 +175,9 @@ class FEBody(MovingBody):
             yield from move(ref, frame, r, R)
             f_k, t_k = self.frame_force[k], self.frame_torque[k]
             yield f_k == resolve1(R, frame.f)
-            yield t_k == G.T @ frame.t
-            f, t = f + f_k, t + resolve1(R, frame.t) + cross(r, f_k)
+            yield t_k == (resolve1(R, frame.t) if self._in_steps else G.T @ frame.t)
+            arm = quantity(interface.place, "m") if self._in_steps else r
+            f, t = f + f_k, t + resolve1(R, frame.t) + cross(arm, f_k)
             load += interface.displacement.T @ f_k + interface.rotation.T @ t_k
         yield force == f
         yield moment == t
@@ -196,7 +210,7 @@ class FEBody(MovingBody):
 
     def dissipated_power(self):
         """Power of the damping of the modes."""
-        return dot(self.qd, self._drag())
+        return dot(self._rates(), self._drag())
 
     def shapes(self):
         """The skin of its mesh, or the box of its inertia and its frames where it knows no mesh."""
@@ -229,7 +243,14 @@ class FEBody(MovingBody):
     @property
     def _inertia(self) -> ModalInertia:
         motion = self.q, self.qd, self.qdd
+        if self._in_steps:
+            return ReconfiguredInertia(self._body, *motion, centrifugal=self.centrifugal, coriolis=self.coriolis)
         return ModalInertia(self._body, *motion, self.inertia, self.centrifugal, self.coriolis)
+
+    @property
+    def _in_steps(self) -> bool:
+        """Whether the body moves as by short steps in inertial frames."""
+        return self.inertia == "reconfigured"
 
     def _elastic(self) -> Any:
         return self.stiffness * (self._body.K @ self.q)
@@ -237,8 +258,12 @@ class FEBody(MovingBody):
     def _drag(self) -> Any:
         if not self.damping:
             return as_expr(np.zeros(self.modes))
-        critical = self.damping_ratio * sqrt(self.stiffness)
-        return self._body.D @ self.qd + critical * (critical_damping(self._body) @ self.qd)
+        rates, critical = self._rates(), self.damping_ratio * sqrt(self.stiffness)
+        return self._body.D @ rates + critical * (critical_damping(self._body) @ rates)
+
+    def _rates(self) -> Any:
+        """Rates of the modes that damping resists."""
+        return self._inertia.rates(self.reference.R.w)
 
     def _centre(self) -> Any:
         return self.reference.r_0 + resolve1(self.reference.R, self._inertia.first() / self._inertia.mass)

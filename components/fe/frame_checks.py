@@ -14,13 +14,28 @@ from components.fe.reduced_body import ReducedBody
 
 # Of the size that an integral can have: what is rounding, as of the integrals that `reduce_body` cuts.
 ORTHOGONAL = 1e-7
+# Of the square of the highest frequency: below it a mode has no stiffness; soft bodies with stiff parts come to 1e-8.
+LOOSE = 1e-12
 # Of a step: how far the number of steps may be from a whole one by rounding of stop time and step.
 WHOLE = 1e-6
+# Of the limit of stability: a step that is proposed.
+BELOW = 0.98
+# Of the size of a body: where the deflections of a run that diverges end it, long before they overflow.
+FAR = 1e3
+# Most numbers that a motion may hold: 8 GB.
+MOST = 1e9
 MEND = 'reduce_body(M, K, nodes, frames=..., hold="mean-axis", modes=...)'
 
 
-def check_free(body: ReducedBody) -> None:
+def check_free(body: ReducedBody, what: str = "steps in inertial frames need") -> None:
     """Refuse a body whose modes hold rigid motion, or whose reference frame is not at its centre of mass.
+
+    Parameters
+    ----------
+    body : ReducedBody
+        The body.
+    what : str
+        What needs a free one, for the message.
 
     Raises
     ------
@@ -40,10 +55,12 @@ def check_free(body: ReducedBody) -> None:
     A = body.modal_second
     turns = (np.linalg.norm(A - A.transpose(0, 2, 1), axis=(1, 2)) / (size * length)).max(initial=0.0)
     if max(off, moves, turns) > ORTHOGONAL:
-        what = "its reference frame is not at its centre of mass" if off > ORTHOGONAL else "its modes hold rigid motion"
-        raise DeclarationError(f"steps in inertial frames need the modes of a free body, but {what}: {MEND}")
+        wrong = (
+            "its reference frame is not at its centre of mass" if off > ORTHOGONAL else "its modes hold rigid motion"
+        )
+        raise DeclarationError(f"{what} the modes of a free body, but {wrong}: {MEND}")
     squares = np.linalg.eigvals(np.linalg.solve(body.M, body.K)).real if body.n else np.ones(1)
-    if squares.min() <= ORTHOGONAL * squares.max():
+    if squares.min() <= LOOSE * squares.max():
         raise DeclarationError(
             f"a mode at {np.sqrt(max(squares.min(), 0.0)) / (2 * np.pi):.4g} Hz stands for a rigid motion: the exact ones come "
             f"from the mass of the body, and the others are made by {MEND}"
@@ -75,38 +92,85 @@ def _stable(z: Any) -> bool:
     return bool((np.abs(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))) <= 1 + 1e-9).all())
 
 
-def steps_of(stop_time: float, dt: float) -> int:
+def steps_of(body: FreeModes, stop_time: Any, dt: Any) -> int:
     """Number of steps.
 
     Raises
     ------
     DeclarationError
-        If the stop time is no multiple of the step.
+        If the stop time is no multiple of the step, or the step is beyond the limit of stability, with one that works.
     """
-    if not (np.isfinite(stop_time) and np.isfinite(dt) and stop_time > 0 and dt > 0):
-        raise DeclarationError(f"stop time and step are positive and finite, not {stop_time!r} and {dt!r}")
+    stop_time, dt = positive(stop_time, "the stop time", "s"), positive(dt, "the step", "s")
+    most, fastest = limit(body)
+    whole = max(int(np.ceil(stop_time / min(dt, BELOW * most) - WHOLE)), 1)
+    near = f"dt={stop_time / whole!r}"
+    if dt > most:
+        raise DeclarationError(
+            f"steps of {dt:g} s are unstable: dt * omega_max = {dt * fastest:.4g}, the limit is {most * fastest:.4g}. Take "
+            f"{near} or less, or fewer modes: body.first({max(body.body.n - 1, 0)})"
+        )
     count = round(stop_time / dt)
     if count < 1 or abs(stop_time / dt - count) > WHOLE:
-        near = stop_time / max(int(np.ceil(stop_time / dt)), 1)
-        raise DeclarationError(f"the stop time {stop_time:g} s is no multiple of the step {dt:g} s: take dt={near!r}")
+        raise DeclarationError(f"the stop time {stop_time:g} s is no multiple of the step {dt:g} s: take {near}")
+    numbers = count * (15 + 2 * body.size)
+    if numbers > MOST:
+        raise DeclarationError(
+            f"{count:.3g} steps of {dt:g} s give {numbers:.3g} numbers, more than the {MOST:g} that a result may hold: take "
+            "longer steps, or a shorter run"
+        )
     return count
 
 
-def check_step(body: FreeModes, stop_time: float, dt: float) -> None:
-    """Refuse a step beyond the limit of stability.
+def positive(value: Any, what: str, unit: str) -> float:
+    """Return a positive, finite number.
 
     Raises
     ------
     DeclarationError
-        With a step that works.
+        If it is none.
+    """
+    number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    if not (number and 0 < value < np.inf):
+        raise DeclarationError(f"{what} is a positive, finite number{f' of {unit}' * bool(unit)}, not {value!r}")
+    return float(value)
+
+
+def bounds(body: FreeModes) -> Array:
+    """Largest absolute values of a state beyond which a run has diverged, shape (15 + 2 N,)."""
+    found = np.full(15 + 2 * body.size, np.inf)
+    if body.body.n:
+        size = np.sqrt(np.trace(body.body.second_moment) / np.diag(body.body.M))
+        found[21 : 15 + body.size] = FAR * size
+    return found
+
+
+def diverged(body: FreeModes, w: Array, step: int, time: float, dt: float) -> str:
+    """Say that a run diverged.
+
+    Parameters
+    ----------
+    body : FreeModes
+        The body.
+    w : array, shape (times, 3)
+        Its angular velocity in rad/s, up to there.
+    step : int
+        The step that diverged, counted from 1.
+    time, dt : float
+        Its end and its size in s.
     """
     most, fastest = limit(body)
-    if dt > most:
-        near = stop_time / int(np.ceil(stop_time / (0.98 * most)))
-        raise DeclarationError(
-            f"steps of {dt:g} s are unstable: dt * omega_max = {dt * fastest:.4g}, the limit is {most * fastest:.4g}. Take "
-            f"dt={near:.6g} or less, or fewer modes: body.first({max(body.body.n - 1, 0)})"
+    turned = float(np.sqrt((w**2).sum(axis=1).max(initial=0.0)))
+    if not body.body.n:
+        return (
+            f"the motion diverges in step {step}, at t = {time:.6g} s: the body turns by {turned:.4g} rad/s, "
+            f"{dt * turned:.4g} rad in a step of {dt:.4g} s. Take shorter steps."
         )
+    doubt = too_fast(body, w)
+    mend = f"{doubt[0].upper()}{doubt[1:]}." if doubt else "Take shorter steps."
+    return (
+        f"the motion diverges in step {step}, at t = {time:.6g} s, with dt * omega_max = {dt * fastest:.4g}, where the "
+        f"limit of a body that does not turn is {most * fastest:.4g}. {mend}"
+    )
 
 
 def too_fast(body: FreeModes, w: Array) -> str:

@@ -31,6 +31,14 @@ class FrameMotion:
         "corrected" or "paper".
     march : March
         The steps with their counts and seconds.
+    steps : int
+        Number of steps from the start to the last time.
+    tolerance : float
+        What controlled the size of the steps, 0 for steps of one size.
+    rejected : int
+        Steps that were too long, and taken again: two of a pair, and those after it that were computed with it.
+    breaks : tuple of float
+        Times in s at which steps end because loads break there.
     """
 
     modes: FreeModes
@@ -39,6 +47,10 @@ class FrameMotion:
     outputs: Array
     variant: str
     march: March
+    steps: int
+    tolerance: float = 0.0
+    rejected: int = 0
+    breaks: tuple[float, ...] = ()
 
     @property
     def r_0(self) -> Array:

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from acausal import Result, result_of
+from acausal import CompiledModel, Component, DeclarationError, Result, result_of
 from components.fe.arrays import Array
-from components.fe.frame_checks import too_fast
+from components.fe.frame_checks import WHOLE, too_fast
 from components.fe.frame_motion import FrameMotion
+from components.fe.frame_steps import STAGES
 from components.fe.reduced_body import Interface
 
 Named = dict[str, tuple[Any, str]]
 UNITS = {"r_0": "m", "R.T": "1", "R.w": "rad/s", "v": "m/s", "a": "m/s2", "z": "rad/s2", "Q": "1"}
 
 
-def as_result(motion: FrameMotion, name: str = "body") -> Result:
+def as_result(
+    motion: FrameMotion,
+    name: str = "body",
+    *,
+    model: Component | CompiledModel | None = None,
+    times: Sequence[float] | Array | None = None,
+) -> Result:
     """Return a motion as a result.
 
     Parameters
@@ -24,7 +32,12 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
     motion : FrameMotion
         What `simulate_reconfigured` returned.
     name : str
-        Name of the body.
+        Name of the body, its path in the model if there is one.
+    model : Component or CompiledModel, optional
+        Scene in which nothing else moves: everything of it can then be read, and its outputs are those of the result. What
+        depends on accelerations is as the variant forms them; forces are those of the scene.
+    times : array_like, shape (n,), optional
+        In s: ends of steps, at which the result is wanted; all if not given.
 
     Returns
     -------
@@ -32,25 +45,67 @@ def as_result(motion: FrameMotion, name: str = "body") -> Result:
         With `name` before each: q, qd, qdd; r_0, v_0, a_0, w_a, z_a of the reference frame; and r_0, R.T, R.w, v, a, z of `ref`
         and of each frame. The embedded rigid motion has the names `name.embedded.FRAME.r_0`, `v_0` and `a_0`, all
         resolved in the world. Accelerations are as the variant forms them.
+
+    Raises
+    ------
+    DeclarationError
+        If it is no such motion, the name is none, a time is no end of a step, or the model has another body of this name.
     """
+    if not isinstance(motion, FrameMotion):
+        raise DeclarationError(f"as_result() takes what simulate_reconfigured() returned, not {motion!r}")
     values = _modes(motion) | _reference(motion)
     for interface in motion.modes.body.interfaces:
-        values |= {f"{interface.name}.{key}": value for key, value in _frame(motion, interface).items()}
+        own = _frame(motion, interface)
+        if model is not None and not interface.rotation.any():
+            # In a scene such a frame turns as the reference frame, without the rigid part of the deformation as printed.
+            own = {key: value for key, value in own.items() if key not in ("R.T", "R.w", "z")}
+        values |= {f"{interface.name}.{key}": value for key, value in own.items()}
         rigid = _embedded(motion, interface)
         values |= {f"embedded.{interface.name}.{key}": value for key, value in rigid.items()}
+    rows = _rows(motion, times)
     return result_of(
-        motion.time,
-        {f"{name}.{key}": value for key, value in values.items()},
-        [f"{name}.r_0", f"{name}.w_a"],
-        model=f"{name}, reconfigured inertial frames, {motion.variant}",
-        steps=len(motion.time) - 1,
+        motion.time[rows],
+        {f"{name}.{key}": (array[rows], unit) for key, (array, unit) in values.items()},
+        () if model else [f"{name}.r_0", f"{name}.w_a"],
+        model=model,
+        title=f"{name}, reconfigured inertial frames, {motion.variant}",
+        equations_reduced=motion.states.shape[1],
         states=motion.states.shape[1],
+        algebraic=0,
+        steps=motion.steps,
+        tolerance=motion.tolerance,
+        break_times=list(motion.breaks),
+        # Of controlled steps every two are taken again as one.
+        residual_evaluations=len(STAGES) * (motion.steps + motion.rejected) * (3 if motion.tolerance else 2) // 2,
+        operations=motion.march.operations,
         compile_seconds=motion.march.building,
-        solve_seconds=motion.march.building + motion.march.seconds,
+        solve_seconds=motion.march.seconds,
         integration_seconds=motion.march.seconds,
         doubts=[doubt] if (doubt := too_fast(motion.modes, motion.w)) else [],
-        method=f"reconfigured inertial frames, {motion.variant}",
+        method="RK4",
+        method_reason=_reason(motion),
     )
+
+
+def _rows(motion: FrameMotion, times: Any) -> Any:
+    """Places of times among the ends of steps."""
+    if times is None:
+        return slice(None)
+    wanted = np.asarray(times, dtype=float).reshape(-1)
+    places = np.clip(np.searchsorted(motion.time, wanted), 1, len(motion.time) - 1)
+    places -= wanted - motion.time[places - 1] < motion.time[places] - wanted
+    off = np.abs(motion.time[places] - wanted) > WHOLE * np.diff(motion.time).min()
+    if off.any():
+        raise DeclarationError(
+            f"at t = {wanted[off][0]:.6g} s no step ends: take steps that divide the time between two of those wanted"
+        )
+    return places
+
+
+def _reason(motion: FrameMotion) -> str:
+    if not motion.tolerance:
+        return "steps of one size were asked for"
+    return f"tolerance {motion.tolerance:g}: {motion.steps} steps were kept, {motion.rejected} were too long"
 
 
 def _modes(motion: FrameMotion) -> Named:

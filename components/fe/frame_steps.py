@@ -62,7 +62,12 @@ class Readings:
             if getattr(self, name) not in choices:
                 known = " or ".join(map(repr, choices))
                 raise DeclarationError(f"the reading `{name}` is {known}, not {getattr(self, name)!r}")
-        p, q = (np.asarray(point, dtype=float) for point in self.points)
+        try:
+            p, q = (np.asarray(point, dtype=float).reshape(3) for point in self.points)
+        except (TypeError, ValueError):
+            raise DeclarationError(
+                f"the reading `points` is two directions, ((1, 0, 0), (0, 1, 0)), not {self.points!r}"
+            ) from None
         if np.linalg.norm(np.cross(p, q)) <= ON_A_LINE * np.linalg.norm(p) * np.linalg.norm(q):
             raise DeclarationError(f"P, Q and R lie on a line: the directions {self.points!r} tell no angular velocity")
 

@@ -98,6 +98,10 @@ class ModalInertia:
         """Momentum of the rates of the modes, in kg.m/s, shape (3,), resolved in the frame."""
         return self.body.modal_first @ self.qd
 
+    def rates(self, w: Any) -> Any:
+        """Rates of the modes that their damping resists, in m/s, shape (n,), with the angular velocity of the frame."""
+        return self.qd
+
     def momentum(self) -> Any:
         """Momenta of the rates of the modes alone, in kg.m/s, shape (n,)."""
         return self.body.M @ self.qd
@@ -110,9 +114,12 @@ class ModalInertia:
 
     def _centrifugal(self, w: Any) -> Any:
         """Forces W : g_b on the modes."""
+        return self._turned(w, self._slopes if self.centrifugal else self._straight)
+
+    def _turned(self, w: Any, slopes: list[Any]) -> Any:
+        """Sum of the products of W and half the derivatives of the second moments."""
         x, y, z = (w[k] * w[k] for k in range(3))
         W = (x - z, y - z, 2 * (w[0] * w[1]), 2 * (w[0] * w[2]), 2 * (w[1] * w[2]), -(x + y))
-        slopes = self._slopes if self.centrifugal else self._straight
         return sum((factor * g for factor, g in zip(W, slopes, strict=True)), self._none)
 
     def _spin(self, rates: Any) -> Any:

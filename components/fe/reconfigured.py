@@ -4,34 +4,37 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from acausal import AcausalWarning, DeclarationError, March, SimulationError, march
+from acausal import AcausalWarning, DeclarationError
 from components.fe.arrays import Array
-from components.fe.frame_checks import check_free, check_step, limit, steps_of, too_fast
-from components.fe.frame_load import FrameLoad, check_loads, sampled
+from components.fe.frame_checks import check_free, positive, steps_of, too_fast
+from components.fe.frame_control import controlled
+from components.fe.frame_fixed import fixed
+from components.fe.frame_inputs import Inputs
+from components.fe.frame_load import FrameLoad, breaks_of, check_breaks, sampled
 from components.fe.frame_motion import FrameMotion
-from components.fe.frame_steps import Loads, Readings, State, corrected, printed
+from components.fe.frame_steps import Readings
 from components.fe.free_modes import FreeModes
 from components.fe.reduced_body import ReducedBody
 
 Vector = Sequence[float] | Array
 VARIANTS = ("corrected", "paper")
-# Of the size of a body: where the deflections of a run that diverges end it, long before they overflow.
-FAR = 1e3
-# Of a step: how far inside of it its ends are looked at, far above rounding of the time after 1e5 steps, far below any error.
-EDGE = 1e-9
+DT = 1e-4
+# Tolerances: what is a thousand times rounding in each step, and what is still a motion.
+FINEST, COARSEST = 1e-10, 0.1
 
 
 def simulate_reconfigured(
     body: ReducedBody,
     loads: Sequence[FrameLoad] = (),
     stop_time: float = 1.0,
-    dt: float = 1e-4,
+    dt: float | None = None,
     *,
+    tolerance: float | None = None,
+    intervals: int | None = None,
     variant: str = "corrected",
     readings: Readings | None = None,
     damping: Any = 0.0,
@@ -51,11 +54,17 @@ def simulate_reconfigured(
     body : ReducedBody
         With mean axes: `reduce_body(..., hold="mean-axis")`.
     loads : sequence of FrameLoad
-        Forces and moments at its frames, with the levers of the undeformed body.
+        Forces and moments at its frames, or forces at nodes, with the levers of the undeformed body.
     stop_time : float
         In s, a multiple of `dt`.
     dt : float
-        Step in s.
+        Step in s, 1e-4 s where neither it nor a tolerance is given.
+    tolerance : float, optional
+        Error that controls the size of the steps of the variant "corrected", in place of `dt`, from 1e-10 to 0.1: what the
+        errors of all steps come to together, as a part of the largest speed of the points of the body (root mean square
+        over its mass, translation apart). Steps end where loads break, see `FrameLoad.breaks`.
+    intervals : int, optional
+        With a tolerance: number of equal intervals of time, at whose ends the motion is kept, instead of after each step.
     variant : str
         "corrected": one frame in each step, order 4; "paper": as printed, order 1, with a wrong angular acceleration in
         spatial motion.
@@ -63,8 +72,8 @@ def simulate_reconfigured(
         What the text leaves open, of the variant "paper" only.
     damping : float or array_like, shape (n,)
         Part of critical damping of each mode, beside the damping of the body.
-    gravity : 3 floats, optional
-        Acceleration of gravity in m/s2, resolved in the world.
+    gravity : 3 floats or callable, optional
+        Acceleration of gravity in m/s2, resolved in the world, or a function of the time in s that returns it.
     position, velocity : 3 floats
         Of the centre of mass at the start, in m and m/s, resolved in the world.
     attitude : array_like, shape (3, 3), optional
@@ -79,22 +88,22 @@ def simulate_reconfigured(
     Returns
     -------
     FrameMotion
-        Motion at the start and after each step.
+        Motion at the start and after each step, or at the ends of intervals.
 
     Raises
     ------
     DeclarationError
-        If the body is not free, a frame is unknown, the step is beyond the limit of stability, or the stop time is no
-        multiple of it.
+        If the body is not free, a frame or node is unknown, the step is beyond the limit of stability, or the stop time is
+        no multiple of it.
     SimulationError
-        If the motion diverges; `result` holds what was computed.
+        If the motion diverges, or has too many steps; `result` holds what was computed.
     KeyboardInterrupt
         With what was computed as its attribute `result`.
 
     Warns
     -----
     AcausalWarning
-        If the body turns faster than half of its first frequency.
+        If the body turns faster than half of its first frequency, or a load breaks inside of a step of one size.
 
     Notes
     -----
@@ -103,67 +112,90 @@ def simulate_reconfigured(
     the cube of the spin. Neither has geometric stiffening.
     """
     check_free(body)
-    check_loads(body, loads)
     if variant not in VARIANTS:
         raise DeclarationError(f"variant is one of {', '.join(map(repr, VARIANTS))}, not {variant!r}")
-    if readings is not None and variant != "paper":
-        raise DeclarationError('readings are of variant="paper": the corrected one leaves nothing open')
-    read = readings or Readings()
+    read = _readings(variant, readings, tolerance)
     modes = FreeModes(body, _damping(damping, body.n))
-    count = steps_of(stop_time, dt)
-    check_step(modes, stop_time, dt)
+    inputs = Inputs.of(modes, loads, gravity)
     A = np.eye(3) if attitude is None else _rotation(attitude)
     O, v, w = (_vector(x, name) for x, name in ((position, "position"), (velocity, "velocity"), (spin, "spin")))
     start = _start(modes, A, O, v, w, _amplitudes(q, body.n), _amplitudes(qd, body.n))
-    # A step more than there are: the last one tells the accelerations at the stop time, its end is not looked at.
-    maps, inputs = _inputs(modes, loads, gravity, dt, count, read.middle if variant == "paper" else "middle")
-    times = dt * np.arange(count + 1)
-    take = partial(corrected, dt=dt) if variant == "corrected" else partial(printed, dt=dt, readings=read)
-
-    def motion(found: March) -> FrameMotion:
-        done = len(found.outputs)
-        return FrameMotion(modes, times[:done], found.states[:done], found.outputs, variant, found)
-
-    try:
-        found = march(
-            lambda x, u: take(modes, Loads(*maps, u), State.of(x)),
-            start,
-            inputs,
-            bounds=_bounds(modes),
-            progress=progress,
-        )
-    except KeyboardInterrupt as interrupt:
-        if hasattr(interrupt, "result"):
-            interrupt.result = motion(interrupt.result)  # type: ignore[attr-defined]
-        raise
-    if found.diverged:
-        raise SimulationError(_diverged(modes, motion(found), dt), motion(found))
-    run = motion(found)
+    if tolerance is None:
+        dt = DT if dt is None else dt
+        if intervals is not None:
+            raise DeclarationError("intervals= is for steps of controlled size, tolerance=: others are kept each")
+        count = steps_of(modes, stop_time, dt)
+        check_breaks(loads, float(stop_time), float(dt))
+        run = fixed(modes, inputs, start, float(dt), count, read, progress)
+    else:
+        if dt is not None:
+            raise DeclarationError("tolerance= controls the size of the steps, in place of dt=: give one of them")
+        breaks = breaks_of(loads, positive(stop_time, "the stop time", "s"))
+        times = _times(breaks[-1], intervals)
+        run = controlled(modes, inputs, start, breaks, times, _tolerance(tolerance), progress)
     if doubt := too_fast(modes, run.w):
         warnings.warn(doubt, AcausalWarning, stacklevel=2)
     return run
 
 
-def _amplitudes(values: Any, n: int) -> Array:
+def _readings(variant: str, readings: Any, tolerance: Any) -> Readings | None:
+    """Those of the variant "paper", None for the corrected one."""
+    if variant == "corrected":
+        if readings is not None:
+            raise DeclarationError('readings are of variant="paper": the corrected one leaves nothing open')
+        return None
+    if tolerance is not None:
+        raise DeclarationError(
+            'tolerance= is of variant="corrected": as printed, steps are of one size, dt=, and of order 1'
+        )
+    if not isinstance(readings, Readings | None):
+        raise DeclarationError(f'readings are Readings(rotation="restarted", ...), not {readings!r}')
+    return readings or Readings()
+
+
+def _times(stop_time: float, intervals: Any) -> Array:
+    if intervals is None:
+        return np.empty(0)
+    if isinstance(intervals, bool) or not isinstance(intervals, int | np.integer) or intervals < 1:
+        raise DeclarationError(f"intervals is a whole number from 1 on, not {intervals!r}")
+    return np.linspace(0.0, stop_time, int(intervals) + 1)
+
+
+def _tolerance(value: Any) -> float:
+    found = positive(value, "the tolerance", "")
+    if not FINEST <= found <= COARSEST:
+        raise DeclarationError(f"the tolerance is a number from {FINEST:g} to {COARSEST:g}, not {value!r}")
+    return found
+
+
+def _amplitudes(values: Any, n: int, what: str = "amplitudes and rates") -> Array:
     try:
         found = np.broadcast_to(np.asarray(values, dtype=float), (n,))
     except (TypeError, ValueError):
         found = np.full(1, np.nan)
     if not np.isfinite(found).all():
-        raise DeclarationError(f"amplitudes and rates of {n} modes are one number or {n}, not {values!r}")
+        raise DeclarationError(f"{what} of {n} modes are one number or {n}, not {values!r}")
     return found
 
 
 def _damping(values: Any, n: int) -> Array:
-    found = _amplitudes(values, n)
+    found = _amplitudes(values, n, "damping ratios")
     if (found < 0).any():
         raise DeclarationError(f"the damping of a mode is not negative, as it is in {values!r}")
     return found
 
 
 def _rotation(values: Any) -> Array:
-    A = np.array(values, dtype=float)
-    if A.shape != (3, 3) or np.abs(A @ A.T - np.eye(3)).max() > 1e-9 or np.linalg.det(A) < 0:
+    try:
+        A = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        A = np.zeros(0)
+    if (
+        A.shape != (3, 3)
+        or not np.isfinite(A).all()
+        or np.abs(A @ A.T - np.eye(3)).max() > 1e-9
+        or np.linalg.det(A) < 0
+    ):
         raise DeclarationError("the attitude at the start is a rotation matrix, shape (3, 3)")
     return A
 
@@ -179,50 +211,3 @@ def _start(modes: FreeModes, A: Array, O: Array, velocity: Array, w: Array, q: A
     carried = np.einsum("k,kab,b->a", w, modes.turning, np.concatenate([np.zeros(6), q]))
     turn = Rotation.from_matrix(A.T).as_rotvec()
     return np.concatenate([O, A.ravel(), turn, np.zeros(6), q, A @ velocity, w, qd + carried[6:]])
-
-
-def _inputs(
-    modes: FreeModes, loads: Sequence[FrameLoad], gravity: Any, dt: float, count: int, middle: str
-) -> tuple[tuple[Array, Array], Array]:
-    """Accelerations of the modes by unit loads, in the world and following, and what acts in each step."""
-    # Limits from inside of each step: a load may jump between two steps. The last step is given the load of its start.
-    edge, starts = EDGE * dt, dt * np.arange(count + 1)
-    ends = starts[:-1] + dt
-    times = np.concatenate([starts + edge, starts[:-1] + dt / 2, ends - edge])
-    times[count] = starts[-1]
-    frames = {frame.name: frame for frame in modes.body.interfaces}
-    maps: dict[bool, list[Array]] = {False: [np.zeros((modes.size, 0))], True: [np.zeros((modes.size, 0))]}
-    found: dict[bool, list[Array]] = {False: [np.zeros((len(times), 0))], True: [np.zeros((len(times), 0))]}
-    for load in loads:
-        by_force, by_moment = modes.load(frames[load.frame])
-        for course, unit in ((load.force, by_force), (load.moment, by_moment)):
-            if callable(course) or np.any(course):
-                what = f"{'force' if unit is by_force else 'moment'} at `{load.frame}`"
-                maps[load.follower].append(unit)
-                found[load.follower].append(sampled(course, times, what))
-    weight = sampled((0.0, 0.0, 0.0) if gravity is None else gravity, times, "gravity")
-    values = np.hstack([weight, *found[False], *found[True]])
-    first, between, last = np.split(values, [count + 1, 2 * count + 1])
-    between, last = (np.vstack([part, first[-1:]]) for part in (between, last))
-    if middle == "mean":
-        between = (first + last) / 2
-    return (np.hstack(maps[False]), np.hstack(maps[True])), np.hstack([first, between, last])
-
-
-def _bounds(modes: FreeModes) -> Array:
-    body, N = modes.body, modes.size
-    bounds = np.full(15 + 2 * N, np.inf)
-    if body.n:
-        bounds[21 : 15 + N] = FAR * np.sqrt(np.trace(body.second_moment) / np.diag(body.M))
-    return bounds
-
-
-def _diverged(modes: FreeModes, motion: FrameMotion, dt: float) -> str:
-    most, fastest = limit(modes)
-    step = len(motion.time) + 1
-    doubt = too_fast(modes, motion.w)
-    mend = f"{doubt[0].upper()}{doubt[1:]}." if doubt else "Take shorter steps."
-    return (
-        f"the motion diverges in step {step}, at t = {step * dt:.6g} s, with dt * omega_max = {dt * fastest:.4g}, where the "
-        f"limit of a body that does not turn is {most * fastest:.4g}. {mend}"
-    )

@@ -41,6 +41,7 @@ SOLVE = (
     "checks",
     "failed",
     "beginning",
+    "given",
     "run",
 )
 # Files that may import a package which is installed with an extra, and only there.

@@ -21,7 +21,7 @@ import acausal as ac
 from acausal import Formulation, Model, chain, fixed, part
 from acausal.study import Study
 from components import Body, FlexibleBeam, Revolute, World
-from models import FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
+from models import FEPlate, FlexiblePendulum, FreeVibration, SliderCrank, SpinUp
 
 DOCUMENT = Path("docs/accuracy.md")
 STIFFENED = {"formulation": "fem", "beam.geometric_stiffness": True}
@@ -75,6 +75,14 @@ def free_vibration() -> str:
 
 def slider_crank() -> str:
     return _scene(SliderCrank(), "slider-crank", ("slider_position", "rod_mid_deflection"))
+
+
+def fe_plate() -> str:
+    """Every case, as methods are compared here."""
+    found = ac.study(FEPlate())
+    found.plot(DOCUMENT.with_name("accuracy-fe-plate.png"))
+    lines = "\n".join(f"- {line}" for line in [*found.price(), *found.gaps()])
+    return f"{_sentence(str(found.reference))}\n\n{_table(found, found.rows)}\n\n{lines}"
 
 
 def order() -> str:
@@ -162,6 +170,7 @@ SECTIONS: Mapping[str, Callable[[], str]] = {
     "pendulum": pendulum,
     "free-vibration": free_vibration,
     "slider-crank": slider_crank,
+    "fe-plate": fe_plate,
     "effects": effects,
     "counts": counts,
 }

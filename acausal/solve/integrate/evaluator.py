@@ -11,6 +11,7 @@ from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
 from acausal.solve.causes import without_value
 from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.known import Known
 from acausal.solve.points import Rows
 
 MEND = "Say what holds there: piecewise((value, condition), ..., otherwise)."
@@ -26,10 +27,12 @@ class Evaluator:
         first.
     solver : Consistent
         Solves for it, and counts.
+    known : Known, optional
+        Values that are not computed, at the same times.
     """
 
-    def __init__(self, rows: Rows, solver: Consistent) -> None:
-        self.solver, self.rows = solver, rows
+    def __init__(self, rows: Rows, solver: Consistent, known: Known | None = None) -> None:
+        self.solver, self.rows, self.known = solver, rows, known
         self._given = rows
         self._solved: set[int] = set()
 
@@ -47,19 +50,26 @@ class Evaluator:
     def __call__(self, expression: ca.SX) -> np.ndarray:
         """Return one row for each time, one column for each entry of a column of expressions."""
         c = self.solver.compiled
-        resolved = c.reduced.running.resolve(ca.densify(expression))
+        resolve = self.known.resolve if self.known else c.reduced.running.resolve
+        resolved = resolve(ca.densify(expression))
         wanted = c.dependence.inside(resolved)
         # What closes a loop is in nearly all equations: all at once, and the order of reading makes no difference.
         self._solve((set(range(c.nz)) if wanted and c.constraints.size else wanted) - self._solved)
         arguments = [c.reduced.x, c.reduced.z, c.reduced.p, time_symbol.sx, c.reduced.constants]
+        arguments += [self.known.symbols] if self.known else []
         rows, n = self.rows, len(self.rows)
+        if not n:
+            return np.empty((0, resolved.numel()))
         try:
             call = Call(ca.Function("observe", arguments, [resolved]).map(n))
         except RuntimeError:
             refuse_undeclared(resolved, arguments)
             raise
         p = np.tile(self.solver.problem.p, n)
-        return call(rows.x.ravel(), rows.z.ravel(), p, rows.times, rows.constants.ravel())[0].reshape(n, -1).copy()
+        own = [self.known.values.ravel()] if self.known else []
+        return (
+            call(rows.x.ravel(), rows.z.ravel(), p, rows.times, rows.constants.ravel(), *own)[0].reshape(n, -1).copy()
+        )
 
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""
@@ -75,12 +85,18 @@ class Evaluator:
         solved, lost = self.solver(self._given, wanted)
         z = self.rows.z.copy()
         z[:, unknowns] = solved.z[:, unknowns]
+        if self.known is not None and lost:
+            z[np.ix_(np.isin(self.rows.times, lost), unknowns)] = np.nan  # there is no integrator that had come near
         self.rows = self.rows.with_z(z)
         self._solved.update(unknowns.tolist())
         if lost:
+            rest = (
+                "near that of the integrator, whose values are returned there"
+                if self.known is None
+                else "that is found"
+            )
             names = ", ".join(f"`{compiled.algebraic[k]}`" for k in sorted(wanted)[:3])
             caution(
                 f"at t = {min(lost):.6g} s, and at {len(lost)} output times in all, the equations of {names} have no unique "
-                "solution near that of the integrator, whose values are returned there: a position is singular, or a law has "
-                "no value."
+                f"solution {rest}: a position is singular, or a law has no value."
             )

@@ -1,4 +1,5 @@
 """Measuring: cases are run in parallel, in processes or on a cluster, and kept in a journal.
 
-case, limit, shipping <- measure <- pool (workers, arguments) <- session (journal); deviation stands by itself.
+limit, shipping <- run_function <- case <- own_run <- measure <- pool (workers, arguments) <- session (journal); deviation
+stands by itself.
 """

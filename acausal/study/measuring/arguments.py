@@ -8,6 +8,7 @@ from typing import Any
 from acausal.compiler import CompiledModel
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
+from acausal.language.fields import Field
 from acausal.language.values import shown
 from acausal.result.lookup import find, match
 from acausal.simulation.asked import check_intervals
@@ -40,9 +41,13 @@ def outputs_of(compiled: CompiledModel, patterns: Sequence[str]) -> tuple[str, .
     compiled : CompiledModel
         The model.
     patterns : sequence of str
-        Paths, with * and ?; the outputs of the model if empty.
+        Paths, with * and ?; if empty, what the model's attribute `compared` names, or else its outputs.
     """
-    paths = match(compiled.tree, items("outputs", patterns, '["x", "y"]')) or compiled.outputs
+    asked = items("outputs", patterns, '["x", "y"]')
+    own = getattr(type(compiled.tree), "compared", ())
+    if not asked and not isinstance(own, Field):
+        asked = items("the attribute `compared` of the model", own, '("x", "y")')
+    paths = match(compiled.tree, asked) or compiled.outputs
     found = tuple(name for path in paths for _, name, _ in find(compiled.tree, path).entries)
     if not found:
         raise DeclarationError(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 
 from acausal.language.data import plain
 from acausal.policy import POLICY
+from acausal.study.measuring.run_function import identity_of
 from acausal.study.measuring.shipping import pack, unpack
 
 
@@ -36,6 +37,10 @@ class Case:
         As of `simulate`; None is the model's own.
     constraints : str
         As of `simulate`.
+    dt : float or None
+        Step in s of a run of the formulation's own, where that is refined instead of the tolerance.
+    run : callable or None
+        The run of the formulation's own.
     """
 
     formulation: str = "as given"
@@ -45,6 +50,8 @@ class Case:
     max_order: int | None = None
     method: str | None = None
     constraints: str = "auto"
+    dt: float | None = None
+    run: Callable[..., Any] | None = None
 
     @cached_property
     def structure(self) -> str:
@@ -54,18 +61,31 @@ class Case:
     @cached_property
     def key(self) -> str:
         """Hash of everything in the case, the same in every session."""
-        return hashlib.sha256(
-            json.dumps(plain({f.name: getattr(self, f.name) for f in fields(self)}), sort_keys=True).encode()
-        ).hexdigest()
+        known = {f.name: getattr(self, f.name) for f in fields(self)} | {"run": identity_of(self.run)}
+        return hashlib.sha256(json.dumps(plain(known), sort_keys=True).encode()).hexdigest()
+
+    @property
+    def control(self) -> float:
+        """What is refined: the step in s, or the tolerance."""
+        return self.tolerance if self.dt is None else self.dt
+
+    @property
+    def fineness(self) -> str:
+        """The same for tables and pictures, "dt 1e-04 s" or "1e-04"."""
+        return f"{self.tolerance:.0e}" if self.dt is None else f"dt {self.dt:.3g} s"
+
+    def refined(self, control: float) -> Case:
+        """Return the case with another step, or another tolerance."""
+        return replace(self, tolerance=control) if self.dt is None else replace(self, dt=control)
 
     def told(self) -> Case:
-        """Return a case that is equal to this one, without its settings."""
-        found = replace(self, settings={})
+        """Return a case that is equal to this one, without its settings and its run."""
+        found = replace(self, settings={}, run=None)
         vars(found).update(key=self.key, structure=self.structure)
         return found
 
     def __str__(self) -> str:
-        words = [self.formulation, self.size, f"tolerance {self.tolerance:.0e}"]
+        words = [self.formulation, self.size, "tolerance " * (self.dt is None) + self.fineness]
         words += [f"order {self.max_order}" if self.max_order else "", self.method or ""]
         words += [self.constraints if self.constraints != "auto" else ""]
         return ", ".join(filter(None, words))
@@ -104,6 +124,8 @@ class Job:
     settings : bytes
         Those of the case, from `pack`: classes of the user's own file among them are those of the model. Empty where the
         case has them itself.
+    run : bytes
+        The run of the formulation's own, from `pack`; empty where there is none.
     """
 
     model: bytes
@@ -116,10 +138,12 @@ class Job:
     initial: str | None = None
     home: str = ""
     settings: bytes = b""
+    run: bytes = b""
 
     def of(self, case: Case) -> Job:
         """Return the job of another case, as it is sent."""
-        return replace(self, case=case.told(), settings=pack(dict(case.settings), self.home))
+        run = pack(case.run, self.home) if case.run else b""
+        return replace(self, case=case.told(), settings=pack(dict(case.settings), self.home), run=run)
 
     @property
     def values(self) -> Mapping[str, Any]:

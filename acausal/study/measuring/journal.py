@@ -22,6 +22,7 @@ from acausal.language.fields import Structural
 from acausal.result import check_writable, read_text
 from acausal.result.files import whole
 from acausal.study.measuring.case import Case, Measurement
+from acausal.study.measuring.run_function import files_of
 
 # Under this name a line holds the key of its case.
 POINT = "point"
@@ -138,7 +139,7 @@ def _in_the_way(path: Path | None) -> str:
     )
 
 
-def identity(model: Component, trees: Iterable[Component], **options: Any) -> dict[str, Any]:
+def identity(model: Component, trees: Iterable[Component], runs: Iterable[Any] = (), **options: Any) -> dict[str, Any]:
     """Return what distinguishes one study from another: engine, model with its sources, and options of all cases.
 
     Parameters
@@ -147,11 +148,14 @@ def identity(model: Component, trees: Iterable[Component], **options: Any) -> di
         The model, not built.
     trees : iterable of Component
         The model built in every formulation.
+    runs : iterable of callable or None
+        Runs that formulations bring themselves.
     **options
         What all cases have in common.
     """
     classes = {cls for tree in trees for part in walk(tree) for cls in type(part).__mro__}
     files = {getattr(sys.modules.get(cls.__module__), "__file__", None) for cls in classes}
+    files |= {name for run in runs for name in files_of(run)}
     digest = hashlib.sha256()
     # A script that is typed in, or read from standard input, has the name of a file that there is not.
     for name in sorted(file for file in files if file and Path(file).is_file()):

@@ -19,6 +19,7 @@ from acausal.result import Result
 from acausal.simulation import simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
+from acausal.study.measuring.own_run import take
 from acausal.study.measuring.shipping import unpack
 
 KEPT = 2
@@ -64,7 +65,7 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
         factorisations=stats.factorisations,
         residual_evaluations=stats.residual_evaluations,
         equations=stats.equations_reduced,
-        operations=int(compiled.local.function.n_instructions()),
+        operations=stats.operations or (0 if job.run else int(compiled.local.function.n_instructions())),
         max_order=stats.max_order,
         method=stats.method,
         constraints=stats.constraints,
@@ -79,8 +80,14 @@ def _measure(job: Job, compiled: CompiledModel, show: Any) -> Measurement:
 
 def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
     """Run, and return the solve time less the processor time of other processes meanwhile."""
-    case = job.case
     began, busy = clock.perf_counter(), clock.process_time()
+    result, seconds = take(job, compiled, show) if job.run else _simulated(job, compiled, show)
+    share = (clock.process_time() - busy) / (clock.perf_counter() - began)
+    return result, seconds * min(1.0, share)
+
+
+def _simulated(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
+    case = job.case
     result = simulate(
         compiled,
         stop_time=job.stop_time,
@@ -92,8 +99,7 @@ def _run(job: Job, compiled: CompiledModel, show: Any) -> tuple[Result, float]:
         initial=job.initial,
         progress=show,
     )
-    share = (clock.process_time() - busy) / (clock.perf_counter() - began)
-    return result, result.stats.solve_seconds * min(1.0, share)
+    return result, result.stats.solve_seconds
 
 
 def _compiled(job: Job) -> CompiledModel:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -15,6 +15,8 @@ from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.component import Component
 from acausal.language.data import same
+from acausal.result import Result
+from acausal.study.measuring.run_function import check_function, check_steps
 
 # Where a model does not say which numbers of elements to try: its own, twice and four times as many.
 MULTIPLES = (1, 2, 4)
@@ -22,7 +24,7 @@ MULTIPLES = (1, 2, 4)
 
 @dataclass(frozen=True)
 class Formulation:
-    """One way of discretising a model: the settings that select it, and what is refined in it.
+    """One way of computing a model: the settings that select it, what is refined in it, and how it runs.
 
     Parameters
     ----------
@@ -36,10 +38,18 @@ class Formulation:
         The greatest of these numbers where there is one, as there are only so many modes of a body; a study finds them.
     exact : bool
         True if it comes to the geometrically exact solution in the limit: a reference is made from it.
+    run : callable, optional
+        Runs it in place of `simulate`: run(model, stop_time, times, tolerance=...) returns a Result at these times, as
+        `result_of` makes one. `model` is compiled and has the settings, `times` are equidistant from 0 to `stop_time`, in s.
+        It is sent to the workers like the model, may raise errors of acausal, whose first line the row then has, and is given
+        `progress=` if it takes that: called with the part that is done and the steps, this ends runs that take too long.
+    dt : sequence of float
+        Steps in s that are tried instead of the tolerances: run(model, stop_time, times, dt=...).
 
     Examples
     --------
     >>> Formulation("volumes", {"formulation": "substructured"}, {"volumes": (5, 10, 20)}, exact=True)  # doctest: +SKIP
+    >>> Formulation("leapfrog", run=leapfrog, dt=(1e-3, 1e-4))  # doctest: +SKIP
     """
 
     name: str
@@ -47,6 +57,8 @@ class Formulation:
     refine: Mapping[str, Sequence[int]] = field(default_factory=dict)
     exact: bool = False
     most: Mapping[str, int] = field(default_factory=dict)
+    run: Callable[..., Result] | None = None
+    dt: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         lengths = {len(sizes) for sizes in self.refine.values()}
@@ -54,6 +66,14 @@ class Formulation:
             raise DeclarationError(
                 f"formulation `{self.name}`: sizes advance together, so each path of refine needs as many of them."
             )
+        check_steps(f"formulation `{self.name}`: dt", self.dt)
+        object.__setattr__(self, "dt", tuple(self.dt))
+        if self.run is None and len(self.dt):
+            raise DeclarationError(
+                f"formulation `{self.name}`: dt is of a run of its own, run=...; `simulate` chooses its steps by the tolerance."
+            )
+        if self.run is not None:
+            check_function(self.name, self.run, "dt" if len(self.dt) else "tolerance")
 
     @property
     def steps(self) -> int:

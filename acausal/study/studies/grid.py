@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from acausal.language.values import shown
 from acausal.simulation.asked import CHOICES, CONSTRAINTS
 from acausal.study.measuring.arguments import items
 from acausal.study.measuring.case import Case
+from acausal.study.measuring.run_function import check_steps
 from acausal.study.studies.formulation import Formulation
 
 EXAMPLES = {
@@ -42,6 +43,8 @@ class Grid:
         As of `simulate`.
     switches : mapping of str to sequence
         Other structural parameters and effects by path, with their values.
+    dt : sequence of float, optional
+        Steps in s of the formulations that declare some, in place of these.
     """
 
     formulations: Sequence[Formulation]
@@ -50,6 +53,7 @@ class Grid:
     methods: Sequence[str | None] = (None,)
     constraints: Sequence[str] = ("auto",)
     switches: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    dt: Sequence[float] | None = None
 
     def __post_init__(self) -> None:
         for name, example in EXAMPLES.items():
@@ -58,6 +62,11 @@ class Grid:
         for value in self.tolerances:
             if isinstance(value, bool) or not isinstance(value, int | float) or not 1e-12 <= value < 1:
                 raise DeclarationError(f"tolerances has {value!r}; it must lie between 1e-12 and 1, for instance 1e-6.")
+        if self.dt is not None:
+            check_steps("dt", items("dt", self.dt, "[1e-3, 1e-4]"))
+            if not len(self.dt) or not any(form.dt for form in self.formulations if isinstance(form, Formulation)):
+                why = "no formulation has steps of its own" if len(self.dt) else "it is empty"
+                raise DeclarationError(f"dt has no effect: {why}. Leave it out.")
         for value in self.max_orders:
             if value is not None and (isinstance(value, bool) or value not in range(1, 6)):
                 raise DeclarationError(f"a limit of the order is {value!r}; it must be a whole number from 1 to 5.")
@@ -86,13 +95,7 @@ class Grid:
         given : mapping of str to value
             Settings that all cases have in common.
         """
-        return [
-            replace(case, method=method, constraints=constraints, max_order=order, tolerance=tolerance)
-            for case in self.structures(given)
-            for method, constraints, order, tolerance in itertools.product(
-                self.methods, self.constraints, self.max_orders, sorted(self.tolerances, reverse=True)
-            )
-        ]
+        return [found for form, case in self._structures(given) for found in self._runs(form, case)]
 
     def structures(self, given: Mapping[str, Any]) -> list[Case]:
         """Return one case for each model that has to be compiled.
@@ -102,10 +105,23 @@ class Grid:
         given : mapping of str to value
             Settings that all cases have in common.
         """
-        found = []
+        return [case for _, case in self._structures(given)]
+
+    def _structures(self, given: Mapping[str, Any]) -> Iterator[tuple[Formulation, Case]]:
         for form in self.formulations:
             for step, values in itertools.product(range(form.steps), itertools.product(*self.switches.values())):
                 settings, size = form.at(step)
                 switched = dict(zip(self.switches, values, strict=True))
-                found.append(Case(form.name, {**given, **settings, **switched}, size))
-        return found
+                yield form, Case(form.name, {**given, **settings, **switched}, size, run=form.run)
+
+    def _runs(self, form: Formulation, case: Case) -> Iterator[Case]:
+        """A case with every tolerance, and all that is chosen of `simulate`; or with every step."""
+        tolerances = sorted(self.tolerances, reverse=True)
+        if form.dt:
+            yield from (replace(case, dt=float(dt)) for dt in sorted(self.dt or form.dt, reverse=True))
+        elif form.run:
+            yield from (replace(case, tolerance=tolerance) for tolerance in tolerances)
+        else:
+            for method, constraints, order in itertools.product(self.methods, self.constraints, self.max_orders):
+                chosen = replace(case, method=method, constraints=constraints, max_order=order)
+                yield from (replace(chosen, tolerance=tolerance) for tolerance in tolerances)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from acausal.errors import DeclarationError
 from acausal.result.plots import canvas
 from acausal.study.studies.reference import Reference
-from acausal.study.studies.rows import TOLERANCE, StudyRow, pareto
+from acausal.study.studies.rows import STEP, TOLERANCE, StudyRow, pareto
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ def draw(rows: Sequence[StudyRow], reference: Reference, title: str, output: str
     """Draw error over solve time, both logarithmic.
 
     A curve joins the points of a formulation that no other point of it beats. Hollow points would gain from a tighter
-    tolerance, filled ones would not.
+    tolerance or shorter steps, filled ones would not.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def _curve(axes: Axes, rows: Sequence[StudyRow], name: str, k: int, output: str 
         return
     colour, marker = f"C{k % 10}", MARKERS[k % len(MARKERS)]
     for row in rows:
-        face = "white" if row.limit == TOLERANCE else colour
+        face = "white" if row.limit in (TOLERANCE, STEP) else colour
         style = {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": 5, "linestyle": "none"}
         axes.plot([_ms(row)], [row.error_of(output)], **style)
     best = pareto(rows, output=output)
@@ -90,13 +90,13 @@ def _front(axes: Axes, rows: Sequence[StudyRow], floor: float, output: str | Non
     best = pareto(rows, floor, output)
     x, y = [_ms(r) for r in best], [r.error_of(output) for r in best]
     ring = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "color": "black", "linestyle": "none"}
-    axes.plot(x, y, label="best of all: size, tolerance", markeredgewidth=1.0, **ring)
+    axes.plot(x, y, label="best of all: size, tolerance or step", markeredgewidth=1.0, **ring)
     labelled = 0.0
     for k, row in enumerate(best):
         if x[k] < TOO_NEAR * labelled:
             continue
         crowded, labelled = x[k] < NEAR * labelled, x[k]
-        text = ", ".join(filter(None, [row.case.size, f"{row.case.tolerance:.0e}".replace("e-0", "e-")]))
+        text = ", ".join(filter(None, [row.case.size, row.case.fineness.replace("e-0", "e-")]))
         place: dict[str, Any] = {"ha": "left", "va": "bottom"} if crowded else {"ha": "right", "va": "top"}
         offset = (5, 7) if crowded else (-5, -7)
         axes.annotate(text, (x[k], y[k]), offset, textcoords="offset points", fontsize="x-small", **place)
@@ -116,7 +116,7 @@ def _band(axes: Axes, floor: float) -> None:
 
 def _legend(axes: Axes, missing: Sequence[str]) -> None:
     style = {"color": "0.4", "marker": "o", "markersize": 5, "linestyle": "none"}
-    axes.plot([], [], markerfacecolor="white", label="hollow: limited by the tolerance", **style)
+    axes.plot([], [], markerfacecolor="white", label="hollow: limited by the tolerance or the step", **style)
     axes.plot([], [], markerfacecolor="0.4", label="filled: limited by elements, model or reference", **style)
     for text in missing:
         axes.plot([], [], linestyle="none", label=text)

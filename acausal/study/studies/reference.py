@@ -70,7 +70,7 @@ class Reference:
 
 
 def make(measure: Measure, formulations: Sequence[Formulation], case: Case, least: float, asked: float) -> Reference:
-    """Make the reference from the model itself.
+    """Make the reference from the model itself, where there are any by formulations that a tolerance refines.
 
     Parameters
     ----------
@@ -86,6 +86,10 @@ def make(measure: Measure, formulations: Sequence[Formulation], case: Case, leas
         Deviation to be reached, as a fraction of the range.
     """
     start = replace(case, tolerance=max(STUDY.least, least / STUDY.tighter))
+    own = [form for form in formulations if not form.dt]
+    if not own:
+        return _stepped(measure, _at(start, formulations[0], formulations[0].steps - 1), min(formulations[0].dt), asked)
+    formulations = own
     if not any(form.refine for form in formulations):
         return _tightened(measure, _at(start, formulations[0], 0), asked)
     return _refined(measure, [form for form in formulations if form.refine], start, asked)
@@ -221,8 +225,25 @@ def _tightened(measure: Measure, case: Case, asked: float) -> Reference:
     return _checked(measure, _ended(found, why), looser if best.error else best)
 
 
+def _stepped(measure: Measure, case: Case, dt: float, asked: float) -> Reference:
+    """Halve the steps of a formulation that has its own."""
+    found, why = None, ""
+    longer, best = measure([replace(case, dt=dt), replace(case, dt=dt / 2)])
+    for _ in range(STUDY.rounds):
+        if longer.error or best.error:
+            why = _failed([longer, best])
+            break
+        found = _reference(best, {"longer steps": _distances(longer, best)}, asked)
+        if found.floor <= asked:
+            break
+        longer, best = best, measure([best.case.refined(best.case.control / 2)])[0]
+    return _ended(found, why)
+
+
 def _checked(measure: Measure, found: Reference, best: Measurement) -> Reference:
-    """Compare with loops closed in the other way, or with the other integrator."""
+    """Compare with loops closed in the other way, or with the other integrator, where `simulate` ran it."""
+    if best.case.run is not None:
+        return found
     if best.constraints in ("states", "projection"):
         name = "projection" if best.constraints == "states" else "states"
         other = measure([replace(best.case, constraints=name)])[0]
@@ -244,7 +265,7 @@ def _reference(best: Measurement, agreement: Mapping[str, Mapping[str, float]], 
 
 def _at(case: Case, form: Formulation, step: int) -> Case:
     settings, size = form.at(step)
-    return replace(case, formulation=form.name, settings={**case.settings, **settings}, size=size)
+    return replace(case, formulation=form.name, settings={**case.settings, **settings}, size=size, run=form.run)
 
 
 def _failed(now: Sequence[Measurement]) -> str:

@@ -17,7 +17,7 @@ from acausal.study.studies.reference import Reference
 STUDY = POLICY.study
 
 # What limits the accuracy of a case.
-TOLERANCE, ELEMENTS, MODEL, REFERENCE = "tolerance", "elements", "model", "reference"
+TOLERANCE, STEP, ELEMENTS, MODEL, REFERENCE = "tolerance", "step", "elements", "model", "reference"
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class StudyRow:
     errors : mapping of str to (float, float)
         Largest and root mean square error of each output, as fractions of its range.
     limit : str
-        What limits the accuracy: "tolerance", "elements" (of which there are too few), "model" (the formulation has
-        another limit than the reference), or "reference" (which is not known better).
+        What limits the accuracy: "tolerance", "step" (of a run with steps of its own), "elements" (of which there are too
+        few), "model" (the formulation has another limit than the reference), or "reference" (which is not known better).
     front : bool
         Whether no other case is both faster and more accurate.
     remark : str
@@ -136,7 +136,7 @@ def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms:
     if reference.floor > half:
         return REFERENCE
     if _tolerance_error(row, good, reference) > half:
-        return TOLERANCE
+        return TOLERANCE if row.case.dt is None else STEP
     if form.refine and (exact or _elements_error(row, good, form, reference) > half):
         return ELEMENTS
     return REFERENCE if exact else MODEL
@@ -154,16 +154,21 @@ def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
 
 
 def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float:
-    """Estimate what the tolerance does, from the same equations at another one."""
-    own = replace(row.case, tolerance=0.0)
-    series = sorted((r for r in good if replace(r.case, tolerance=0.0) == own), key=lambda r: r.case.tolerance)
+    """Estimate what the tolerance or the step does, from the same equations at another one."""
+    own = row.case.refined(0.0)
+    series = sorted((r for r in good if r.case.refined(0.0) == own), key=lambda r: r.case.control)
     if len(series) < 2:
         return 0.0
     if row.case != series[0].case:
         return _between(row, series[0], reference)
-    return (
-        _between(row, series[1], reference) * (row.case.tolerance / series[1].case.tolerance) ** STUDY.tolerance_power
-    )
+    ratio = row.case.control / series[1].case.control
+    if row.case.dt is None:
+        return _between(row, series[1], reference) * ratio**STUDY.tolerance_power
+    # Of steps that were shortened, so that outputs lie at their ends, the numbers tell the ratio. Their error is taken to go
+    # with the step, the slowest way in which it does.
+    many, few = (r.measurement.steps for r in series[:2])
+    ratio = few / many if few else ratio
+    return _between(row, series[1], reference) * (ratio / (1 - ratio) if ratio < 1 else 1.0)
 
 
 def _elements_error(row: StudyRow, good: Sequence[StudyRow], form: Formulation, reference: Reference) -> float:

@@ -8,15 +8,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel, compile, model_of, values_of
-from acausal.compiler.call import Call
+from acausal.errors import DeclarationError
 from acausal.flatten.instantiate import Instantiation
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
-from acausal.language.expression import Expr
 from acausal.policy import POLICY
 from acausal.result import check_writable
 from acausal.result.files import whole
@@ -35,13 +33,14 @@ from acausal.study.measuring.arguments import (
 from acausal.study.measuring.case import Case, Job
 from acausal.study.measuring.journal import Journal, identity
 from acausal.study.measuring.pool import executor_of
+from acausal.study.measuring.run_function import check_sendable
 from acausal.study.measuring.session import Progress, Session
 from acausal.study.measuring.shipping import pack
 from acausal.study.studies.formulation import Formulation, formulations_of, within
 from acausal.study.studies.grid import TOLERANCES, Grid
 from acausal.study.studies.picture import draw
 from acausal.study.studies.reference import Reference, make, matching
-from acausal.study.studies.rows import StudyRow, pareto, rows_of
+from acausal.study.studies.rows import MODEL, StudyRow, pareto, rows_of
 from acausal.study.studies.table import cells, columns
 
 if TYPE_CHECKING:
@@ -80,9 +79,9 @@ class Study:
         return columns(self.rows, self.switches)
 
     def table(self) -> str:
-        """Return reference, cases and the price of each digit as text for a terminal."""
+        """Return reference, cases, the price of each digit and the gaps of other models as text for a terminal."""
         table = cells(self.rows, self.reference, self.switches).text()
-        return "\n\n".join([self.title, str(self.reference), table, "\n".join(self.price())])
+        return "\n\n".join([self.title, str(self.reference), table, "\n".join([*self.price(), *self.gaps()])])
 
     def price(self) -> list[str]:
         """Return what each digit costs: the fastest case within each power of ten of the error, a line each."""
@@ -92,6 +91,18 @@ class Study:
             if not within or self.reference.floor > 10.0**power:
                 break
             lines.append(f"an error of {10.0**power:.0e} costs {1e3 * within[0].seconds:.3g} ms: {within[0].case}")
+        return lines
+
+    def gaps(self) -> list[str]:
+        """Return how far formulations stay from the reference because they are other models, a line each."""
+        lines = []
+        for name in dict.fromkeys(row.case.formulation for row in self.rows):
+            own = [row for row in self.rows if row.case.formulation == name and not row.remark]
+            least = min(own, key=lambda row: row.error, default=None)
+            if least is not None and least.limit == MODEL:
+                lines.append(
+                    f"{name}: another model than the reference, {least.error:.1e} of the range away at its best"
+                )
         return lines
 
     def document(self) -> dict[str, Any]:
@@ -112,7 +123,7 @@ class Study:
         write_csv(path, self.columns)
 
     def to_markdown(self, path: str | Path) -> None:
-        """Write reference, cases and the price of each digit as Markdown.
+        """Write reference, cases, the price of each digit and the gaps of other models as Markdown.
 
         Parameters
         ----------
@@ -120,7 +131,7 @@ class Study:
             Name of the file.
         """
         table = cells(self.rows, self.reference, self.switches).markdown()
-        price = "\n".join(f"- {line}" for line in self.price())
+        price = "\n".join(f"- {line}" for line in [*self.price(), *self.gaps()])
         with whole(path) as file:
             file.write("\n\n".join([str(self.reference), table, price]).strip() + "\n")
 
@@ -153,6 +164,7 @@ def study(
     methods: Sequence[str | None] = (None,),
     constraints: Sequence[str] | None = None,
     switches: Mapping[str, Sequence[Any]] | None = None,
+    dt: Sequence[float] | None = None,
     reference: str | Path | None = None,
     accuracy: float = 1e-4,
     intervals: int = POLICY.defaults.intervals,
@@ -175,7 +187,7 @@ def study(
     parameters : mapping of str to value, optional
         Values by path that all cases have in common; what they fix is not varied.
     outputs : sequence of str
-        Paths of what is compared, with * and ?; the model's outputs if empty.
+        Paths of what is compared, with * and ?; if empty, those of the model's attribute `compared`, or its outputs.
     formulations : sequence of Formulation, optional
         Ways of discretising the model; those that it declares or that follow from its fields if not given.
     tolerances, max_orders, methods : sequence
@@ -184,6 +196,8 @@ def study(
         As of `simulate`; "states" and "projection" for a model with loops and a single formulation.
     switches : mapping of str to sequence, optional
         Other structural parameters and effects by path, with the values to be tried.
+    dt : sequence of float, optional
+        Steps in s to be tried in formulations that have steps of their own; those that they declare if not given.
     reference : str or Path, optional
         A table as `simulate --csv` writes it; made from the model if not given.
     accuracy : float
@@ -227,21 +241,23 @@ def study(
     asked = items("formulations", formulations or formulations_of(model, given), "formulations_of(model)")
     forms = [within(model, given, form) if isinstance(form, Formulation) else form for form in asked]
     varied = table_of("switches", switches, '{"crank": ["elastic", "rigid"]}')
-    grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied)
+    grid = Grid(forms, tolerances, max_orders, methods, ("auto",) if constraints is None else constraints, varied, dt)
     compiled = compile(model, given)
     names = outputs_of(compiled, outputs)
-    if constraints is None and compiled.constraints.size and len(forms) == 1 and not forms[0].refine:
+    if constraints is None and compiled.constraints.size and len(forms) == 1 and not (forms[0].refine or forms[0].run):
         grid = replace(grid, constraints=("states", "projection"))
     trees = [Instantiation(model, case.settings).root for case in grid.structures(given)]
+    for form in forms:
+        check_sendable(form.name, form.run, type(model).__module__)
     job = Job(pack(model), Case(), stop, intervals, names, repeats, limit, initial, type(model).__module__)
     known = None if table is None else matching(table, names, stop * np.linspace(0.0, 1.0, intervals + 1))
     common = {"given": given, "stop_time": stop, "intervals": intervals, "outputs": names, "initial": initial}
-    kept = Journal(journal, identity(model, trees, **common))
+    kept = Journal(journal, identity(model, trees, [form.run for form in forms], **common))
     with executor_of(executor, workers) as pool:
         session = Session(job, pool, kept, progress)
         measured = session.measure(grid.cases(given), "cases")
         if known is None:
-            exact = [form for form in forms if form.exact] or list(forms[:1])
+            exact = [form for form in forms if form.exact] or [min(forms, key=lambda form: form.run is not None)]
             base = _base(compiled, grid, given)
             known = make(lambda p: session.measure(p, "reference"), exact, base, min(tolerances), accuracy)
     kept.remove()
@@ -265,11 +281,8 @@ def _base(compiled: CompiledModel, grid: Grid, given: Mapping[str, Any]) -> Case
 
 def _value(compiled: CompiledModel, path: str) -> Any:
     """Value of a structural parameter, an effect or a parameter; None where the model as given does not have it."""
-    value: Any = compiled.tree
-    for name in path.replace("[", ".[").split("."):
-        value = value[int(name[1:-1])] if name.startswith("[") else getattr(value, name, None)
-    if not isinstance(value, Expr):
-        return value
-    function = ca.Function("own", [compiled.reduced.p], [ca.densify(value.sx)])
-    numbers = Call(function)(compiled.parameter_values(None))[0].reshape(value.shape, order="F")
-    return numbers.tolist()
+    try:
+        value = compiled.value(path)
+    except DeclarationError:
+        return None
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -27,7 +27,8 @@ def columns(rows: Sequence[StudyRow], switches: Sequence[str] = ()) -> dict[str,
         "formulation": [r.case.formulation for r in rows],
         "size": [r.case.size for r in rows],
         **{path: [r.case.settings[path] for r in rows] for path in switches},
-        "tolerance": [r.case.tolerance for r in rows],
+        "tolerance": [float("nan") if r.case.dt else r.case.tolerance for r in rows],
+        **({"dt": [r.case.dt or float("nan") for r in rows]} if any(r.case.dt for r in rows) else {}),
         "max_order": [r.measurement.max_order or r.case.max_order for r in rows],
         "method": [r.measurement.method or r.case.method for r in rows],
         "constraints": [r.measurement.constraints or r.case.constraints for r in rows],
@@ -62,13 +63,14 @@ def cells(rows: Sequence[StudyRow], reference: Reference, switches: Sequence[str
     options = ("max_order", "method", "constraints")
     asked = {name: {getattr(row.case, name) for row in rows} for name in options}
     varied = [name for name in options if len(asked[name]) > 1 or len({used for used in table[name] if used}) > 1]
-    head = ["", "formulation", "size", *switches, "tolerance", *(name.replace("_", " ") for name in varied)]
+    control = "tolerance, dt" if "dt" in table else "tolerance"
+    head = ["", "formulation", "size", *switches, control, *(name.replace("_", " ") for name in varied)]
     head += ["solve ms", "compile s", "steps", "fact.", "residuals", "unknowns", "error", "rms", "limited by"]
     body = []
     for k, row in enumerate(rows):
         m, case = row.measurement, row.case
         what = ["*" if row.front else "", case.formulation, case.size, *(str(table[path][k]) for path in switches)]
-        what += [f"{case.tolerance:.0e}", *(str(table[name][k] or "") for name in varied)]
+        what += [case.fineness.removeprefix("dt "), *(str(table[name][k] or "") for name in varied)]
         costs = [f"{m.solve_seconds * 1e3:.3g}", f"{m.compile_seconds:.2g}"]
         costs += [str(n) for n in (m.steps, m.factorisations, m.residual_evaluations, m.equations)]
         body.append([*what, *(costs if m.steps or not m.error else ["-"] * 6), *_errors(row, reference)])

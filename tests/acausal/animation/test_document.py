@@ -277,6 +277,15 @@ def test_a_size_of_its_own_wherever_a_body_goes() -> None:
     assert run["size"] == pytest.approx(1)
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e7])
+def test_a_body_alone_is_seen_beside_its_path(scale: float) -> None:
+    result = shows(lambda m: geometry.Sphere(geometry.Pose((scale * m.x, 0, 0), np.eye(3))))
+    run = made(result)
+    path = run["extent"]["high"][0] - run["extent"]["low"][0]
+    assert path == pytest.approx(2 * scale)
+    assert 0.002 * path < run["shapes"][0]["diameter"] < 0.05 * path
+
+
 def test_values_that_are_no_numbers_are_bridged_and_told() -> None:
     result = shows(lambda m: geometry.Span((0, 0, 0), (1, sqrt(m.x), 0)))
     with pytest.warns(
@@ -351,7 +360,19 @@ def test_files_are_refused_before_any_work(
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("asked", [{"frames": 1}, {"frames": 2.5}, {"values": "all"}, {"plots": "phi"}, {"title": 3}])
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"frames": 1},
+        {"frames": 2.5},
+        {"values": "all"},
+        {"plots": "phi"},
+        {"title": 3},
+        {"deformation": 0.5},
+        {"deformation": 2000},
+        {"deformation": "10"},
+    ],
+)
 def test_arguments_are_refused(machine: ac.Result, tmp_path: Path, asked: dict[str, Any]) -> None:
     with pytest.raises(ac.DeclarationError, match=next(iter(asked))):
         machine.animate(tmp_path / "run.html", **asked)
@@ -392,12 +413,26 @@ def test_failed_runs_show_what_was_computed(tmp_path: Path) -> None:
     assert "stopped" not in ac.simulate(Stops(x=fixed(1)), stop_time=0.5).stats
 
 
+def test_pictures_leave_no_values_behind(tmp_path: Path) -> None:
+    result = ac.simulate(compiled(Machine), stop_time=1, intervals=100)
+    before = pickle.dumps(result)
+    result = ac.simulate(compiled(Machine), stop_time=1, intervals=100)
+    result.animate(tmp_path / "run.html")
+    first = (tmp_path / "run.html").read_bytes()
+    assert list(result._arrays) == ["time"]
+    loaded, other = pickle.loads(pickle.dumps(result)), pickle.loads(before)
+    assert all(np.array_equal(loaded[name], other[name], equal_nan=True) for name in other)
+    result.animate(tmp_path / "run.html")
+    assert (tmp_path / "run.html").read_bytes() == first
+
+
 def test_several_runs_have_one_size(tmp_path: Path, machine: ac.Result) -> None:
     other = ac.simulate(compiled(Machine), stop_time=1, intervals=100, parameters={"ball.m": 2})
     found = document({"a": run_of(machine), "b": run_of(other)}, title="both")
     assert [run["name"] for run in found["runs"]] == ["a", "b"]
     assert (found["title"], found["start"]) == ("both", "")
     assert document({"a": run_of(machine), "b": run_of(other)})["title"] == "Machine"
+    assert document({"a": run_of(machine)}, deformation=10.0)["start"] == "x=10"
     assert found["runs"][0]["size"] == found["runs"][1]["size"]
     ac.animate({"a": machine, "b": other}, tmp_path / "both.html", title="</script><b>")
     text = (tmp_path / "both.html").read_text()

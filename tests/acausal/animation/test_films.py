@@ -96,6 +96,29 @@ def _area(corners: np.ndarray) -> float:
     return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
 
 
+@pytest.mark.parametrize("rest", [None, geometry.Pose((0, 0, 0), np.eye(3))])
+def test_deformations_are_exaggerated_from_what_is_undeformed(rest: geometry.Pose | None) -> None:
+    class Bent(Orbit):
+        def shapes(self):
+            x = np.linspace(0, 1, 5)
+            w = x * (1 - x) * (1 if rest is None else x)
+            points = np.stack([2 * x, 0.1 * w, 0 * x], axis=1)
+            slopes = np.gradient(points, axis=0, edge_order=2)
+            at = np.stack([2 * x, 0 * x, 0 * x], axis=1)
+            yield geometry.Curve(points, slopes, section=(1e-9, 1e-9), rest=rest, rest_points=at)
+
+    result = ac.simulate(Bent(), stop_time=1, intervals=2)
+    (scene,) = scenes({"bent": run_of(result)}).values()
+    tops = []
+    for scale in (1, 10, 1000):
+        drawing = Drawing(scene, FRONT, deformation=scale)
+        points = np.concatenate([p.corners for p in drawing.frame(1) if len(p.corners) == 4])
+        assert (points[:, 0].min(), points[:, 0].max()) == (pytest.approx(0, abs=1e-5), pytest.approx(2, abs=1e-5))
+        tops.append(points[:, 1].max())
+    assert np.array(tops) / tops[0] == pytest.approx([1, 10, 1000], rel=1e-6)
+    assert tops[0] == pytest.approx(0.1 * (0.25 if rest is None else 4 / 27), rel=0.02)
+
+
 def test_nearer_things_are_drawn_later(orbit: ac.Result) -> None:
     (scene,) = scenes({"orbit": run_of(orbit)}).values()
     depths = [p.depth for p in Drawing(scene, camera(scene.low, scene.high, scene.up)).frame(5)]

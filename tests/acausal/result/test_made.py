@@ -15,7 +15,7 @@ VALUES = {"a.T": (MATRIX, "1"), "a.r": (MATRIX[:, 0], "m"), "s": (TIMES**2, "m/s
 
 
 def test_read():
-    found = ac.result_of(TIMES, VALUES, ["s", "a.r"], model="thing", steps=4)
+    found = ac.result_of(TIMES, VALUES, ["s", "a.r"], title="thing", steps=4)
     np.testing.assert_array_equal(found["a.T"], MATRIX)
     np.testing.assert_array_equal(found["a.T[1,2]"], MATRIX[:, 1, 2])
     np.testing.assert_array_equal(found["a.r[1]"], MATRIX[:, 0, 1])

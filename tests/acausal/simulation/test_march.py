@@ -80,3 +80,29 @@ def test_refused(step, words):
 def test_refused_shapes():
     with pytest.raises(ac.DeclarationError, match="a row of inputs for each step"):
         ac.march(decay, (1.0, 1.0), np.zeros(3))
+
+
+def test_a_compiled_step_goes_on_as_a_march_does():
+    """Taken a few at a time, in any numbers, what was found before stays as it is."""
+    given = np.random.default_rng(1).standard_normal((40, 2))
+    expected = ac.march(decay, (1.0, -3.0), given)
+    step = ac.CompiledStep(decay, 2, 2)
+    state, found, done = np.array((1.0, -3.0)), [], 0
+    for count in (1, 3, 0, 16, 3, 17):
+        states, outputs = step(state, given[done : done + count])
+        assert states.shape == outputs.shape == (count, 2)
+        found.append((states, outputs))
+        state, done = (states[-1] if count else state), done + count
+    np.testing.assert_array_equal(np.vstack([states for states, _ in found]), expected.states[1:])
+    np.testing.assert_array_equal(np.vstack([outputs for _, outputs in found]), expected.outputs)
+    assert step.operations == expected.operations
+    assert step.outputs == 2
+
+
+def test_a_compiled_step_refuses_other_shapes():
+    step = ac.CompiledStep(decay, 2, 2)
+    for start, inputs in (((1.0,), np.zeros((3, 2))), ((1.0, 1.0), np.zeros((3, 1))), ((1.0, 1.0), np.zeros(2))):
+        with pytest.raises(ac.DeclarationError, match="a step of 2 states has 2 inputs in a row"):
+            step(start, inputs)
+    with pytest.raises(ac.DeclarationError, match="state and its inputs alone"):
+        ac.CompiledStep(lambda x, u: (x * ac.time, x), 1, 1)

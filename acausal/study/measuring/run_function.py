@@ -1,0 +1,130 @@
+"""A function that runs a formulation in place of `simulate`: whether it is one, and what tells it from others."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import inspect
+import pickle
+import sys
+from collections.abc import Iterator, Sequence
+from types import CodeType
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.language.data import plain
+from acausal.language.values import shown
+from acausal.study.measuring.shipping import pack
+
+
+def check_steps(name: str, steps: Any) -> None:
+    """Refuse steps that are none.
+
+    Parameters
+    ----------
+    name : str
+        What they are called.
+    steps : sequence of float
+        In s.
+    """
+    if isinstance(steps, str) or not isinstance(steps, Sequence | np.ndarray):
+        raise DeclarationError(f"{name} is {shown(steps)}; it must be a list of steps in s, such as (1e-3, 1e-4).")
+    for step in steps:
+        number = isinstance(step, int | float | np.number) and not isinstance(step, bool)
+        if not (number and np.isfinite(step) and step > 0):
+            raise DeclarationError(f"{name} has {shown(step)}; a step is a finite number of seconds greater than 0.")
+
+
+def check_function(name: str, run: Any, control: str) -> None:
+    """Refuse what cannot be called as the run of a formulation.
+
+    Parameters
+    ----------
+    name : str
+        Of the formulation.
+    run : callable
+        Its run.
+    control : "dt" or "tolerance"
+        What it is refined by.
+    """
+    form = f"run(model, stop_time, times, {control}=...)"
+    if not callable(run):
+        raise DeclarationError(
+            f"formulation `{name}`: run is {shown(run)}; it must be a function, {form}, that returns a Result."
+        )
+    try:
+        inspect.signature(run).bind(None, 0.0, None, **{control: 0.0})
+    except TypeError as error:
+        raise DeclarationError(f"formulation `{name}`: the run must be called as {form}: {error}.") from None
+    except ValueError:
+        return  # of a function in C nothing is known
+
+
+def check_sendable(name: str, run: Any, home: str) -> None:
+    """Refuse what no worker can be sent.
+
+    Parameters
+    ----------
+    name : str
+        Of the formulation.
+    run : callable or None
+        Its run.
+    home : str
+        Module of the class of the model.
+    """
+    try:
+        pack(run, home)
+    except (TypeError, AttributeError, ValueError, pickle.PicklingError) as error:
+        raise DeclarationError(
+            f"formulation `{name}`: the run cannot be sent to workers: {error}. Let it be a function of a file, and make there "
+            "what it needs."
+        ) from None
+
+
+def identity_of(run: Any) -> Any:
+    """Return what tells a run from another one, in every session, as JSON knows it.
+
+    Parameters
+    ----------
+    run : callable or None
+        The run of a formulation.
+    """
+    if isinstance(run, functools.partial):
+        named = sorted(run.keywords.items())
+        return [identity_of(run.func), [_held(v) for v in run.args], [[name, _held(v)] for name, v in named]]
+    if inspect.ismethod(run):
+        return [identity_of(run.__func__), plain(run.__self__)]
+    if inspect.isfunction(run):
+        held = [cell.cell_contents for cell in run.__closure__ or ()]
+        own = [_held(v) for v in (*held, *(run.__defaults__ or ()))]
+        return [run.__module__, run.__qualname__, _digest(run.__code__), own, plain(run.__kwdefaults__)]
+    return plain(run) if run is None or not hasattr(run, "__qualname__") else f"{run.__module__}.{run.__qualname__}"
+
+
+def _held(value: Any) -> Any:
+    return identity_of(value) if callable(value) else plain(value)
+
+
+def files_of(run: Any) -> Iterator[str]:
+    """Yield the names of the files in which a run is written.
+
+    Parameters
+    ----------
+    run : callable or None
+        The run of a formulation.
+    """
+    while isinstance(run, functools.partial):
+        run = run.func
+    function = getattr(run, "__func__", run)
+    module = getattr(function, "__module__", None) or type(function).__module__
+    if run is not None and (name := getattr(sys.modules.get(module), "__file__", None)):
+        yield name
+
+
+def _digest(code: CodeType) -> str:
+    """Digest of what a function does, but for the values that it meets outside."""
+    inner = [_digest(c) if isinstance(c, CodeType) else repr(c) for c in code.co_consts if not isinstance(c, frozenset)]
+    text = repr((code.co_code, code.co_names, code.co_varnames, inner))
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,177 @@
+"""A scene of one free body, run by steps in inertial frames: for a formulation of a study."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from acausal import CompiledModel, DeclarationError, Formulation, Result, simulate
+from components.fe.arrays import Array
+from components.fe.chosen import with_modes
+from components.fe.fe_body import FEBody
+from components.fe.frame_checks import WHOLE
+from components.fe.frame_load import FrameLoad, sampled
+from components.fe.frame_result import as_result
+from components.fe.reconfigured import simulate_reconfigured
+from components.fe.reduced_body import ReducedBody
+
+Loads = Sequence[FrameLoad] | Callable[[Any], Sequence[FrameLoad]]
+# Of the largest load: how near those of the scene are, which follow from the states by rotations.
+SAME = 1e-6
+# Arguments of the steps, and what they are in an FEBody.
+START = {
+    "position": "ref.r_0",
+    "attitude": "ref.R.T",
+    "velocity": "v_0",
+    "spin": "w_a",
+    "q": "q",
+    "qd": "qd",
+}
+
+
+def run_reconfigured(
+    model: CompiledModel,
+    stop_time: float,
+    times: Sequence[float] | Array,
+    dt: float | None = None,
+    *,
+    tolerance: float | None = None,
+    body: str = "body",
+    loads: Loads = (),
+    progress: Callable[[float, int], None] | None = None,
+    **options: Any,
+) -> Result:
+    """Run a scene in which one free FEBody moves by steps in inertial frames.
+
+    It is the run of the formulations that `by_steps` makes. Start, gravity, modes, stiffness and damping are those of the scene.
+
+    Parameters
+    ----------
+    model : CompiledModel
+        The scene.
+    stop_time : float
+        In s.
+    times : array_like, shape (n,)
+        Equidistant from 0 to `stop_time`, in s.
+    dt : float
+        Longest step in s; steps are shortened so that one ends at each of the times.
+    tolerance : float
+        In place of `dt`, of `simulate_reconfigured`.
+    body : str
+        Path of the body.
+    loads : sequence of FrameLoad, or callable
+        What the scene does to its frames; or a function of the scene, with its values as attributes, that returns it.
+    progress : callable, optional
+        Told the part of the run that is done, and the steps.
+    **options
+        `variant` and `readings` of `simulate_reconfigured`.
+
+    Returns
+    -------
+    Result
+        Of everything in the scene at the times, see `as_result`.
+
+    Raises
+    ------
+    DeclarationError
+        If there is no such body, something else moves, gravity or effects are others than the steps know, or the loads are
+        not what acts in the scene.
+    """
+    parts, gravity = _body(model, body)
+    given = loads(model.tree) if callable(loads) else loads
+    first = simulate(model, stop_time=float(times[1]), intervals=1)
+    start = {key: first[f"{body}.{name}"][0] for key, name in START.items()}
+    span = float(times[1])
+    motion = simulate_reconfigured(
+        parts,
+        given,
+        stop_time,
+        None if dt is None else span / math.ceil(span / dt - WHOLE),
+        tolerance=tolerance,
+        intervals=None if tolerance is None else len(times) - 1,
+        damping=model.value(f"{body}.damping_ratio") if model.value(f"{body}.damping") else 0.0,
+        gravity=gravity,
+        progress=progress,
+        **start,
+        **options,
+    )
+    result = as_result(motion, body, model=model, times=times)
+    _check_loads(result, body, parts, given)
+    return result
+
+
+def by_steps(
+    settings: Mapping[str, Any], dt: Sequence[float], loads: Loads = (), body: str = "body"
+) -> tuple[Formulation, ...]:
+    """Return steps in inertial frames as formulations of a scene.
+
+    They are "reconfigured, as printed" and "reconfigured, corrected" with steps of one size, and "reconfigured, controlled", the
+    latter with steps whose size follows from a tolerance.
+
+    Parameters
+    ----------
+    settings : mapping of str to value
+        What selects the scene with a flexible body.
+    dt : sequence of float
+        Steps in s that are tried.
+    loads, body
+        As of `run_reconfigured`.
+    """
+    run = partial(run_reconfigured, loads=loads, body=body)
+    names = {"reconfigured, as printed": "paper", "reconfigured, corrected": "corrected"}
+    sized = (Formulation(name, settings, run=partial(run, variant=kind), dt=dt) for name, kind in names.items())
+    return *sized, Formulation("reconfigured, controlled", settings, run=run)
+
+
+def _check_loads(result: Result, body: str, parts: ReducedBody, loads: Sequence[FrameLoad]) -> None:
+    """Refuse loads that are others than those of the scene at the motion that was found."""
+    if any(load.node is not None for load in loads):
+        raise DeclarationError("loads of a scene act at frames of the body, not at nodes")
+    for interface in parts.interfaces:
+        frame = f"{body}.{interface.name}"
+        T, own = result[f"{frame}.R.T"], [load for load in loads if load.frame == interface.name]
+        for what, unit, part in (("f", "N", "force"), ("t", "N.m", "moment")):
+            acts = np.einsum("tij,ti->tj", T, result[f"{frame}.{what}"])
+            given = np.zeros_like(acts)
+            for load in own:
+                course = sampled(getattr(load, part), result.time, f"{part} at `{interface.name}`")
+                given += np.einsum("tij,ti->tj", result[f"{body}.ref.R.T"], course) if load.follower else course
+            wrong = np.abs(acts - given).max(axis=1) > SAME * max(np.abs(acts).max(), np.abs(given).max())
+            # At a single time a load may jump, and have either value.
+            for k in np.flatnonzero(wrong[1:] & wrong[:-1])[:1]:
+                shown = " and ".join(str(tuple(np.round(x[k + 1], 6).tolist())) for x in (acts, given))
+                raise DeclarationError(
+                    f"the {part} at `{interface.name}` is {shown} {unit} in the scene and in the loads, at t = "
+                    f"{result.time[k + 1]:.6g} s: give the loads of the scene, loads=[FrameLoad(...), ...]"
+                )
+
+
+def _body(model: CompiledModel, path: str) -> tuple[ReducedBody, Array | None]:
+    """The body with its modes, stiffness and damping, and gravity."""
+    own: Any = model.value(path)
+    if not isinstance(own, FEBody):
+        raise DeclarationError(f"`{path}` is no FEBody, but {own!r}: name the path of one by body=")
+    if own._held:
+        raise DeclarationError(
+            f"`{path}` has its reference frame at `{own._held.name}`: only a free body moves by steps"
+        )
+    if not (own.centrifugal and own.coriolis):
+        raise DeclarationError(
+            f"steps in inertial frames always have centrifugal and Coriolis forces, `{path}` has not"
+        )
+    world = own.world
+    if own.weight and world.gravity == "point":
+        raise DeclarationError("steps in inertial frames know uniform gravity only, not that of a point")
+    reduced = with_modes(own.reduced, own.modes)
+    reduced = dataclasses.replace(reduced, K=model.value(f"{path}.stiffness") * reduced.K)
+    if not own.damping:
+        reduced = dataclasses.replace(reduced, D=0 * reduced.D)
+    if not own.weight or world.gravity is None:
+        return reduced, None
+    n = np.array(world.n, dtype=float)
+    return reduced, model.value(f"{world._path}.g") * n / np.linalg.norm(n)
