@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from acausal.animation.geometry import Shape
+from acausal.animation.geometry import QUANTITIES, STYLES, Shape
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 
@@ -52,8 +52,20 @@ def _collected(component: Component, asked: set[int]) -> Iterator[Seen]:
         if isinstance(item, Component):
             yield from _collected(item, asked)
         elif isinstance(item, Shape):
+            _check_words(component, item)
             yield Seen(component._path, type(component).__name__, item)
         else:
             raise DeclarationError(
                 f"shapes() of {component!r} yields {item!r}; it yields kinds of acausal.geometry, such as Sphere(...), and parts."
+            )
+
+
+def _check_words(component: Component, shape: Any) -> None:
+    """Refuse a style or quantity that there is not."""
+    for name, known in (("style", STYLES), ("quantity", QUANTITIES)):
+        word = getattr(shape, name, known[0])
+        if word not in known:
+            there = ", ".join(map(repr, known))
+            raise DeclarationError(
+                f"`{name}` of the {type(shape).__name__} of {component!r} is {word!r}, not one of {there}."
             )

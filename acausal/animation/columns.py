@@ -8,6 +8,10 @@ from zlib import compress
 
 import numpy as np
 
+# Of the length that counts: where float32 rounds by more, far from the origin, a column is kept as differences.
+EXACT = 2.5e-7
+HALF_BIT = 2.0**-24  # of a number: the largest error of float32
+
 
 class Column(int):
     """Place of a column before all are known: that of a varying one, or the complement of that of a constant."""
@@ -26,26 +30,41 @@ class Columns:
         self.frames = frames
         self._varying: list[bytes] = []
         self._constants: list[bytes] = []
-        self._known: dict[bytes, Column] = {}
+        self._known: dict[tuple[bytes, float], Column] = {}
+        self._offsets: dict[Column, float] = {}
 
-    def add(self, values: np.ndarray) -> Any:
-        """Add what varies, shape (frames, ...); return the places of its columns, as nested lists of shape (...)."""
-        table = np.ascontiguousarray(np.moveaxis(values, 0, -1), dtype="<f4") + np.float32(0)  # no negative zeros
-        flat = table.reshape(-1, self.frames)
+    def add(self, values: np.ndarray, size: float = 0.0) -> Any:
+        """Add what varies; return the places of its columns, as nested lists of shape (...).
+
+        Parameters
+        ----------
+        values : array, shape (frames, ...)
+            What varies.
+        size : float
+            Differences that are small beside it do not count; 0 where float32 is good enough.
+        """
+        exact = np.asarray(values, dtype=float)
+        table = np.moveaxis(exact, 0, -1)
+        rows = table.reshape(-1, self.frames)
+        offsets = _offsets(rows, size)
+        flat = np.ascontiguousarray(rows - offsets[:, None], dtype="<f4") + np.float32(0)  # no negative zeros
         still = (flat == flat[:, :1]).all(axis=1)
         places = np.empty(len(flat), dtype=object)
         for k, row in enumerate(flat):
-            places[k] = self._place(row[:1].tobytes() if still[k] else row.tobytes(), bool(still[k]))
+            key = row[:1].tobytes() if still[k] else row.tobytes()
+            places[k] = self._place(key, bool(still[k]), float(offsets[k]))
         return places.reshape(table.shape[:-1]).tolist() if table.ndim > 1 else places[0]
 
-    def _place(self, key: bytes, constant: bool) -> Column:
+    def _place(self, key: bytes, constant: bool, offset: float) -> Column:
         if self.frames == 1:
             constant = True
-        if key not in self._known:
+        if (key, offset) not in self._known:
             kept = self._constants if constant else self._varying
-            self._known[key] = Column(~len(kept) if constant else len(kept))
+            place = self._known[key, offset] = Column(~len(kept) if constant else len(kept))
             kept.append(key)
-        return self._known[key]
+            if offset:
+                self._offsets[place] = offset
+        return self._known[key, offset]
 
     def closed(self, document: dict[str, Any]) -> dict[str, Any]:
         """Return a document with the data, and with the numbers of the columns in place of their places."""
@@ -55,6 +74,7 @@ class Columns:
             "varying": len(self._varying),
             "constant": len(self._constants),
             "data": blob(data),
+            "offsets": {str(self._numbered(place)): offset for place, offset in self._offsets.items()},
         }
         return found | self._numbered(document)
 
@@ -66,6 +86,15 @@ class Columns:
         if isinstance(value, list):
             return [self._numbered(inner) for inner in value]
         return value
+
+
+def _offsets(rows: np.ndarray, size: float) -> np.ndarray:
+    """Return what is subtracted of each row, shape (rows,): the middle of its range, where float32 would be too coarse."""
+    with np.errstate(all="ignore"):
+        low, high = np.fmin.reduce(rows, axis=1), np.fmax.reduce(rows, axis=1)
+        largest = np.maximum(np.abs(low), np.abs(high))
+        coarse = (HALF_BIT * largest > EXACT * size) & (high - low < largest) & (size > 0)
+        return np.where(coarse & np.isfinite(low + high), low + (high - low) / 2, 0.0)
 
 
 def blob(data: Any) -> str:

@@ -107,7 +107,7 @@ class _Writer:
                 "poses": self.poses,
                 "parts": [{"path": path, "type": kind} for path, kind in parts],
                 "shapes": shapes,
-                "plots": [{"name": p.name, "unit": p.unit, "column": self.columns.add(p.values)} for p in scene.plots],
+                "plots": [{"name": p.name, "unit": p.unit, "column": self.plotted(p.values)} for p in scene.plots],
                 "extent": {"low": scene.low.tolist(), "high": scene.high.tolist()},
                 "size": scene.size,
                 "up": scene.up.tolist(),
@@ -136,7 +136,12 @@ class _Writer:
 
     def places(self, lengths: np.ndarray) -> Any:
         """Return the columns of lengths in m, shape (times, ...)."""
-        return self.columns.add(np.where(np.abs(lengths) < NOTHING * self.scene.size, 0, lengths))
+        return self.columns.add(np.where(np.abs(lengths) < NOTHING * self.scene.size, 0, lengths), self.scene.size)
+
+    def plotted(self, values: np.ndarray) -> Any:
+        """Return the column of an output, whose range is what is seen of it."""
+        finite = values[np.isfinite(values)]
+        return self.columns.add(values, float(np.ptp(finite)) if finite.size else 0.0)
 
     def ground(self, one: Seen) -> dict[str, Any]:
         """It is the same in all scenes."""

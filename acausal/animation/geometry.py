@@ -8,7 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
+
+Style = Literal["coil", "rod", "rail"]
+Quantity = Literal["force", "torque"]
+STYLES, QUANTITIES = get_args(Style), get_args(Quantity)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +83,7 @@ class Span:
 
     start: Any
     end: Any
-    style: Literal["coil", "rod", "rail"] = "rod"
+    style: Style = "rod"
     diameter: Any = None
 
 
@@ -89,7 +93,7 @@ class Arrow:
 
     at: Any
     vector: Any
-    quantity: Literal["force", "torque"] = "force"
+    quantity: Quantity = "force"
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +120,8 @@ class Curve:
     up : shape (3,), optional
         Direction of the second half-axis at the first point, resolved in the world.
     rest : Pose, optional
-        Where it is undeformed, with `rest_points`; None measures deformations from the chord.
+        Where it is undeformed, with `rest_points`. Deformations are measured from the chord where it is None, and where
+        something else stands at the end that is not at rest.
     rest_points : shape (n, 3), optional
         Undeformed points, resolved in `rest`; for the chord their distances from the first count.
     values : sequence of Values

@@ -12,6 +12,8 @@ from acausal.animation import geometry as g
 from acausal.animation.collect import Seen, collect
 from acausal.animation.gaps import without_gaps
 from acausal.animation.reading import Evaluate, read
+from acausal.animation.rests import untorn
+from acausal.animation.sound import check
 from acausal.errors import DeclarationError
 from acausal.language.component import Component
 
@@ -148,7 +150,9 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
         What `shown` returned for its tree.
     """
     found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, len(run.time))
-    found = without_gaps(found, run.time)
+    for one in found:
+        check(one)
+    found = untorn(without_gaps(found, run.time))
     boxes = [box for box in (_box(one.shape) for one in found) if box is not None]
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)

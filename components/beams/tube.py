@@ -15,7 +15,7 @@ def tube(beam: Any, frames: list[Any]) -> geometry.Curve:
 
     An ellipse of half-axes a, b and area A has A b^2 / 4 as second moment of area; its own area, pi a b, is another one.
     Deformations are measured from the end section that is nearer to the root of the machine; in closed loops, where the
-    machine holds both ends, from the chord.
+    machine holds both ends, from the chord; so the picture does, where something hangs on the other end.
 
     Parameters
     ----------

@@ -22,6 +22,7 @@ class Columns {
     const columns = new Columns();
     columns.time = new Float64Array(await unpack(run.time));
     columns.data = new Float32Array(await unpack(run.data));
+    columns.offsets = new Map(Object.entries(run.offsets ?? {}).map(([k, offset]) => [Number(k), offset]));
     columns.frames = run.frames;
     columns.varying = run.varying;
     columns.first = columns.time[0];
@@ -67,6 +68,11 @@ class Columns {
   }
 
   at(k) {
+    return this.difference(k) + (this.offsets.get(k) ?? 0); // the weights of the frames add up to 1
+  }
+
+  /** What is kept of a column in float32. */
+  difference(k) {
     if (k >= this.varying) return this.data[this.varying * this.frames + (k - this.varying)];
     const place = k * this.frames + this.frame;
     const w = this.weights;
@@ -90,9 +96,11 @@ class Columns {
 
   /** All values of a column, one per frame or a single one if it is constant. */
   series(k) {
-    if (k < this.varying) return this.data.subarray(k * this.frames, (k + 1) * this.frames);
-    const place = this.varying * this.frames + (k - this.varying);
-    return this.data.subarray(place, place + 1);
+    const varies = k < this.varying;
+    const first = varies ? k * this.frames : this.varying * this.frames + (k - this.varying);
+    const kept = this.data.subarray(first, first + (varies ? this.frames : 1));
+    const offset = this.offsets.get(k);
+    return offset === undefined ? kept : Float64Array.from(kept, (v) => v + offset);
   }
 }
 

@@ -29,6 +29,9 @@ class Frame:
             [data[: varying * frames].reshape(varying, frames)[:, index], data[varying * frames :]]
         )
         self.all = [*data[: varying * frames].reshape(varying, frames), *data[varying * frames :, None]]
+        for k, offset in run.get("offsets", {}).items():
+            self.values[int(k)] += offset
+            self.all[int(k)] = self.all[int(k)] + offset
 
     def at(self, pose: int, points: Any) -> Array:
         """Return local points of a pose in the world."""

@@ -23,6 +23,34 @@ def test_equal_columns_and_constants_are_kept_once() -> None:
     assert data.tolist() == [*t, *t**2, 2, 0]
 
 
+@pytest.mark.parametrize("far", [0.0, 4e6, -3e9])
+def test_columns_far_from_zero_are_as_exact_as_those_near_it(far: float) -> None:
+    columns, t = Columns(101), np.linspace(0, 1, 101)
+    exact = far + np.stack([np.sin(t), np.cos(3 * t), 0 * t + 0.1], axis=1)
+    closed = columns.closed({"places": columns.add(exact, 1.0)})
+    data = np.frombuffer(zlib.decompress(base64.b64decode(closed["data"])), dtype="<f4").astype(float)
+    n, varying = 101, closed["varying"]
+    assert (varying, closed["constant"]) == (2, 1)
+    found = [*data[: n * varying].reshape(varying, n), *data[n * varying :, None]]
+    for k, column in zip(closed["places"], exact.T, strict=True):
+        again = found[k] + closed["offsets"].get(str(k), 0.0)
+        assert np.max(np.abs(again - column)) <= 1e-7 + np.spacing(abs(far))
+    assert bool(closed["offsets"]) == bool(far)
+
+
+def test_columns_that_differ_by_their_offset_alone_are_two() -> None:
+    columns, t = Columns(11), np.linspace(0, 1, 11)
+    one, other, near = columns.add(np.stack([1e6 + t, 2e6 + t, t - 0.5], axis=1), 1.0)
+    assert len({one, other, near}) == 3
+
+
+def test_columns_whose_size_does_not_count_have_no_offset() -> None:
+    columns = Columns(3)
+    columns.add(np.array([1e9, 1e9 + 1, 1e9 + 2]))
+    columns.add(np.array([1e9, np.nan, np.inf]), 1.0)
+    assert columns.closed({})["offsets"] == {}
+
+
 def test_one_frame_has_constants_only() -> None:
     columns = Columns(1)
     columns.add(np.array([[1.0, 2.0]]))

@@ -35,7 +35,10 @@ def columns(run: dict[str, Any]) -> np.ndarray:
     data = unpacked(run["data"])
     assert len(data) == n * varying + run["constant"]
     constants = np.repeat(data[n * varying :, None], n, axis=1)
-    return np.concatenate([data[: n * varying].reshape(varying, n), constants])
+    values = np.concatenate([data[: n * varying].reshape(varying, n), constants]).astype(float)
+    for k, offset in run["offsets"].items():
+        values[int(k)] += offset
+    return values
 
 
 def numbers(thing: Any) -> list[int]:

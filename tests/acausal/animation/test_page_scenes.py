@@ -15,6 +15,7 @@ from components import Body, Fixed, FixedTranslation, Prismatic, Revolute, Spher
 from models import SCENES
 from tests.acausal.animation.browser import Browser
 from tests.acausal.animation.places import extent_of, places
+from tests.acausal.animation.test_far import FAR, Remote
 from tests.shared import CONTRACT, compiled
 
 
@@ -108,3 +109,14 @@ def test_bodies_springs_forces_and_a_part_without_shapes(one_browser: Browser, t
     assert {"ground", "sphere", "span", "arrow"} <= kinds
     assert "own.weight" in {part["path"] for part in document["runs"][0]["parts"]}
     assert compare(result, one_browser, document) >= 3 * 4
+
+
+def test_a_scene_far_from_the_origin_is_drawn_as_exactly(one_browser: Browser, tmp_path: Path) -> None:
+    result = ac.simulate(Remote(at=FAR), stop_time=1, intervals=40)
+    document = opened(result, one_browser, tmp_path)
+    compare(result, one_browser, document)
+    box = next(k for k, shape in enumerate(document["runs"][0]["shapes"]) if shape["kind"] == "box")
+    for index in (0, 20, 40):
+        ends = one_browser.run(f"acausal.seek({float(result.time[index])!r}), acausal.positions({box})")
+        tip = result["bar.frame_b.r_0"][index]
+        assert ends[2] == pytest.approx(tip, abs=1e-6 * extent_of(document), rel=0)
