@@ -71,9 +71,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
-    plan = _plan(problem, task)
-    beginning = begin(problem, task.start_time, plan.inside, task.initial)
+    problem, plan, beginning = _begun(compiled, p, task)
     begun = clock.perf_counter()
     done = _integrated(problem, task, plan, beginning)
     # A run costs what it costs, whichever run before it left its beginning.
@@ -92,9 +90,8 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
 @np.errstate(all="ignore")
 def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarray:
     """Return the sizes of states and algebraic unknowns with which a run is accepted, or ends early; as `run` for the rest."""
-    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
-    plan = _plan(problem, task)
-    done = _integrated(problem, task, plan, begin(problem, task.start_time, plan.inside, task.initial))
+    problem, plan, beginning = _begun(compiled, p, task)
+    done = _integrated(problem, task, plan, beginning)
     if isinstance(done.failure, KeyboardInterrupt):
         raise done.failure
     return done.integrator.settings.nominal
@@ -128,6 +125,12 @@ class _Done:
     def first(self) -> Point:
         """The first row of the result."""
         return (self.course.first or self.at) if self.at is self.begun.point else self.begun.point
+
+
+def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, Beginning]:
+    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
+    plan = _plan(problem, task)
+    return problem, plan, begin(problem, task.start_time, plan.inside, task.initial)
 
 
 def _plan(problem: Problem, task: Task) -> _Plan:
