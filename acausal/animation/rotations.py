@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 # A matrix that is farther than this from a rotation is none; integrated ones drift by the tolerance of the run.
 NO_ROTATION = 1e-2
@@ -10,9 +11,6 @@ NO_ROTATION = 1e-2
 
 def quaternions(T: np.ndarray) -> np.ndarray:
     """Return quaternions (w, x, y, z) that turn vectors of a frame into the world, their signs continuous in time.
-
-    The row of 4 q q' with the largest diagonal entry is q up to its length: no entry is divided by a small one, half
-    turns included.
 
     Parameters
     ----------
@@ -31,17 +29,7 @@ def quaternions(T: np.ndarray) -> np.ndarray:
     """
     if np.max(np.abs(T @ T.transpose(0, 2, 1) - np.eye(3)), initial=0) > NO_ROTATION or np.any(np.linalg.det(T) < 0):
         raise ValueError("no rotation matrix")
-    (a, b, c), (d, e, f), (g, h, i) = T.transpose(2, 1, 0)  # rows of the matrix from the frame to the world
-    rows = [
-        [1 + a + e + i, h - f, c - g, d - b],
-        [h - f, 1 + a - e - i, d + b, c + g],
-        [c - g, d + b, 1 - a + e - i, h + f],
-        [d - b, c + g, h + f, 1 - a - e + i],
-    ]
-    squares = np.moveaxis(np.array(rows), 2, 0)
-    largest = np.argmax(np.diagonal(squares, axis1=1, axis2=2), axis=1)
-    q = squares[np.arange(len(T)), largest]
-    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    q = np.roll(Rotation.from_matrix(T.transpose(0, 2, 1)).as_quat(), 1, axis=1)
     if len(q) and q[0, 0] < 0:
         q[0] *= -1
     turned = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0)
