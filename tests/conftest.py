@@ -1,6 +1,8 @@
-"""The option that runs tests with another method of integration."""
+"""Interrupts that are heard however tests are started, and the option that runs them with another method."""
 
 from __future__ import annotations
+
+import signal
 
 import pytest
 
@@ -12,6 +14,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # so it is for what a shell starts in the background
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     if method := config.getoption("--method"):
         chosen = run.chosen
 

@@ -26,11 +26,8 @@ WORK: dict[str, Callable[[], object]] = {
 
 @pytest.fixture(autouse=True)
 def handled():
-    """What is started in the background ignores interrupts."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    signal.signal(signal.SIGINT, before)
 
 
 def is_raised(work: Callable[[], object], at: int | None, seen: list[int]) -> bool:

@@ -95,7 +95,6 @@ def fail():
 @CORE
 @pytest.mark.parametrize(("look", "error"), [(interrupt, KeyboardInterrupt), (fail, MemoryError)])
 def test_the_lock_is_held_again_whatever_happens_meanwhile(monkeypatch, look, error):
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     compiled, inside = ac.compile(Pendulum(x=fixed(1.0), v=fixed(0.0))), []
 
     @alone
@@ -105,15 +104,12 @@ def test_the_lock_is_held_again_whatever_happens_meanwhile(monkeypatch, look, er
         finally:
             inside.append(others_may_enter())
 
-    try:
+    with pytest.raises(error):
+        run()
+    with monkeypatch.context() as patch:
+        watch(patch, look)
         with pytest.raises(error):
-            run()
-        with monkeypatch.context() as patch:
-            watch(patch, look)
-            with pytest.raises(error):
-                ac.simulate(compiled, stop_time=1.0)
-    finally:
-        signal.signal(signal.SIGINT, before)
+            ac.simulate(compiled, stop_time=1.0)
     assert inside == [False]
     assert others_may_enter()
     assert ac.simulate(compiled, stop_time=1.0).stats.steps > 0
@@ -129,8 +125,6 @@ def test_without_the_lock_there_is_none_to_lay_down():
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no system with fork")
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 def test_a_thread_that_forks_meanwhile_takes_no_interrupts_along():
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-
     def child():
         if pid := os.fork():
             return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
@@ -141,8 +135,5 @@ def test_a_thread_that_forks_meanwhile_takes_no_interrupts_along():
         finally:
             os._exit(2)
 
-    try:
-        with ThreadPoolExecutor(1) as pool:
-            assert alone(lambda: apart(lambda: pool.submit(child).result(20)))() == 3
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with ThreadPoolExecutor(1) as pool:
+        assert alone(lambda: apart(lambda: pool.submit(child).result(20)))() == 3
