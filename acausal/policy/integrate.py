@@ -123,6 +123,8 @@ class Consistent:
 
     # Relative change in a Newton step, after which the next one would change rounding only: it converges quadratically.
     settled: float = 1e-7
+    # The same where per cents count.
+    roughly: float = 3e-2
     # The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
     once: float = 1.0
     # Of the largest unknown: what is smaller may be rounding, which never settles.

@@ -66,8 +66,10 @@ def own_value(model: Component, name: str, values: Mapping[str, Any] | None = No
         If it follows from what has no value before the model runs.
     """
     declared = vars(model).get(name, getattr(type(model), name, None))
+    if declared is None:
+        return None
     if not isinstance(declared, f.Deferrable | Expr | property):
-        return getattr(model, name, None)
+        return getattr(model, name)
     built = None if model._is_bound else Instantiation(model, values)
     root = built.root if built else model
 

@@ -7,7 +7,17 @@
 #include <string.h>
 
 #define MOST 30      /* iterations: from far away they converge slowly at first */
+#define LOST 1e-10   /* relative error of a solution by factors of bounded growth, see lu.c */
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
+
+/* Mark the places of a tape on which its outputs from one on depend. */
+static void mark(const ac_tape *tape, int32_t from, char *marked) {
+    const int32_t own = tape->constants + tape->inputs;
+    for (int32_t k = from; k < tape->outputs; k++) marked[tape->output[k]] = 1;
+    for (int32_t k = tape->results - 1; k >= 0; k--) {
+        if (marked[own + k]) marked[tape->first[k]] = marked[tape->second[k]] = 1;
+    }
+}
 
 ac_settler *ac_settler_make(const ac_square *square) {
     ac_settler *s = calloc(1, sizeof *s);
@@ -16,12 +26,15 @@ ac_settler *ac_settler_make(const ac_square *square) {
     const ac_tape *tape = square->tape;
     const size_t length = ac_tape_length(tape);
     s->lu = ac_lu_make(square->n, square->start, square->row);
-    s->w = calloc(length + (size_t)tape->outputs + 1, sizeof *s->w);
-    if (!s->lu || !s->w) {
+    s->w = calloc(length + (size_t)tape->outputs + 2 * (size_t)square->n + 1, sizeof *s->w);
+    s->bends = calloc(length, sizeof *s->bends);
+    if (!s->lu || !s->w || !s->bends) {
         ac_settler_free(s);
         return NULL;
     }
+    mark(tape, square->n, s->bends);
     s->step = s->w + length, s->entries = s->step + square->n;
+    s->size = s->step + tape->outputs, s->terms = s->size + square->n;
     memcpy(s->w, tape->constant, (size_t)tape->constants * sizeof *s->w);
     return s;
 }
@@ -29,31 +42,68 @@ ac_settler *ac_settler_make(const ac_square *square) {
 void ac_settler_free(ac_settler *s) {
     if (!s) return;
     ac_lu_free(s->lu);
-    free(s->w);
+    free(s->w), free(s->bends);
     free(s);
 }
 
-/* Repeat Newton's step from what stands in w; whether it converged. */
-static int32_t settle(ac_settler *s, const double *size, double enough, int64_t *evaluations) {
+/* Let the sizes of the unknowns be at least what changes an equation by as much as its terms: what is far below is rounding. */
+static void enlarge(ac_settler *s) {
+    const ac_square *q = &s->of;
+    const double *input = s->w + q->tape->constants;
+    memset(s->terms, 0, (size_t)q->n * sizeof *s->terms);
+    for (int32_t k = 0; k < q->n; k++) {
+        const double z = fabs(input[q->unknown[k]]);
+        for (int32_t e = q->start[k]; e < q->start[k + 1]; e++) s->terms[q->row[e]] += fabs(s->entries[e]) * z;
+    }
+    for (int32_t k = 0; k < q->n; k++) {
+        double least = INFINITY;
+        for (int32_t e = q->start[k]; e < q->start[k + 1]; e++) {
+            const double change = s->terms[q->row[e]] / fabs(s->entries[e]); /* by an entry of 0: infinite, or nan */
+            if (change < least) least = change;
+        }
+        if (least > s->size[k] && isfinite(least)) s->size[k] = least;
+    }
+}
+
+/* The largest change of an unknown in a step, over its size, nan where one is; and of those on which the Jacobian depends. */
+static double change_of(const ac_settler *s, double *bent) {
+    const char *bends = s->bends + s->of.tape->constants;
+    double change = *bent = 0;
+    for (int32_t k = 0; k < s->of.n; k++) {
+        const double part = fabs(s->step[k]) / s->size[k];
+        if (!(part <= change)) change = part;
+        if (bends[s->of.unknown[k]] && part > *bent) *bent = part;
+    }
+    return change;
+}
+
+/* Repeat Newton's step from what stands in w; whether it converged. The error that is left is that of the factors, and the
+   square of the change of the unknowns on which they depend; or, with factors of the first place, that times the first change. */
+static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
     const ac_square *q = &s->of;
     const ac_tape *tape = q->tape;
-    double *input = s->w + tape->constants, before = INFINITY, last = INFINITY;
+    double *input = s->w + tape->constants, before = INFINITY, last = INFINITY, bent, first = 0;
+    int32_t same = 0;
     for (int tries = 0; tries < MOST; tries++) {
         ac_tape_run(tape, s->w, tape->early, tape->runs);
         ++*evaluations;
         /* The step stands before the entries of the matrix, as the residuals do among the results. */
-        for (int32_t k = 0; k < tape->outputs; k++) s->step[k] = s->w[tape->output[k]];
-        if (ac_lu_factor(s->lu, s->entries)) return 0;
+        for (int32_t k = 0; k < (same ? q->n : tape->outputs); k++) s->step[k] = s->w[tape->output[k]];
+        if (!same && ac_lu_factor(s->lu, s->entries)) return 0;
         ac_lu_solve(s->lu, s->step);
-        double change = 0;
-        for (int32_t k = 0; k < q->n; k++) {
-            const double part = fabs(s->step[k]) / size[k];
-            if (!(part <= change)) change = part; /* nan as well */
+        double change = change_of(s, &bent);
+        if (tries && change > enough) {
+            enlarge(s);
+            change = change_of(s, &bent);
         }
         /* What follows through products moves in the second step first. */
         if (!(change < before)) return change <= ROUNDED; /* nan is not */
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
-        if (change <= enough) return 1;
+        if (change <= enough || fmax(LOST * change, bent * (same ? first : bent)) <= enough * enough) return 1;
+        if (!tries) {
+            first = bent;
+            same = first * first * first <= enough * enough;
+        }
         before = last, last = change;
     }
     return 0;
@@ -65,6 +115,7 @@ int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early
                        const double *const *part, const double *size, double enough, double *found, int32_t *settled) {
     const ac_tape *tape = s->of.tape;
     int64_t evaluations = 0;
+    memcpy(s->size, size, (size_t)s->of.n * sizeof *size);
     for (int32_t i = 0; i < rows; i++) {
         double *input = s->w + tape->constants;
         int32_t fresh = i == 0;
@@ -76,7 +127,7 @@ int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early
             input += length[j];
         }
         if (fresh) ac_tape_run(tape, s->w, 0, tape->early);
-        settled[i] = settle(s, size, enough, &evaluations);
+        settled[i] = settle(s, enough, &evaluations);
         for (int32_t k = 0; k < s->of.n; k++) *found++ = s->w[tape->constants + s->of.unknown[k]];
     }
     return evaluations;

@@ -7,7 +7,8 @@
 struct ac_settler {
     ac_square of;
     ac_lu *lu;
-    double *w, *entries, *step; /* w: all the memory */
+    char *bends; /* of each place of the tape, whether an entry of the Jacobian depends on it */
+    double *w, *entries, *step, *size, *terms; /* w: all the memory */
 };
 
 #endif

@@ -95,23 +95,27 @@ def doubts(outputs: Evaluator) -> list[str]:
     if not seen.stated:
         return []
     rows = outputs.rows[spread(len(outputs.rows), VALIDITY.dear if seen.wanted else VALIDITY.rows)]
-    values = np.abs(problem.each(seen.function, rows))
+    share = np.array([expectation.share for expectation, _ in seen.stated])
+    part, whole = _parts(problem.each(seen.function, rows))
     if seen.wanted:
         # The integrator's own values show at once where nothing is near its limit.
-        most = np.max(np.nan_to_num(values), axis=0)
-        if not any(
-            part > VALIDITY.nearly * s.share * whole
-            for (s, _), part, whole in zip(seen.stated, most[::2], most[1::2], strict=True)
-        ):
+        if not np.any(np.max(part, axis=0) > VALIDITY.nearly * share * np.max(whole, axis=0)):
             return []
-        values = np.abs(problem.each(seen.function, outputs.solver(rows, seen.wanted)[0]))
+        settled = outputs.solver(rows, seen.wanted, POLICY.consistent.roughly)[0]
+        part, whole = _parts(problem.each(seen.function, settled))
+    most, so_far = np.max(part, axis=0), np.maximum.accumulate(whole)
     found = []
-    for (expectation, origin), part, whole in zip(seen.stated, values.T[::2], values.T[1::2], strict=True):
-        part = np.where(np.isnan(part), 0.0, part)
-        so_far = np.fmax.accumulate(np.nan_to_num(whole))
-        over = part > expectation.share * so_far
-        if np.max(part) > expectation.share * so_far[-1]:
-            most = float(np.max(part)) / so_far[-1] if so_far[-1] > 0 else 1.0
-            worst = f"up to {100 * most:.2g} %" if most < 1 else "as much as all"
-            found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {rows.times[over][0]:.4g} s on)")
+    for k in np.flatnonzero(most > share * so_far[-1]).tolist():
+        expectation, origin = seen.stated[k]
+        first = rows.times[part[:, k] > share[k] * so_far[:, k]][0]
+        all_of_it = float(so_far[-1, k])
+        worst = f"up to {100 * most[k] / all_of_it:.2g} %" if most[k] < all_of_it else "as much as all"
+        found.append(f"{origin}: {expectation.text} ({worst} of it, from t = {first:.4g} s on)")
     return found
+
+
+def _parts(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the sizes of part and whole of each expectation, 0 where there is no value."""
+    sizes = np.abs(values)
+    sizes[np.isnan(sizes)] = 0.0
+    return sizes[:, ::2], sizes[:, 1::2]

@@ -195,8 +195,8 @@ class Integrator:
         for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
             if not self.consistent.holds(given, k, way.tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
-        ends = (last, given[-1:])
-        if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
+        sure = iterates or self.loops or end.time not in lost
+        if not (sure or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in (last, given[-1:]))):
             return Refusal(Kind.UNSOLVABLE, end.time)
         leg.rows.z[-1] = last.z[0]
         return leg

@@ -98,7 +98,9 @@ class Consistent:
         self._natural: dict[_Needed, np.ndarray] = {}
         self._settlers: dict[_Needed, Settler] = {}
 
-    def __call__(self, rows: Rows, wanted: Iterable[int] | None = None) -> tuple[Rows, list[float]]:
+    def __call__(
+        self, rows: Rows, wanted: Iterable[int] | None = None, enough: float = CONSISTENT.settled
+    ) -> tuple[Rows, list[float]]:
         """Return rows whose algebraic unknowns satisfy their equations, and times at which no such are found.
 
         What was given stays where none are found.
@@ -109,16 +111,21 @@ class Consistent:
             States, and algebraic unknowns nearly right.
         wanted : iterable of int, optional
             Unknowns that must be right, with all that they need; all if not given.
+        enough : float, optional
+            Relative change in a Newton step that may be the last one: its square is left of the error.
         """
         needed = _needed(self.compiled, None if wanted is None else frozenset(wanted))
         if not needed.unknowns.size or not len(rows):
             return rows, []
         found = rows.with_z(rows.z.copy())
-        size = self._sizes(rows, needed)
+        left = np.arange(len(rows))
+        if library():
+            left = self._by_core(needed, self._sizes(rows), found, enough)
         doubtful: set[int] = set()
-        left = self._by_core(needed, size, found)
-        for step in self.compiled.passes(needed.key) if left.size else ():
-            doubtful |= self._settle(step, size[step.unknowns], found, left)
+        if left.size:
+            size = self._sizes(rows, self._terms(rows, needed))
+            for step in self.compiled.passes(needed.key):
+                doubtful |= self._settle(step, size[step.unknowns], found, left)
         rounding = POLICY.newton.terms * np.finfo(float).eps
         wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, needed.equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
@@ -136,27 +143,28 @@ class Consistent:
         sizes = terms(local, at.y, c.nominal)[own]
         return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
 
-    def _sizes(self, rows: Rows, needed: _Needed) -> np.ndarray:
-        """Change of each unknown that changes an equation by as much as its terms: what is below it is rounding."""
-        c, unknowns = self.compiled, needed.unknowns
+    def _terms(self, rows: Rows, needed: _Needed) -> np.ndarray:
+        """Change of each unknown that changes an equation by as much as its terms, at some of the times."""
         if needed not in self._natural or len(rows) > CONSISTENT.many:
             found = [needed.changes(self.problem, rows, k) for k in spread(len(rows), CONSISTENT.looks)]
-            self._natural[needed] = np.zeros(c.nz)
-            self._natural[needed][unknowns] = np.max(found, axis=0)
-        size = np.maximum(self._natural[needed], np.max(np.abs(rows.z), axis=0))
-        nominal = c.nominal[c.nx :]
+            self._natural[needed] = np.zeros(self.compiled.nz)
+            self._natural[needed][needed.unknowns] = np.max(found, axis=0)
+        return self._natural[needed]
+
+    def _sizes(self, rows: Rows, terms: float | np.ndarray = 0.0) -> np.ndarray:
+        """Size of each unknown, of its values or of the terms of its equations, if larger: what is far below it is rounding."""
+        size = np.maximum(terms, np.max(np.abs(rows.z), axis=0))
+        nominal = self.compiled.nominal[self.compiled.nx :]
         return np.maximum(size, CONSISTENT.noise * np.max(size / nominal) * nominal) if size.any() else nominal
 
-    def _by_core(self, needed: _Needed, size: np.ndarray, rows: Rows) -> np.ndarray:
+    def _by_core(self, needed: _Needed, size: np.ndarray, rows: Rows, enough: float) -> np.ndarray:
         """Solve for unknowns in place, all at once; return the rows where that does not converge, which are as they were."""
-        if not library():
-            return np.arange(len(rows))
         if needed not in self._settlers:
             self._settlers[needed] = Settler(core_square(self.compiled, needed.key))
         unknowns, settler = needed.unknowns, self._settlers[needed]
         before = settler.evaluations
         given = self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
-        found, settled = settler(*given, size=size[unknowns], enough=CONSISTENT.settled)
+        found, settled = settler(*given, size=size[unknowns], enough=enough)
         self.evaluations += settler.evaluations - before
         rows.z[np.ix_(settled, unknowns)] = found[settled]
         return np.flatnonzero(~settled)
