@@ -15,6 +15,7 @@
 #define LEAST 0.2             /* change of a step at most, likewise */
 #define MOST 6.0
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
+#define FIRST 0.01            /* of the way, the first step at most, and not beyond the first output */
 #define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
@@ -131,18 +132,6 @@ static double measured(double h) {
     return ldexp(floor(part * GRID) / GRID, exponent);
 }
 
-/* First step in which an explicit step would change the states by a hundredth of themselves (Hairer, Norsett, Wanner, II.4). */
-static double first_step(ac_rodas *r) {
-    const double span = r->request.time[r->request.outputs] - r->t;
-    memcpy(r->next, r->y, (size_t)r->n * sizeof *r->y);
-    ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
-    r->progress.values++;
-    for (int32_t k = 0; k < r->of.nx; k++) r->stage[k] = r->values[r->of.values->output[k]];
-    const double size = norm(r, r->y), rate = norm(r, r->stage);
-    const double h = size > 1e-5 && rate > 1e-5 ? 0.01 * size / rate : 1e-6 * span;
-    return fmin(h, 0.01 * span);
-}
-
 /* Factors of M/(h gamma) - J here. */
 static int32_t factorise(ac_rodas *r, double h) {
     const ac_tape *tape = r->of.slopes;
@@ -162,29 +151,43 @@ static int32_t factorise(ac_rodas *r, double h) {
     return failed;
 }
 
-/* Shorten the first step until it resolves what moves: an L-stable method takes vibrations that it does not resolve to rest,
-   and no error test sees it, such as that of a body which has just met a stiff stop. Of a mode of eigenvalue l among the rates,
-   D = I - (I - h gamma J)^-1 leaves the part -h gamma l / (1 - h gamma l): little where it is resolved, all where it is not;
+/* Apply D = I - (I - h gamma J)^-1 five times, by the factors that are there, and return the largest state over tolerance. Of a
+   mode of eigenvalue l, D leaves the part -h gamma l / (1 - h gamma l): little where a step resolves it, all where it does not;
    its fifth power is as small as the error of a step that resolves it. */
+static double unresolved(ac_rodas *r, double *left) {
+    const int32_t nx = r->of.nx;
+    for (int power = 0; power < 5; power++) {
+        for (int32_t k = 0; k < r->n; k++) r->b[k] = k < nx ? left[k] / (r->h * GAMMA) : 0;
+        ac_lu_solve(r->lu, r->b);
+        for (int32_t k = 0; k < nx; k++) left[k] -= r->b[k];
+    }
+    double most = 0;
+    for (int32_t k = 0; k < nx; k++) {
+        const double part = fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k])));
+        if (!(part <= most)) most = part;
+    }
+    return most;
+}
+
+/* Shorten the first step until it resolves what moves: an L-stable method takes vibrations that it does not resolve to rest,
+   and no error test sees it, such as that of a body which has just met a stiff stop. Of a step that is given, those are the
+   rates; of one that is chosen, what the derivatives amount to in it: at most so much, times 1 / gamma, is what a vibration that
+   it does not resolve may come to. */
 static void begin(ac_rodas *r) {
-    const int32_t nx = r->of.nx, *rate = r->request.rate;
-    const double span = r->request.time[r->request.outputs] - r->t;
-    if (!(r->h > 0)) r->h = first_step(r);
+    const ac_request *q = &r->request;
+    const int32_t nx = r->of.nx, *rate = q->rate, chosen = !(r->h > 0);
+    const double span = q->time[q->outputs] - r->t;
+    double *left = r->stage, *slope = r->next;
+    if (chosen) {
+        r->h = fmin(FIRST * span, q->time[1] - r->t);
+        ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
+        r->progress.values++;
+        for (int32_t k = 0; k < nx; k++) slope[k] = r->values[r->of.values->output[k]];
+    }
     r->h = r->h < span ? measured(r->h) : span;
-    for (int tries = 0; rate && tries < MOST_SHORTENED; tries++) {
-        double *left = r->stage;
-        int32_t failed = factorise(r, r->h);
-        for (int32_t k = 0; k < nx; k++) left[k] = rate[k] ? r->y[k] : 0;
-        for (int power = 0; power < 5 && !failed; power++) {
-            for (int32_t k = 0; k < r->n; k++) r->b[k] = k < nx ? left[k] / (r->h * GAMMA) : 0;
-            ac_lu_solve(r->lu, r->b);
-            for (int32_t k = 0; k < nx; k++) left[k] -= r->b[k];
-        }
-        double most = 0;
-        for (int32_t k = 0; k < nx && !failed; k++) {
-            if (rate[k]) most = fmax(most, fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k]))));
-        }
-        if (most <= 1) break;
+    for (int tries = 0; (rate || chosen) && tries < MOST_SHORTENED; tries++) {
+        for (int32_t k = 0; k < nx; k++) left[k] = chosen ? r->h * GAMMA * slope[k] : rate[k] ? r->y[k] : 0;
+        if (factorise(r, r->h) || !(unresolved(r, left) > 1)) break;
         r->h = measured(SHORTENED * r->h);
     }
     r->begun = 1;

@@ -10,7 +10,7 @@ from acausal.policy import POLICY
 from acausal.solve.integrate.flat import passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
-from acausal.solve.integrate.one_step import are_rates, first_step, sizes
+from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.trace import Leg
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
@@ -42,7 +42,7 @@ class ByCore(Integration):
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
             size=sizes(problem, nominal, request.settings.vibration) if damps else nominal[: problem.nx],
             tolerance=way.tolerance,
-            first_step=min(request.first_step, request.span) or first_step(request) * request.span,
+            first_step=min(request.first_step, request.span),
             rate=are_rates(problem),
             smooth=not damps,
             largest=damps,
