@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define MOST 30      /* iterations: from far away they converge slowly at first */
-#define LOST 1e-10   /* relative error of a solution by factors of bounded growth, see lu.c */
+#define LOST 1e-6    /* relative error of a solution at most: growth of both factors, see lu.c, and some condition */
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
 
 /* Mark the places of a tape on which its outputs from one on depend. */
@@ -26,7 +26,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     const ac_tape *tape = square->tape;
     const size_t length = ac_tape_length(tape);
     s->lu = ac_lu_make(square->n, square->start, square->row);
-    s->w = calloc(length + (size_t)tape->outputs + 2 * (size_t)square->n + 1, sizeof *s->w);
+    s->w = calloc(length + (size_t)tape->outputs + 3 * (size_t)square->n + 1, sizeof *s->w);
     s->bends = calloc(length, sizeof *s->bends);
     if (!s->lu || !s->w || !s->bends) {
         ac_settler_free(s);
@@ -34,7 +34,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     }
     mark(tape, square->n, s->bends);
     s->step = s->w + length, s->entries = s->step + square->n;
-    s->size = s->step + tape->outputs, s->terms = s->size + square->n;
+    s->size = s->step + tape->outputs, s->wide = s->size + square->n, s->terms = s->wide + square->n;
     memcpy(s->w, tape->constant, (size_t)tape->constants * sizeof *s->w);
     return s;
 }
@@ -46,8 +46,8 @@ void ac_settler_free(ac_settler *s) {
     free(s);
 }
 
-/* Let the sizes of the unknowns be at least what changes an equation by as much as its terms: what is far below is rounding. */
-static void enlarge(ac_settler *s) {
+/* The sizes of the unknowns, but at least what changes an equation by as much as its terms: what is far below is rounding. */
+static void widen(ac_settler *s) {
     const ac_square *q = &s->of;
     const double *input = s->w + q->tape->constants;
     memset(s->terms, 0, (size_t)q->n * sizeof *s->terms);
@@ -61,48 +61,58 @@ static void enlarge(ac_settler *s) {
             const double change = s->terms[q->row[e]] / fabs(s->entries[e]); /* by an entry of 0: infinite, or nan */
             if (change < least) least = change;
         }
-        if (least > s->size[k] && isfinite(least)) s->size[k] = least;
+        s->wide[k] = least > s->size[k] && isfinite(least) ? least : s->size[k];
     }
 }
 
 /* The largest change of an unknown in a step, over its size, nan where one is; and of those on which the Jacobian depends. */
-static double change_of(const ac_settler *s, double *bent) {
+static double change_of(const ac_settler *s, const double *size, double *bent) {
     const char *bends = s->bends + s->of.tape->constants;
     double change = *bent = 0;
     for (int32_t k = 0; k < s->of.n; k++) {
-        const double part = fabs(s->step[k]) / s->size[k];
+        const double part = fabs(s->step[k]) / size[k];
         if (!(part <= change)) change = part;
         if (bends[s->of.unknown[k]] && part > *bent) *bent = part;
     }
     return change;
 }
 
-/* Repeat Newton's step from what stands in w; whether it converged. The error that is left is that of the factors, and the
-   square of the change of the unknowns on which they depend; or, with factors of the first place, that times the first change. */
+/* Whether a step is the last one. What is left of the error is what the factors lost, and the product of the changes, in it and
+   to where they were made, of the unknowns on which they depend. */
+static int32_t is_last(const ac_settler *s, const double *size, double enough, const double *made) {
+    double bent;
+    const double change = change_of(s, size, &bent), left = enough * enough;
+    return (change <= enough || LOST * change <= left) && bent * (made ? *made : bent) <= left;
+}
+
+/* Repeat Newton's step from what stands in w; whether it converged. The first factors are kept if two more steps do not need
+   better ones. */
 static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
     const ac_square *q = &s->of;
     const ac_tape *tape = q->tape;
-    double *input = s->w + tape->constants, before = INFINITY, last = INFINITY, bent, first = 0;
-    int32_t same = 0;
+    double *input = s->w + tape->constants, before = INFINITY, last = INFINITY, first = 0, bent;
+    const double *made = NULL;
     for (int tries = 0; tries < MOST; tries++) {
         ac_tape_run(tape, s->w, tape->early, tape->runs);
         ++*evaluations;
         /* The step stands before the entries of the matrix, as the residuals do among the results. */
-        for (int32_t k = 0; k < (same ? q->n : tape->outputs); k++) s->step[k] = s->w[tape->output[k]];
-        if (!same && ac_lu_factor(s->lu, s->entries)) return 0;
+        for (int32_t k = 0; k < (made ? q->n : tape->outputs); k++) s->step[k] = s->w[tape->output[k]];
+        if (!made && ac_lu_factor(s->lu, s->entries)) return 0;
         ac_lu_solve(s->lu, s->step);
-        double change = change_of(s, &bent);
-        if (tries && change > enough) {
-            enlarge(s);
-            change = change_of(s, &bent);
-        }
+        const double change = change_of(s, s->size, &bent);
         /* What follows through products moves in the second step first. */
         if (!(change < before)) return change <= ROUNDED; /* nan is not */
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
-        if (change <= enough || fmax(LOST * change, bent * (same ? first : bent)) <= enough * enough) return 1;
+        if (is_last(s, s->size, enough, made)) return 1;
         if (!tries) {
             first = bent;
-            same = first * first * first <= enough * enough;
+            if (first * first * first <= enough * enough) made = &first;
+        } else {
+            widen(s);
+            if (is_last(s, s->wide, enough, made)) {
+                memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */
+                return 1;
+            }
         }
         before = last, last = change;
     }
