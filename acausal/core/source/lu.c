@@ -16,8 +16,8 @@ static int refactor(ac_lu *lu, const double *value) {
     for (int32_t k = 0; k < lu->n; k++) {
         const int32_t j = lu->column_of[k];
         for (int32_t e = lu->start[j]; e < lu->start[j + 1]; e++) {
-            const double x = value[e] * lu->scale[lu->row[e]];
-            w[lu->step_of[lu->row[e]]] = x;
+            const double x = value[e] * lu->factor[e];
+            w[lu->step[e]] = x;
             given = larger(given, fabs(x));
         }
         for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) {
@@ -27,7 +27,7 @@ static int refactor(ac_lu *lu, const double *value) {
             grown = larger(grown, fabs(x));
             for (int32_t i = lu->l_start[s]; i < lu->l_start[s + 1]; i++) w[lu->l_row[i]] -= lu->l[i] * x;
         }
-        const double pivot = lu->diagonal[k] = w[k], inverse = 1 / pivot;
+        const double pivot = w[k], inverse = lu->inverse[k] = 1 / pivot;
         int good = fabs(pivot) > 0 && isfinite(inverse);
         w[k] = 0;
         grown = larger(grown, fabs(pivot));
@@ -50,15 +50,16 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
     if (!lu) return NULL;
     const size_t size = (size_t)n + 1, entries = (size_t)start[n] + 1;
     lu->n = n;
-    lu->start = malloc((6 * size + entries) * sizeof *lu->start);
-    lu->scale = calloc(3 * size, sizeof *lu->scale);
+    lu->start = malloc((6 * size + 2 * entries) * sizeof *lu->start);
+    lu->scale = calloc(3 * size + entries, sizeof *lu->scale);
     if (!lu->start || !lu->scale) {
         ac_lu_free(lu);
         return NULL;
     }
     lu->row_of = lu->start + size, lu->column_of = lu->row_of + size, lu->step_of = lu->column_of + size;
     lu->l_start = lu->step_of + size, lu->u_start = lu->l_start + size, lu->row = lu->u_start + size;
-    lu->diagonal = lu->scale + size, lu->work = lu->diagonal + size;
+    lu->step = lu->row + entries;
+    lu->inverse = lu->scale + size, lu->work = lu->inverse + size, lu->factor = lu->work + size;
     memcpy(lu->start, start, size * sizeof *start);
     memcpy(lu->row, row, (size_t)start[n] * sizeof *row);
     return lu;
@@ -84,7 +85,7 @@ void ac_lu_solve(ac_lu *lu, double *b) {
         for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) y[lu->l_row[i]] -= lu->l[i] * x;
     }
     for (int32_t k = lu->n - 1; k >= 0; k--) {
-        const double x = y[k] / lu->diagonal[k];
+        const double x = y[k] * lu->inverse[k];
         y[k] = 0;
         for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) y[lu->u_row[e]] -= lu->u[e] * x;
         b[lu->column_of[k]] = x;
@@ -97,7 +98,7 @@ void ac_lu_solve_transposed(ac_lu *lu, double *b) {
     for (int32_t k = 0; k < lu->n; k++) {
         double x = b[lu->column_of[k]];
         for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) x -= lu->u[e] * y[lu->u_row[e]];
-        y[k] = x / lu->diagonal[k];
+        y[k] = x * lu->inverse[k];
     }
     for (int32_t k = lu->n - 1; k >= 0; k--) {
         for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) y[k] -= lu->l[i] * y[lu->l_row[i]];

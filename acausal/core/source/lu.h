@@ -8,7 +8,9 @@ struct ac_lu {
     int32_t n, ready;
     int32_t *start, *row;                  /* of the matrix */
     int32_t *row_of, *column_of, *step_of; /* row and column of each step, step of each row */
-    double *scale, *diagonal, *work;
+    double *scale, *inverse, *work;        /* inverse of each pivot */
+    int32_t *step;                         /* of each entry of the matrix, the step that takes its row, */
+    double *factor;                        /* and the scale of that */
     int32_t *l_start, *l_row, *u_start, *u_row;
     double *l, *u;
     int32_t l_room, u_room;

@@ -216,6 +216,7 @@ static int keep(ac_lu *lu, const choice *c) {
         lu->l_row = malloc(((size_t)l + 1) * sizeof *lu->l_row), lu->u_row = malloc(((size_t)u + 1) * sizeof *lu->u_row);
         if (!lu->l || !lu->u || !lu->l_row || !lu->u_row) return lu->l_room = lu->u_room = 0;
     }
+    for (int32_t e = 0; e < lu->start[lu->n]; e++) lu->step[e] = lu->step_of[lu->row[e]], lu->factor[e] = lu->scale[lu->row[e]];
     l = u = 0, lu->flops = 0;
     for (int32_t k = 0; k < lu->n; k++) {
         const int32_t j = lu->column_of[k], *index = m->index + m->place[j];
