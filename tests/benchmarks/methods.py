@@ -1,6 +1,6 @@
 """Every scene with the core's method, with IDAS and with what "auto" takes: errors and processor times in one run.
 
-python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7] [--markdown]
+OPENBLAS_NUM_THREADS=1 python -m tests.benchmarks.methods [SCENE]... [--tolerances 1e-3,1e-5,1e-7] [--markdown]
 """
 
 from __future__ import annotations

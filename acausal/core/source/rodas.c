@@ -169,27 +169,33 @@ static double unresolved(ac_rodas *r, double *left) {
     return most;
 }
 
-/* Shorten the first step until it resolves what moves: an L-stable method takes vibrations that it does not resolve to rest,
-   and no error test sees it, such as that of a body which has just met a stiff stop. Of a step that is given, those are the
-   rates; of one that is chosen, what the derivatives amount to in it: at most so much, times 1 / gamma, is what a vibration that
-   it does not resolve may come to. */
+/* Whether the first step takes to rest what moves: an L-stable method does that to vibrations that it does not resolve, and no
+   error test sees it, such as that of a body which has just met a stiff stop. `slope`, NULL for none: derivatives that may set
+   vibrations off; times h gamma they are more than what those that it does not resolve come to. */
+static int32_t stills(ac_rodas *r, const double *slope) {
+    const int32_t nx = r->of.nx, *rate = r->request.rate;
+    double *left = r->stage;
+    if (factorise(r, r->h)) return 0;
+    for (int32_t k = 0; k < nx; k++) left[k] = rate && rate[k] ? r->y[k] : 0;
+    if (rate && unresolved(r, left) > 1) return 1;
+    for (int32_t k = 0; slope && k < nx; k++) left[k] = r->h * GAMMA * slope[k];
+    return slope && unresolved(r, left) > 1;
+}
+
+/* Shorten the first step until it resolves what moves; begin with the one that is given, else with a long one. */
 static void begin(ac_rodas *r) {
     const ac_request *q = &r->request;
-    const int32_t nx = r->of.nx, *rate = q->rate, chosen = !(r->h > 0);
     const double span = q->time[q->outputs] - r->t;
-    double *left = r->stage, *slope = r->next;
-    if (chosen) {
+    double *slope = NULL;
+    if (!(r->h > 0)) {
         r->h = fmin(FIRST * span, q->time[1] - r->t);
         ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
         r->progress.values++;
-        for (int32_t k = 0; k < nx; k++) slope[k] = r->values[r->of.values->output[k]];
+        slope = r->next;
+        for (int32_t k = 0; k < r->of.nx; k++) slope[k] = r->values[r->of.values->output[k]];
     }
     r->h = r->h < span ? measured(r->h) : span;
-    for (int tries = 0; (rate || chosen) && tries < MOST_SHORTENED; tries++) {
-        for (int32_t k = 0; k < nx; k++) left[k] = chosen ? r->h * GAMMA * slope[k] : rate[k] ? r->y[k] : 0;
-        if (factorise(r, r->h) || !(unresolved(r, left) > 1)) break;
-        r->h = measured(SHORTENED * r->h);
-    }
+    for (int tries = 0; tries < MOST_SHORTENED && stills(r, slope); tries++) r->h = measured(SHORTENED * r->h);
     r->begun = 1;
 }
 

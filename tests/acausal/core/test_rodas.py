@@ -247,15 +247,42 @@ def oscillator(**options) -> Found:
     """A mass at 1 m/s on a spring of 1e6 rad/s, over 100 s in steps of any length."""
     e = equations(lambda x, z, t, p: ca.vertcat(x[1], -(p**2) * x[0]), nx=2)
     given = (np.array(v, dtype=float) for v in ([0, 1], [], [1e6], []))
+    return integrated(Rodas(e), np.array([0, 100.0]), *given, size=np.ones(2), tolerance=1e-4, **options)
+
+
+@pytest.mark.parametrize("first_step", [1.0, 0.0])
+def test_a_first_step_resolves_what_moves(first_step):
+    """Else an L-stable method would take it to rest at once, within the tolerance of the place."""
+    assert abs(oscillator(first_step=first_step).x[-1, 1]) < 1e-3
+    assert oscillator(first_step=first_step, rate=np.array([0, 1]), most=1).progress.time * 1e6 < 2
+
+
+def driven(ode, rate: float, span: float, tolerance: float) -> Found:
+    """A mass at rest on a spring of so many rad/s, the outputs far apart."""
+    e = equations(lambda x, z, t, p: ca.vertcat(x[1], ode(x[0], t, p)), nx=2)
+    given = (np.array(v, dtype=float) for v in ([0, 0], [], [rate], []))
     return integrated(
-        Rodas(e), np.array([0, 100.0]), *given, size=np.ones(2), tolerance=1e-4, first_step=1.0, **options
+        Rodas(e), np.array([0, span]), *given, size=np.ones(2), tolerance=tolerance, rate=np.array([0, 1])
     )
 
 
-def test_a_first_step_resolves_what_moves():
-    """Else an L-stable method would take it to rest at once, within the tolerance of the place."""
-    assert abs(oscillator().x[-1, 1]) < 1e-3
-    assert oscillator(rate=np.array([0, 1]), most=1).progress.time * 1e6 < 2
+@pytest.mark.parametrize("rate", [1.0, 1e3, 1e6])
+@pytest.mark.parametrize(("tolerance", "lost"), [(1e-3, 0.2), (1e-6, 1e-4)])
+def test_a_chosen_first_step_resolves_what_a_force_sets_moving(rate, tolerance, lost):
+    """x'' = w^2 (1 - x) from rest; a hundredth of the way is ten rad, in which an L-stable step would bring it to rest."""
+    span = 1e3 / rate
+    found = driven(lambda x, t, p: p**2 * (1 - x), rate, span, tolerance)
+    x, v = found.x[-1, 0] - 1, found.x[-1, 1] / rate
+    assert 1 - lost < np.hypot(x, v) < 1 + lost
+    assert abs(x + np.cos(1e3)) < lost
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_a_chosen_first_step_is_long_where_nothing_moves(tolerance):
+    """x'' = w^2 (t^3 - x) + 6 t, x = t^3: the spring is never set off."""
+    found = driven(lambda x, t, p: p**2 * (t**3 - x) + 6 * t, 1e6, 1.0, tolerance)
+    assert found.x[-1] == pytest.approx([1, 3], rel=10 * tolerance)
+    assert found.progress.steps < 8
 
 
 def test_steps_are_known_everywhere_between_their_ends():
