@@ -151,10 +151,10 @@ static int32_t factorise(ac_rodas *r, double h) {
     return failed;
 }
 
-/* Apply D = I - (I - h gamma J)^-1 five times, by the factors that are there, and return the largest state over tolerance. Of a
+/* Apply D = I - (I - h gamma J)^-1 five times, by the factors that are there, and return the largest of some states, over tolerance. Of a
    mode of eigenvalue l, D leaves the part -h gamma l / (1 - h gamma l): little where a step resolves it, all where it does not;
    its fifth power is as small as the error of a step that resolves it. */
-static double unresolved(ac_rodas *r, double *left) {
+static double unresolved(ac_rodas *r, double *left, const int32_t *some) {
     const int32_t nx = r->of.nx;
     for (int power = 0; power < 5; power++) {
         for (int32_t k = 0; k < r->n; k++) r->b[k] = k < nx ? left[k] / (r->h * GAMMA) : 0;
@@ -164,7 +164,7 @@ static double unresolved(ac_rodas *r, double *left) {
     double most = 0;
     for (int32_t k = 0; k < nx; k++) {
         const double part = fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k])));
-        if (!(part <= most)) most = part;
+        if ((!some || some[k]) && !(part <= most)) most = part;
     }
     return most;
 }
@@ -177,9 +177,9 @@ static int32_t stills(ac_rodas *r, const double *slope) {
     double *left = r->stage;
     if (factorise(r, r->h)) return 0;
     for (int32_t k = 0; k < nx; k++) left[k] = rate && rate[k] ? r->y[k] : 0;
-    if (rate && unresolved(r, left) > 1) return 1;
+    if (rate && unresolved(r, left, rate) > 1) return 1;
     for (int32_t k = 0; slope && k < nx; k++) left[k] = r->h * GAMMA * slope[k];
-    return slope && unresolved(r, left) > 1;
+    return slope && unresolved(r, left, NULL) > 1;
 }
 
 /* Shorten the first step until it resolves what moves; begin with the one that is given, else with a long one. */
