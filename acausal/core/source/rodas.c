@@ -151,9 +151,9 @@ static int32_t factorise(ac_rodas *r, double h) {
     return failed;
 }
 
-/* Apply D = I - (I - h gamma J)^-1 five times, by the factors that are there, and return the largest of some states, over tolerance. Of a
-   mode of eigenvalue l, D leaves the part -h gamma l / (1 - h gamma l): little where a step resolves it, all where it does not;
-   its fifth power is as small as the error of a step that resolves it. */
+/* Apply D = I - (I - h gamma J)^-1 five times, by the factors that are there; return the largest of some states, NULL for all,
+   over tolerance. Of a mode of eigenvalue l, D leaves the part -h gamma l / (1 - h gamma l): little where a step resolves it, all
+   where it does not; its fifth power is as small as the error of a step that resolves it. */
 static double unresolved(ac_rodas *r, double *left, const int32_t *some) {
     const int32_t nx = r->of.nx;
     for (int power = 0; power < 5; power++) {
