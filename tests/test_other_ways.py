@@ -15,8 +15,7 @@ HERE = Path(__file__).parent
 # What is said of the default is not said of the others.
 DEFAULTS = "test_defaults_break_where_the_torque_does_and_cost_little"
 METHODS = {
-    # IDAS is 50 times off what the default has of the plate under the pulse, see docs/methods.md.
-    "idas": f"{DEFAULTS} or test_plate_under_the_pulse or test_own_meshes_come_near",
+    "idas": DEFAULTS,
     # The core alone does not pass the flat position of n-four-bar: it refuses it, see docs/loops.md.
     "rosenbrock": f"{DEFAULTS} or n-four-bar",
 }

@@ -96,9 +96,10 @@ def test_start_gravity_and_body_are_those_of_the_scene():
 
     The floating frame is 1.8e-3 rad/s away, about the long axis, as the plate turns while it is bent.
     """
+    # IDAS would follow the vibrations between so few outputs at order 2.
+    how: dict = {"stop_time": 0.1, "intervals": 20, "tolerance": 1e-11, "method": "rosenbrock"}
     model = thrown(FEBody, 3.7)
-    exact = ac.simulate(model, stop_time=0.1, intervals=20, tolerance=1e-9)
-    limit = ac.simulate(thrown(LimitBody, 0.0), stop_time=0.1, intervals=20, tolerance=1e-10)
+    exact, limit = ac.simulate(model, **how), ac.simulate(thrown(LimitBody, 0.0), **how)
     found = [run(model, np.linspace(0, 0.1, 21), dt) for dt in (2e-4, 1e-4)]
     np.testing.assert_allclose(found[1]["body.r_0"], exact["body.r_0"], rtol=0, atol=1e-9)
     for name, bound in (("body.w_a", 5e-12), ("body.q", 1e-11)):
@@ -109,7 +110,7 @@ def test_start_gravity_and_body_are_those_of_the_scene():
 
 def test_study(tmp_path):
     """Errors against time: the steps end at their gap, which is told."""
-    found = ac.study(FEPlate(mesh=PLATE), tolerances=(1e-5, 1e-7), dt=(2.5e-4, 1.25e-4), repeats=1, workers=2)
+    found = ac.study(FEPlate(mesh=PLATE), tolerances=(1e-5, 1e-9), dt=(2.5e-4, 1.25e-4), repeats=1, workers=2)
     assert not [row.remark for row in found.rows if row.remark]
     rows = {}
     for row in found.rows:

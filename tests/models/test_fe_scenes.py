@@ -78,16 +78,19 @@ def test_nodes_of_the_pendulum():
 
 
 def plate(name: str, model: ac.Model, tolerance: float, prefix: str = "") -> np.ndarray:
-    """Largest deviation from a table: of the place of P1 in mm, and of the angular velocity in rad/s."""
+    """Largest deviation from a table: of the place of P1 in mm, and of the angular velocity in rad/s.
+
+    With four outputs for each time of the table, which show the vibrations, so that IDAS finds the order that follows them.
+    """
     data = table(name)
-    result = ac.simulate(model, stop_time=0.3, tolerance=tolerance, intervals=75)
-    places = [1e3 * result[f"P1_{axis}"] - data[f"{prefix}P1x{k}[mm]"] for k, axis in enumerate("xyz", 1)]
-    spins = [result[f"w_{axis}"] - data[f"{prefix}w{k}[rad/s]"] for k, axis in enumerate("xyz", 1)]
+    result = ac.simulate(model, stop_time=0.3, tolerance=tolerance, intervals=300)
+    places = [1e3 * result[f"P1_{axis}"][::4] - data[f"{prefix}P1x{k}[mm]"] for k, axis in enumerate("xyz", 1)]
+    spins = [result[f"w_{axis}"][::4] - data[f"{prefix}w{k}[rad/s]"] for k, axis in enumerate("xyz", 1)]
     return np.array([np.abs(places).max(), np.abs(spins).max()])
 
 
 def test_plate_under_the_pulse():
-    assert (plate("plate_halfsine_sym", FEPlate(mesh=PLATE), 1e-8, "ffrf_") < (1e-5, 1e-7)).all()
+    assert (plate("plate_halfsine_sym", FEPlate(mesh=PLATE), 1e-10, "ffrf_") < (1e-5, 1e-7)).all()
 
 
 def test_rigid_plate_is_far_off():
@@ -101,10 +104,10 @@ def test_tumbling_plate(method):
         spin, load, damping = (2, -6, 3), "none", 0.0
 
     Tumbling.method = method
-    assert (plate("plate_tumbling", Tumbling(mesh=PLATE), 1e-8) < (2e-5, 1e-5)).all()
+    assert (plate("plate_tumbling", Tumbling(mesh=PLATE), 1e-9) < (2e-5, 1e-5)).all()
 
 
 @pytest.mark.parametrize("mesh", ["hex20", "tet10"])
 def test_own_meshes_come_near_the_plate(mesh):
-    deviation = plate("plate_halfsine_sym", FEPlate(mesh=mesh), 1e-6, "ffrf_")
+    deviation = plate("plate_halfsine_sym", FEPlate(mesh=mesh), 1e-9, "ffrf_")
     assert (deviation < (1e-4, 3e-6)).all()

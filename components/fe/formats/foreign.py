@@ -9,6 +9,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from acausal import DeclarationError
 from acausal.result import shown_name
 from components.fe.formats.text import wrong
@@ -44,9 +46,13 @@ def installed(name: str, extra: str, what: str) -> None:
 
 
 def package(name: str, extra: str, what: str) -> Any:
-    """Return a module of a package that is not always installed, or refuse as `installed` does."""
-    installed(name, extra, what)
-    return import_module(name)
+    """Return a module of a package that is not always installed, or refuse as `installed` does.
+
+    How numpy prints stays as the user has it: pyyeti changes it for all, already where its packages are looked through.
+    """
+    with np.printoptions():
+        installed(name, extra, what)
+        return import_module(name)
 
 
 def existing(path: str | Path, what: str) -> Path:

@@ -129,7 +129,7 @@ def test_a_file_name_stands_for_what_the_class_loads(tmp_path):
     path = tmp_path / "rates.txt"
     path.write_text("1 5\n")
     for name in (path, str(path)):
-        result = ac.simulate(Decays(), stop_time=1, tolerance=1e-8, parameters={"body.rates": name})
+        result = ac.simulate(Decays(), stop_time=1, tolerance=1e-10, parameters={"body.rates": name})
         np.testing.assert_allclose(result["body.q"][-1], np.exp([-1, -5]), rtol=1e-6)
         with pytest.raises(DeclarationError, match=r"`body.rates` is structural .* its value is Rates\(2, 6\)"):
             result["body.rates"]

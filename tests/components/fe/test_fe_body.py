@@ -129,7 +129,8 @@ class OnBall(Model):
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("hold", ["frame_a", "frame_b", "mean-axis"])
 def test_energy_on_a_ball_joint(hold, turned):
-    result = ac.simulate(OnBall(hold=hold, turned=turned), stop_time=0.3, tolerance=1e-9, energy=True)
+    # The energies of IDAS, which runs without the core begin with, are up to 50 times the tolerance off.
+    result = ac.simulate(OnBall(hold=hold, turned=turned), stop_time=0.3, tolerance=1e-11, energy=True)
     stats = result.stats
     assert abs(stats["energy_supplied"]) > 0.01
     assert stats["energy_stored_change"] == pytest.approx(stats["energy_supplied"], abs=1e-9)

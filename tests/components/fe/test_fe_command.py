@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from components.fe import ReducedBody, box, read_calculix, read_npz, reduce_body, write_sid
 from components.fe.__main__ import app
+from tests.components.fe.packages import nastran
 from tests.components.fe.samples import calculix, deck, frequencies, write_abaqus
 
 KINDS = {"hexahedron": "C3D8I"}
@@ -76,11 +77,7 @@ def test_the_same_body_from_every_file(tmp_path: Path) -> None:
 
 
 def test_nastran(tmp_path: Path) -> None:
-    op4 = pytest.importorskip(
-        "pyyeti.nastran.op4",
-        reason="pyyeti, the extra nastran, is not installed: it brings numba, 70 MB",
-        exc_type=ImportError,
-    )
+    op4 = nastran("op4")
     M, K, nodes = BODY
     op4.write(str(tmp_path / "a.op4"), ["KGG", "MGG"], [sp.coo_matrix(K), sp.coo_matrix(M)])
     lines = [f"GRID*   {k + 1:16d}{0:16d}{x:16.9E}{y:16.9E}\n*       {z:16.9E}" for k, (x, y, z) in enumerate(nodes)]

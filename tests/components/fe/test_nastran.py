@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +12,9 @@ import scipy.sparse as sp
 
 from acausal import DeclarationError
 from components.fe import box, read_nastran
+from tests.components.fe.packages import nastran
 
-op4 = pytest.importorskip(
-    "pyyeti.nastran.op4",
-    reason="pyyeti, the extra nastran, is not installed: it brings numba, 70 MB",
-    exc_type=ImportError,
-)
-bulk = pytest.importorskip("pyyeti.nastran.bulk", exc_type=ImportError)
+op4, bulk = nastran("op4"), nastran("bulk")
 M, K, NODES = box((0.1, 0.02, 0.03), (2, 1, 1), "hex20", E=7e10, nu=0.33, rho=2700)
 NUMBERS = 7 * np.arange(len(NODES)) + 5
 # Of meshio's node in the order of Nastran: edges between the faces come before those of the second face.
@@ -65,6 +63,14 @@ def test_round_trip(tmp_path: Path, binary: bool, each: int) -> None:
     assert np.abs(found[2] - NODES).max() < 1e-11
     assert found[2].numbers.tolist() == NUMBERS.tolist()
     assert np.array_equal(found[2].cells["hexahedron20"], NODES.cells["hexahedron20"])
+
+
+def test_numbers_are_printed_as_before(tmp_path: Path) -> None:
+    """In a process that did not import pyyeti yet."""
+    told = "import sys; import numpy as np; from components.fe import read_nastran; np.set_printoptions(sign='+', precision=3)"
+    told += "; before = np.get_printoptions(); read_nastran(sys.argv[1]); assert 'pyyeti.nastran' in sys.modules"
+    told += "; assert np.get_printoptions() == before; assert repr(np.ones(2)) == 'array([+1., +1.])'"
+    subprocess.run([sys.executable, "-c", told, str(write(tmp_path))], check=True)
 
 
 def test_one_triangle_and_units(tmp_path: Path) -> None:

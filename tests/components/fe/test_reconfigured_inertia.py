@@ -65,10 +65,13 @@ def thrown(dt: float, stop: float, modes: int = 5) -> ac.Result:
 
 @pytest.mark.parametrize("modes", [0, 5])
 def test_limit_of_short_steps(modes):
-    """All that a scene can put on a body: steps of order 4 come nearer with the power of 4."""
-    count = 100
+    """All that a scene can put on a body: steps of order 4 come nearer with the power of 4.
+
+    Coordinates that reach a hundred-thousandth of their size are known to a millionth of what they reach.
+    """
+    count, tolerance = 100, 1e-13
     stop = count * 0.3 / (2 * np.pi * lopsided()[1].frequencies[-1])
-    exact = ac.simulate(Thrown(modes=modes), stop_time=stop, tolerance=1e-11, intervals=count)
+    exact = ac.simulate(Thrown(modes=modes), stop_time=stop, tolerance=tolerance, intervals=count)
     errors: list[list[float]] = []
     names = ("r_0", "w_a", "ref.R.T", "end.r_0", "end.v", "face.R.T", "face.R.w", *(("q", "qd") if modes else ()))
     for parts in (1, 2):
@@ -78,25 +81,26 @@ def test_limit_of_short_steps(modes):
         if parts == 2:
             for name in ("a_0", "z_a", "end.a", "face.z", *(["qdd"] if modes else [])):
                 a, b = found[f"body.{name}"][::2], exact[f"body.{name}"]
-                bound = 1e-10 if name == "a_0" else 1e-4  # the scene has a tolerance of 1e-11
+                bound = 1e-10 if name == "a_0" else 1e-4
                 assert np.abs(a - b).max() < bound * np.abs(b).max(), name
     assert max(errors[1]) < 1e-4
     assert errors[1][0] < 1e-10  # the place of the centre of mass
     assert max(errors[1][1:3]) < 1e-9  # what the shape has little to do with
     if modes:
         q = names.index("q")
-        assert np.log2(errors[0][q] / errors[1][q]) > 3.7
+        assert np.log2(errors[0][q] / errors[1][q]) > 3.9
     floating = ac.simulate(
-        Thrown(modes=modes, inertia="second_order"), stop_time=stop, tolerance=1e-11, intervals=count
+        Thrown(modes=modes, inertia="second_order"), stop_time=stop, tolerance=tolerance, intervals=count
     )
     gap = np.abs(floating["body.w_a"] - exact["body.w_a"]).max()
     assert gap < 1e-8 if not modes else gap > 100 * errors[1][1] * np.abs(exact["body.w_a"]).max()
 
 
 def test_against_the_equations_written_apart():
+    """By the one-step method, of which both take the same steps; those of IDAS differ where rounding does, and so its errors."""
     spin = (2, -6, 3)
     runs = [
-        ac.simulate(model(mesh=MESH, spin=spin), stop_time=0.05, tolerance=1e-9, intervals=50)
+        ac.simulate(model(mesh=MESH, spin=spin), stop_time=0.05, tolerance=1e-9, intervals=50, method="rosenbrock")
         for model in (Plate, LimitPlate)
     ]
     for name in ("w_a", "z_a", "q", "qdd", "P1.r_0", "P1.a"):
@@ -127,7 +131,7 @@ def test_energy():
     """That of the inertial frame, which is kept up to the part of w x u that the modes do not hold; it is told by its rate."""
     spin = (2, -6, 3)
     model = Plate(mesh=MESH, spin=spin, load="none", damping=0.0)
-    found = ac.simulate(model, stop_time=0.1, tolerance=1e-10, intervals=1000, energy=True)
+    found = ac.simulate(model, stop_time=0.1, tolerance=1e-11, intervals=1000, energy=True)
     own = energy(simulate_reconfigured(plate(), (), 0.1, 1.25e-5, spin=spin))
     change = found.stats["energy_stored_change"]
     assert found.stats["energy_supplied"] == 0
