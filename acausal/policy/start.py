@@ -101,6 +101,11 @@ class Loops:
     rest: float = 1e-4
     # What a coordinate is integrated by follows it; beyond this fraction of its size it has lost it.
     apart: float = 0.1
+    # Smallest singular value of constraints, over their sizes, in a flat position: nearer, errors choose the way (flat.c). It
+    # is looked for in so many parts of a step, and again beside the least of them: 1 / 4^5 of a step is nearer than that.
+    flat: float = 1e-3
+    parts: int = 8
+    zooms: int = 6
     # Returns of what is integrated to what the constraints allow in a run, e-fold each (Baumgarte 1972): slow against
     # the motion, and enough for errors of a run not to add up.
     feedback: float = 10.0

@@ -257,7 +257,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    stats = replace(stats, doubts=[*found, *_loosened(integrator)])
+    stats = replace(stats, doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:
             caution(ROUGH)
@@ -283,4 +283,15 @@ def _loosened(integrator: Integrator) -> list[str]:
     return [
         f"no step was short enough for the tolerance {integrator.tolerance:g} after t = {shown} s, as happens near a "
         "singular position; a larger one was taken for one output interval each time, and the error may be larger from there on."
+    ]
+
+
+def _flat(integrator: Integrator) -> list[str]:
+    """Say where loops passed a flat position by a method that may go on either way."""
+    times = integrator.trace.flat
+    if not times:
+        return []
+    return [
+        f"closed loops pass a flat position at t = {min(times):.6g} s, from which two motions lead on; the method that damps "
+        'vibrations may have left the one that it was on. method="idas" keeps to it (docs/loops.md).'
     ]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
 from acausal import Model, chain, fixed, guess, structural
+from acausal.core import library
 from components import BodyRod, Fixed, Revolute, World
 from models import NFourBar
 from tests.hard.measure import single_coordinate, within
@@ -80,6 +83,33 @@ def test_parallelogram_from_near_its_flat_position(angle):
     result = ac.simulate(model, stop_time=2.0, tolerance=1e-8, intervals=100)
     within("crank, rad", np.abs(result["foot1.phi"] - swing(result.time, angle, -1.0)).max(), 1e-3)
     within("rocker less crank, rad", np.abs(result["foot2.phi"] - result["foot1.phi"]).max(), 1e-4)
+
+
+class Watched(Parallelogram):
+    """The same, with something to happen."""
+
+    turns: ac.Scalar = ac.discrete("half turns of the crank", start=0)
+
+    def equations(self):
+        yield ac.when(ac.cos(self.foot1.phi) < -0.9, ac.reinit(self.turns, self.turns + 1))
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+@pytest.mark.parametrize("kind", [Parallelogram, Watched])
+@pytest.mark.parametrize("intervals", [4, 400])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+def test_the_method_that_damps_tells_where_it_passed_a_flat_position(tolerance, intervals, kind):
+    model, end = kind(angle=2.0, rates=(2.0, 2.0), gravity=0.0), 1.2
+    with pytest.warns(ac.AcausalWarning, match="pass a flat position") as caught:
+        result = ac.simulate(model, stop_time=end, tolerance=tolerance, intervals=intervals, method="rosenbrock")
+    (text,) = [str(w.message) for w in caught]
+    assert float(text.split("t = ")[1].split(" s")[0]) == pytest.approx((np.pi - 2) / 2, abs=2e-3)
+    assert result.stats.doubts == [text]
+    # Nor does it say so before, and the others keep to the branch.
+    for method, until in (("rosenbrock", 0.5), ("auto", end), ("idas", end)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ac.simulate(model, stop_time=until, tolerance=tolerance, intervals=intervals, method=method)
 
 
 def test_both_speeds_of_a_loop():

@@ -153,6 +153,7 @@ class Integrator:
         found = integration.leg()
         if self.is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)
+        trace.flat += [integration.flat] if integration.flat is not None else []
         few = POLICY.energy.resolved if METHODS[way.method].multistep and way.order <= 2 else 1
         if request.works and not self.compiled.powers.is_zero() and steps < n * few:
             given = np.vstack([np.zeros((1, 2)), found.energy])

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
+from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
-from acausal.solve.integrate.flat import passes_flat
+from acausal.solve.integrate.flat import flat_time, passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.problem import Problem
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
 
@@ -25,7 +29,8 @@ class ByCore(Integration):
         What it is asked for.
     damps : bool
         Whether it sees rates only as far as they change coordinates, see `sizes`; else errors of rates count, but for
-        vibrations that its steps do not resolve. Then, loops that may pass a flat position are left to another method.
+        vibrations that its steps do not resolve. Then, loops that may pass a flat position are left to another method;
+        where it damps, it tells that they passed one.
     """
 
     def __init__(self, request: Request, damps: bool) -> None:
@@ -35,8 +40,8 @@ class ByCore(Integration):
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
         loops = bool(problem.compiled.constraints.size)
-        self._wary, self._returns = loops and not damps, loops and way.moves
-        self.ended, self._keeps = False, self._wary or self._returns or request.curves
+        self._loops, self._damps, self._returns = loops, damps, loops and way.moves
+        self.ended, self._keeps = False, loops or request.curves
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -61,7 +66,7 @@ class ByCore(Integration):
         """Integrate to the end, or as far as possible."""
         refusal = None
         while not (refusal or self.ended):
-            refusal = self.advance(POLICY.calls.steps if self._wary or self._returns else 2**62)
+            refusal = self.advance(POLICY.calls.steps if self._loops else 2**62)
         return refusal
 
     def advance(self, steps: int) -> Refusal | None:
@@ -71,7 +76,9 @@ class ByCore(Integration):
             self._return()
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
-        if self._wary and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
+        if self._loops and self._damps:
+            self.flat = self.flat or flat_time(*self._last_steps)
+        elif self._loops and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
             return Refusal(Kind.FLAT, time)
         return Refusal(REFUSALS[end], time) if end in REFUSALS else None
 
@@ -89,8 +96,12 @@ class ByCore(Integration):
 
     def _passed_flat(self) -> bool:
         """Whether loops may have passed a flat position in the last steps."""
-        times, y = self._rodas.steps
-        return passes_flat(self.request.problem, times, y[:, : self.request.problem.nx], self.request.at.constants)
+        problem, times, y, constants = self._last_steps
+        return passes_flat(problem, times, y[:, : problem.nx], constants)
+
+    @property
+    def _last_steps(self) -> tuple[Problem, np.ndarray, np.ndarray, Constants]:
+        return self.request.problem, *self._rodas.steps, self.request.at.constants
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

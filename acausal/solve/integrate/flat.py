@@ -7,9 +7,13 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.compiler.constraints import Constraints
 from acausal.policy import POLICY
+from acausal.solve.hermite import cubic
 from acausal.solve.looks import spread
+from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import levels_of
+
+LOOPS = POLICY.loops
 
 
 def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> bool:
@@ -17,7 +21,7 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
 
     There the smallest singular value of their Jacobian is 0. It falls linearly on the way, so it may have been 0 between two
     steps where it is less at one of them than it changes from one to the other. Another method goes on then, so that a false
-    alarm costs time alone; `flat.c` ends the run of an exported model, and first looks for the least value within the step.
+    alarm costs time alone; `flat_time`, and `flat.c` in an exported model, look for the least value within the step.
 
     Parameters
     ----------
@@ -28,19 +32,57 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
     constants : Constants
         Those of the segment.
     """
+    c = problem.compiled.constraints
+    some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
+    return bool(_alarms(_least(problem, times[some], x[some], constants)).any())
+
+
+def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Constants) -> float | None:
+    """Return the time in s at which loops first pass such a position, None if they pass none.
+
+    Where `passes_flat` is alarmed, and beside it, as it may be 0 amid a step from one side to the other, the least value is
+    looked for on the cubic between the steps.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    times, y : arrays, shapes (n,), (n, nx + nz)
+        Times, states and algebraic unknowns of successive steps.
+    constants : Constants
+        Those of the segment.
+    """
+    x, z = np.split(y, [problem.nx], axis=1)
+    alarms = np.pad(_alarms(_least(problem, times, x, constants)), 1)
+    for k in np.flatnonzero(alarms[:-2] | alarms[1:-1] | alarms[2:]).tolist():
+        two = slice(k, k + 2)
+        rates = problem.each(problem.compiled.rates, Rows.within(times[two], x[two], z[two], constants.vector))
+        h, low, high = times[k + 1] - times[k], 0.0, 1.0
+        for _ in range(LOOPS.zooms):
+            parts = np.linspace(low, high, LOOPS.parts + 1)
+            inside = cubic(parts[:, None], h, x[two], rates)[0]
+            least = np.min(_least(problem, times[k] + parts * h, inside, constants), axis=0)
+            place = int(np.argmin(least))
+            if least[place] <= LOOPS.flat:
+                return float(times[k] + parts[place] * h)
+            low, high = parts[max(place - 1, 0)], parts[min(place + 1, LOOPS.parts)]
+    return None
+
+
+def _alarms(least: np.ndarray) -> np.ndarray:
+    """Whether any of some values, shape (m, n), may be 0 between each point and the next."""
+    return np.any(np.minimum(least[:, 1:], least[:, :-1]) <= np.abs(np.diff(least)), axis=0)
+
+
+def _least(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
+    """Smallest singular values of the parts of the constraints at n points, shape (m, n)."""
     c, nominal = problem.compiled.constraints, problem.nominal
     counts = c.counting(constants.closures) & c.is_lowest
-    some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
-    held = c.held(x[some], problem.p, times[some], constants.vector) * nominal[c.entries[1]]
+    held = c.held(x, problem.p, times, constants.vector) * nominal[c.entries[1]]
     held = held / _sizes(c, held)
-    for part in levels_of(problem.compiled):
-        on = counts[part.rows]
-        if not on.any():
-            continue
-        least = np.linalg.svd(part.dense(held)[:, on], compute_uv=False)[:, -1]
-        if np.any(np.minimum(least[1:], least[:-1]) <= np.abs(np.diff(least))):
-            return True
-    return False
+    parts = [(part, counts[part.rows]) for part in levels_of(problem.compiled)]
+    found = [np.linalg.svd(part.dense(held)[:, on], compute_uv=False)[:, -1] for part, on in parts if on.any()]
+    return np.array(found).reshape(len(found), len(times))
 
 
 def _sizes(c: Constraints, held: np.ndarray) -> np.ndarray:

@@ -68,9 +68,12 @@ class Integration(ABC):
     ----------
     request : Request
         What it was asked for.
+    flat : float or None
+        Time in s of the first flat position of loops that it passed where it may have left the motion, if it looks for them.
     """
 
     request: Request
+    flat: float | None = None
 
     @property
     @abstractmethod

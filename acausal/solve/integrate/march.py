@@ -115,6 +115,9 @@ class March:
         if isinstance(kept, Refusal):
             self.refusal = kept
             return None
+        flat = self._integration.flat
+        if flat is not None and flat <= kept.times[-1]:
+            self.integrator.trace.flat.append(flat)
         k = int(np.searchsorted(self._curve.times, min(time, leg.times[-1])))
         self.step = float(np.max(np.diff(self._curve.times[max(k - 2, 0) : k + 1])))
         self._at = kept.end(self._at)

@@ -37,6 +37,7 @@ class Trace:
     orders: list[str] = field(default_factory=list)
     changes: list[str] = field(default_factory=list)
     rough: bool = False
+    flat: list[float] = field(default_factory=list)
 
     def emptied(self) -> Trace:
         """Return a trace without rows in which the counts continue."""
