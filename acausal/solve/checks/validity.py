@@ -98,11 +98,12 @@ def doubts(outputs: Evaluator) -> list[str]:
     share = np.array([expectation.share for expectation, _ in seen.stated])
     part, whole = _parts(problem.each(seen.function, rows))
     if seen.wanted:
-        # The integrator's own values show at once where nothing is near its limit.
-        if not np.any(np.max(part, axis=0) > VALIDITY.nearly * share * np.max(whole, axis=0)):
+        # The integrator's own values show where nothing is near its limit.
+        near = np.flatnonzero(np.any(part > VALIDITY.nearly * share * np.max(whole, axis=0), axis=1))
+        if not near.size:
             return []
-        settled = outputs.solver(rows, seen.wanted, POLICY.consistent.roughly)[0]
-        part, whole = _parts(problem.each(seen.function, settled))
+        settled = outputs.solver(rows[near], seen.wanted, POLICY.consistent.roughly)[0]
+        part[near], whole[near] = _parts(problem.each(seen.function, settled))
     most, so_far = np.max(part, axis=0), np.maximum.accumulate(whole)
     found = []
     for k in np.flatnonzero(most > share * so_far[-1]).tolist():
