@@ -108,7 +108,10 @@ def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, p
             low, high = (low, middle) if differs else (middle, high)
         if closer == PROMISES.switches:
             break
-        time, jump, looked = _at_switch(look, low, columns, promise, PROMISES.step * size)
+        ends = (
+            values[k : k + 2] if high - low == rows[k + 1] - rows[k] else look.rows(np.array([low, high]))[:, columns]
+        )
+        time, jump, looked = _at_switch(look, low, ends, columns, promise, PROMISES.step * size)
         closer += looked
         if jump > PROMISES.step * size:
             return (
@@ -119,21 +122,24 @@ def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, p
     return ""
 
 
-def _at_switch(look: _Look, row: int, columns: slice, promise: Promise, allowed: float) -> tuple[float, float, bool]:
-    """Time of a switch between an output point and the next, the jump there, and whether it had to be examined more closely."""
+def _at_switch(
+    look: _Look, row: int, ends: np.ndarray, columns: slice, promise: Promise, allowed: float
+) -> tuple[float, float, bool]:
+    """Time of a switch between an output point and the next, the jump there, and whether it had to be examined more closely.
+
+    `ends` are the values at both, `columns` those of the promise among all.
+    """
     n, holds = promise.step.numel(), promise.holds
 
     def points(times: np.ndarray, values: np.ndarray) -> list[_Point]:
-        return [
-            _Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values[:, columns], strict=True)
-        ]
+        return [_Point(t, v[0], v[1 : 1 + n], v[1 + n :]) for t, v in zip(times.tolist(), values, strict=True)]
 
-    a, b = points(look.outputs.rows.times[row : row + 2], look.rows(np.array([row, row + 1])))
+    a, b = points(look.outputs.rows.times[row : row + 2], ends)
     for k in range(PROMISES.closer):
         if min(_step(a, b), _jump(a, b)) <= allowed:
             return b.time, 0.0, k > 0
         times = np.linspace(a.time, b.time, PROMISES.parts + 1)[1:-1]
-        parts = [a, *points(times, look.inside(row, times)), b]
+        parts = [a, *points(times, look.inside(row, times)[:, columns]), b]
         place = next((i for i in range(PROMISES.parts) if holds(parts[i].excess) != holds(parts[i + 1].excess)), 0)
         a, b = parts[place], parts[place + 1]
     return b.time, _jump(a, b), True
