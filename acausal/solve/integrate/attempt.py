@@ -196,8 +196,9 @@ class Integrator:
         for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
             if not self.consistent.holds(given, k, way.tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
-        sure = iterates or self.loops or end.time not in lost
-        if not (sure or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in (last, given[-1:]))):
+        # From far away, unknowns may come to rest where the equations do not hold.
+        ends = (last, given[-1:])
+        if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
         leg.rows.z[-1] = last.z[0]
         return leg

@@ -135,7 +135,8 @@ def test_a_beam_with_damping_suits_importers(kind: str, tmp_path: Path) -> None:
     compiled = ac.compile(models.FlexiblePendulum(), parameters={"beam.beta": 1e-3})
     path = exported(compiled, tmp_path / "a.fmu", 3)
     exact = columns(ac.simulate(compiled, tolerance=1e-8, method="idas", stop_time=0.5, intervals=40))
-    assert error(simulated(path, kind, 0.5, relative_tolerance=1e-6), exact) < 1e-3
+    # At 1e-6 errors of CVode scatter from 6e-4 to 1.6e-3 where the tolerance changes by a tenth, or the last bits do.
+    assert error(simulated(path, kind, 0.5, relative_tolerance=3e-7), exact) < 1e-3
 
 
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
