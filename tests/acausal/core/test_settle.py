@@ -40,6 +40,44 @@ def test_unknowns_are_those_of_the_equations() -> None:
     np.testing.assert_allclose(far[settled], known(p + 1, c, x)[settled], atol=1e-13)
 
 
+@pytest.mark.parametrize("enough", [1e-1, 1e-3, 1e-7])
+@pytest.mark.parametrize("away", [1.0, 1e-2, 1e-4, 1e-6, 1e-10])
+def test_what_is_enough_tells_the_error(enough, away) -> None:
+    """Its square, and rounding, in an unknown that bends the equations and in one that follows from it."""
+    rng, p, n = np.random.default_rng(1), np.array([0.7, -1.0]), 200
+    x, c, z = rng.uniform(1, 2, (n, 1)), np.ones((n, 1)), np.zeros((n, 4))
+    exact = known(p, c, x)
+    z[:, [1, 3]] = exact * (1 + away * rng.uniform(-1, 1, (n, 2)))
+    solve = settler()
+    found, settled = solve(p, c, x, z, size=np.max(np.abs(exact), axis=0), enough=enough)
+    assert np.all(settled)
+    assert np.max(np.abs(found - exact)) < 10 * enough**2 + 1e-14
+    if away <= enough:
+        assert solve.evaluations == n
+
+
+def test_an_unknown_that_is_nothing_but_rounding_settles() -> None:
+    """z1 = z0 - 1e6 x is 0 but for rounding of its terms, and its size is no more than that."""
+    square = make_square([P, C, X, Z], 2, ca.vertcat(Z[0] - 1e6 * X**2 / X, Z[1] - Z[0] + 1e6 * X), 3, np.array([0, 1]))
+    x, z = np.random.default_rng(0).uniform(0.1, 1, (50, 1)), np.zeros((50, 4))
+    z[:, 0], z[:, 1] = 1e6 * x[:, 0] * (1 + 1e-4), 1e-4
+    found, settled = Settler(square)(np.zeros(2), np.zeros((50, 1)), x, z, size=np.array([1e6, 1e-12]), enough=1e-7)
+    assert np.all(settled)
+    np.testing.assert_allclose(found, np.column_stack([1e6 * x[:, 0], np.zeros(50)]), atol=1e-9)
+
+
+@pytest.mark.parametrize("far", [1e2, 1e4, 1e8])
+def test_large_terms_far_away_hide_no_error(far) -> None:
+    """z0^2 = x and z1 = z0: terms at the first places are far larger than those at the solution."""
+    square = make_square([P, C, X, Z], 2, ca.vertcat(Z[0] ** 2 - X, Z[1] - Z[0]), 3, np.array([0, 1]))
+    x, z = np.random.default_rng(0).uniform(0.5, 2, (50, 1)), np.zeros((50, 4))
+    z[:, :2] = far
+    given = np.zeros(2), np.zeros((50, 1)), x, z
+    found, settled = Settler(square)(*given, size=np.ones(2), enough=1e-7)
+    np.testing.assert_allclose(found[settled], np.sqrt(x[settled]) * np.ones(2), rtol=1e-13)
+    assert settled.all() or far > 1e7
+
+
 def test_places_without_a_solution_leave_the_others_alone() -> None:
     """z^2 = x has none for x < 0, and a slope of 0 at z = 0."""
     square = make_square([P, C, X, Z], 2, Z[0] ** 2 - X, 3, np.array([0]))
