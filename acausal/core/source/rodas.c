@@ -105,7 +105,7 @@ static double norm(const ac_rodas *r, const double *change) {
         const double most = fmax(fabs(r->y[k]), fabs(r->next[k]));
         const double part = fabs(change[k]) / (r->request.tolerance * (r->request.size[k] + most));
         sum += part * part;
-        if (!(part <= largest)) largest = part;
+        if (part > largest || isnan(part)) largest = part;
     }
     if (r->request.largest) return largest;
     return r->of.nx ? sqrt(sum / r->of.nx) : 0;
@@ -164,7 +164,7 @@ static double unresolved(ac_rodas *r, double *left, const int32_t *some) {
     double most = 0;
     for (int32_t k = 0; k < nx; k++) {
         const double part = fabs(left[k]) / (r->request.tolerance * (r->request.size[k] + fabs(r->y[k])));
-        if ((!some || some[k]) && !(part <= most)) most = part;
+        if ((!some || some[k]) && (part > most || isnan(part))) most = part;
     }
     return most;
 }

@@ -71,7 +71,7 @@ static double change_of(const ac_settler *s, const double *size, double *bent) {
     double change = *bent = 0;
     for (int32_t k = 0; k < s->of.n; k++) {
         const double part = fabs(s->step[k]) / size[k];
-        if (!(part <= change)) change = part;
+        if (part > change || isnan(part)) change = part;
         if (bends[s->of.unknown[k]] && part > *bent) *bent = part;
     }
     return change;
