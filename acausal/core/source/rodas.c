@@ -15,7 +15,7 @@
 #define LEAST 0.2             /* change of a step at most, likewise */
 #define MOST 6.0
 #define AFTER_REFUSAL 0.25    /* of a step whose equations have no value */
-#define FIRST 0.01            /* of the way, the first step at most, and not beyond the first output */
+#define FIRST 0.01            /* of the way, the first step at most; or to the first output, but for those that are very near */
 #define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
@@ -188,7 +188,7 @@ static void begin(ac_rodas *r) {
     const double span = q->time[q->outputs] - r->t;
     double *slope = NULL;
     if (!(r->h > 0)) {
-        r->h = fmin(FIRST * span, q->time[1] - r->t);
+        r->h = FIRST * fmin(span, fmax((q->time[1] - r->t) / FIRST, FIRST * span));
         ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
         r->progress.values++;
         slope = r->next;
