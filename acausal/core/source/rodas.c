@@ -185,10 +185,10 @@ static int32_t stills(ac_rodas *r, const double *slope) {
 /* Shorten the first step until it resolves what moves; begin with the one that is given, else with a long one. */
 static void begin(ac_rodas *r) {
     const ac_request *q = &r->request;
-    const double span = q->time[q->outputs] - r->t;
+    const double span = q->time[q->outputs] - r->t, output = q->time[q->outputs > 0] - r->t;
     double *slope = NULL;
     if (!(r->h > 0)) {
-        r->h = FIRST * fmin(span, fmax((q->time[1] - r->t) / FIRST, FIRST * span));
+        r->h = fmin(FIRST * span, fmax(output, FIRST * FIRST * span));
         ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
         r->progress.values++;
         slope = r->next;
