@@ -81,8 +81,15 @@ def _least(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Consta
     held = c.held(x, problem.p, times, constants.vector) * nominal[c.entries[1]]
     held = held / _sizes(c, held)
     parts = [(part, counts[part.rows]) for part in levels_of(problem.compiled)]
-    found = [np.linalg.svd(part.dense(held)[:, on], compute_uv=False)[:, -1] for part, on in parts if on.any()]
+    found = [_smallest(part.dense(held)[:, on]) for part, on in parts if on.any()]
     return np.array(found).reshape(len(found), len(times))
+
+
+def _smallest(A: np.ndarray) -> np.ndarray:
+    """Smallest singular values of n matrices, to 1e-8 of the largest: the roots of eigenvalues of A A', or of A' A if smaller."""
+    turned = A.transpose(0, 2, 1)
+    square = A @ turned if A.shape[1] <= A.shape[2] else turned @ A
+    return np.sqrt(np.maximum(np.linalg.eigvalsh(square)[:, 0], 0.0))
 
 
 def _sizes(c: Constraints, held: np.ndarray) -> np.ndarray:
