@@ -32,8 +32,7 @@ def passes_flat(problem: Problem, times: np.ndarray, x: np.ndarray, constants: C
     constants : Constants
         Those of the segment.
     """
-    c = problem.compiled.constraints
-    some = spread(len(times), int(np.clip(POLICY.calls.work / c.size**3, POLICY.calls.looks[0], len(times))))
+    some = _looks(problem, len(times))
     return bool(_alarms(_least(problem, times[some], x[some], constants)).any())
 
 
@@ -52,7 +51,8 @@ def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Con
     constants : Constants
         Those of the segment.
     """
-    x, z = np.split(y, [problem.nx], axis=1)
+    some = _looks(problem, len(times))
+    times, (x, z) = times[some], np.split(y[some], [problem.nx], axis=1)
     alarms = np.pad(_alarms(_least(problem, times, x, constants)), 1)
     for k in np.flatnonzero(alarms[:-2] | alarms[1:-1] | alarms[2:]).tolist():
         two = slice(k, k + 2)
@@ -67,6 +67,12 @@ def flat_time(problem: Problem, times: np.ndarray, y: np.ndarray, constants: Con
                 return float(times[k] + parts[place] * h)
             low, high = parts[max(place - 1, 0)], parts[min(place + 1, LOOPS.parts)]
     return None
+
+
+def _looks(problem: Problem, n: int) -> np.ndarray:
+    """Places among n steps: all but in large mechanisms, where each look costs much."""
+    most = POLICY.calls.work / problem.compiled.constraints.size**3
+    return spread(n, int(np.clip(most, POLICY.calls.looks[0], n)))
 
 
 def _alarms(least: np.ndarray) -> np.ndarray:
