@@ -6,7 +6,7 @@ import casadi as ca
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
-from acausal.core import Equations, Square, make_equations, make_square, with_powers
+from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, with_powers
 from acausal.language.functions import time
 
 
@@ -30,6 +30,20 @@ def core_equations(compiled: CompiledModel, works: bool, moves: bool) -> Equatio
         return with_powers(core_equations(compiled, False, moves), arguments, powers)
     ode, alg = (ca.substitute(column, r.projections.moves, moves) for column in (r.running.ode, r.running.alg))
     return make_equations(*arguments, ode, alg)
+
+
+@once
+def laws_of_time(compiled: CompiledModel, moves: bool) -> Tape | None:
+    """Return the laws of time alone that the equations hold, of x, z, time, p and constants; None if there are none.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    moves : bool
+        Whether the projection of closed loops moves.
+    """
+    return laws_of(core_equations(compiled, False, moves).values, 2, (3, 4))
 
 
 @once

@@ -1,6 +1,7 @@
 """The core: a library in C that evaluates and integrates any model, which it takes as data."""
 
 from acausal.core.curve import Curve
+from acausal.core.laws import laws_of
 from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
@@ -19,6 +20,7 @@ __all__ = [
     "Square",
     "StoredModel",
     "Tape",
+    "laws_of",
     "library",
     "make_equations",
     "make_square",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
-from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks
+from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks, Rests
 from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
@@ -32,6 +32,7 @@ class Policy:
     sizes: Sizes
     instants: Instants
     agenda: Agenda
+    rests: Rests
     clock: Clock
     looks: Looks
     locate: Locate
@@ -60,6 +61,7 @@ POLICY = Policy(
     Sizes(),
     Instants(),
     Agenda(),
+    Rests(),
     Clock(),
     Looks(),
     Locate(),

@@ -29,6 +29,23 @@ class Instants:
 
 
 @dataclass(frozen=True)
+class Rests:
+    """Laws of time that rest, act, and return to rest in less time than steps take that have grown meanwhile."""
+
+    # Places in a segment at which they are evaluated, and how many intervals between them make a rest.
+    looks: int = 401
+    least: int = 4
+    # Change in an interval that is none, over the range of a law.
+    still: float = 1e-6
+    # What a step may pass over, in lengths of the rest before: it grows sixfold at most.
+    growth: int = 6
+    # Of what a law changes meanwhile, what may be left; more is seen after it.
+    left: float = 0.5
+    # Of the segment: an output so near is at the same place.
+    near: float = 1e-9
+
+
+@dataclass(frozen=True)
 class Agenda:
     """Times that are known before."""
 

@@ -70,6 +70,10 @@ class Ahead:
         self._march: March | None = None
         self._step, self._hasty = 0.0, False
 
+    def begin(self) -> None:
+        """Choose the next first step anew."""
+        self._step = 0.0
+
     def look(self, at: Point, end: float) -> Found:
         """Integrate some way towards the end of a segment, and look for an event there."""
         if METHODS[self.integrator.way.method].marches and self.integrator.compiled.nx:

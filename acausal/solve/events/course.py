@@ -20,6 +20,7 @@ from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
+from acausal.solve.events.rests import ends_of_rests
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
@@ -75,6 +76,9 @@ class Course:
                 now = self.agenda.between(at.time, end)
                 at, held = self._at_break(at, now, held), now
             self._refuse_undecided(at, end)
+            for rest in ends_of_rests(self.integrator, at, end, self.times):
+                at = self._segment(at, rest)
+                self.ahead.begin()
             at = self._segment(at, end)
         self._at_stop(at, held)
 
