@@ -35,6 +35,8 @@ def laws_of(tape: Tape, argument: int, free: Collection[int]) -> Tape | None:
     for k, (first, last) in enumerate(pairwise(starts)):
         of_it[first:last] = k == argument
         of_others[first:last] = k != argument and k not in free
+    if not (of_it[tape.first] | of_it[tape.second]).any():
+        return None
     for here, (a, b) in enumerate(zip(tape.first.tolist(), tape.second.tolist(), strict=True), own):
         of_it[here] = of_it[a] or of_it[b]
         of_others[here] = of_others[a] or of_others[b]
