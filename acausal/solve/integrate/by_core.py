@@ -77,7 +77,7 @@ class ByCore(Integration):
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
         if self._loops and self._damps:
-            self.flat = self.flat or flat_time(*self._last_steps)
+            self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
         elif self._loops and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
             return Refusal(Kind.FLAT, time)
         return Refusal(REFUSALS[end], time) if end in REFUSALS else None
