@@ -32,10 +32,10 @@ class Instants:
 class Rests:
     """Laws of time that rest, act, and return to rest in less time than steps take that have grown meanwhile."""
 
-    # Places in a segment at which they are evaluated, and how many intervals between them make a rest.
-    looks: int = 401
+    # Parts of a run at whose ends they are evaluated, however many segments it has, and how many of them make a rest.
+    parts: int = 400
     least: int = 4
-    # Change in an interval that is none, over the range of a law.
+    # Change in a part that is none, over the range of a law.
     still: float = 1e-6
     # What a step may pass over, in lengths of the rest before: it grows sixfold at most.
     growth: int = 6

@@ -35,20 +35,23 @@ def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.nda
     way, problem, span = integrator.way, integrator.problem, end - at.time
     if not library() or METHODS[way.method].multistep or not problem.nx:
         return []
+    parts = int(np.ceil(RESTS.parts * span / (outputs[-1] - outputs[0])))
+    if parts <= RESTS.least:
+        return []
     numbers = np.concatenate([[at.time, end], problem.p, at.constants.vector])
-    found = np.array(_found(problem.compiled, way.moves, numbers.tobytes()))
+    found = np.array(_found(problem.compiled, way.moves, parts, numbers.tobytes()))
     near = outputs[np.clip(np.searchsorted(outputs, found - span * RESTS.near), 0, len(outputs) - 1)]
     return np.where(np.abs(near - found) <= span * RESTS.near, near, found).tolist()
 
 
 @latest
-def _found(compiled: CompiledModel, moves: bool, numbers: bytes) -> tuple[float, ...]:
-    """Return the same for ends of a segment, parameters and constants, given as bytes."""
+def _found(compiled: CompiledModel, moves: bool, parts: int, numbers: bytes) -> tuple[float, ...]:
+    """Return the same for ends of a segment in so many parts, parameters and constants, given as bytes."""
     laws = laws_of_time(compiled, moves)
     if laws is None:
         return ()
     (begin, end), p, constants = np.split(np.frombuffer(numbers), [2, 2 + compiled.reduced.p.numel()])
-    times = np.linspace(begin, end, RESTS.looks)
+    times = np.linspace(begin, end, parts + 1)
     values = laws.rows(np.zeros(compiled.nx), np.zeros(compiled.nz), times[:, None], p, constants)
     return tuple(times[sorted({k for law in values.T for k in _ends(law)})].tolist())
 
