@@ -312,7 +312,8 @@ def test_forces_and_frames_on_demand(show: Show, run: dict) -> None:
 
 
 def press(browser: Browser, place: str) -> None:
-    """Click in the middle of an element."""
+    """Click in the middle of an element, as the picture that is due shows it."""
+    browser.run(PAINTED)
     x, y = browser.run(
         "(({left, top, width, height}) => [left + width / 2, top + height / 2])"
         f"(document.querySelector({place!r}).getBoundingClientRect())"
@@ -344,6 +345,19 @@ def test_buttons_and_boxes(show: Show, run: dict) -> None:
     assert browser.run(NOW) == pytest.approx(1, abs=0.02)
     browser.key("ArrowRight")
     assert browser.run(NOW) in np.linspace(0, 2, 101)
+
+
+def test_nothing_moves_when_it_plays(show: Show, run: dict) -> None:
+    """Whoever aims at the slider of time while it plays or stops hits what was aimed at."""
+    browser = show(document(run))
+    places = (
+        "[...document.querySelectorAll('#transport *')].map((e) => e.getBoundingClientRect()).map((r) => [r.x, r.width])"
+    )
+    still = browser.run(places)
+    for key in "  ":
+        browser.key(key, key)
+        browser.run(PAINTED)
+        assert browser.run(places) == still
 
 
 def test_drag_turns_and_wheel_comes_nearer(show: Show, run: dict) -> None:
