@@ -20,7 +20,7 @@ from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import choose_projection, worn
+from acausal.solve.start.loop_states import choose_projection, chosen, least_cosine, suits, worn
 
 
 class Integrator:
@@ -82,13 +82,21 @@ class Integrator:
         """Return a point where the constraints hold, with a projection that suits the position."""
         if not self.loops:
             return at
-        self.trace.choices += 1
         if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
             z = at.z.copy()
             z[self.compiled.constraints.multipliers] = 0.0
-            held = replace(self.problem.projected(at), z=z)
-            self._chosen = at, moves, replace(held, constants=choose_projection(self.problem, held, moves=moves))
+            self._chosen = at, moves, self._suited(replace(self.problem.projected(at), z=z), moves)
         return self._chosen[2]
+
+    def _suited(self, at: Point, moves: bool) -> Point:
+        """Return the point with a projection that suits it: its own, if that moves along."""
+        fits = suits(self.problem, at)
+        if fits and moves:
+            return at
+        self.trace.choices += 1
+        return replace(
+            at, constants=chosen(self.problem, at) if fits else choose_projection(self.problem, at, moves=moves)
+        )
 
     def is_worn(self, rows: Rows, constants: Constants) -> bool:
         """Whether the chosen states became unfit on the way."""
@@ -96,9 +104,7 @@ class Integrator:
             return False
         looks = int(np.clip(POLICY.calls.work / self.compiled.constraints.size**3, *POLICY.calls.looks))
         some = rows[spread(len(rows), looks)]
-        # Where n coordinates move alike, the cosine of the best choice is 1/sqrt(n).
-        least = min(POLICY.loops.worn, POLICY.loops.fit / self.compiled.nx**0.5)
-        return bool(np.any(worn(self.problem, some, constants) < least))
+        return bool(np.any(worn(self.problem, some, constants) < least_cosine(self.problem)))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
         """Integrate in the current way, carefully where that fails; without works."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.core import library
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Rescues, Way
 
@@ -58,8 +59,9 @@ class Settings:
     @property
     def way(self) -> Way:
         """The way to begin with."""
-        # Steps of the one-step method are long, and the states that are chosen once wear out.
-        moves = self.constraints == "projection" or (self.constraints == "auto" and self.methods[0] == "following")
+        # Steps of the core are long, and states that are chosen once wear out.
+        by_core = self.methods[0] != "idas" and library() is not None
+        moves = self.constraints == "projection" or (self.constraints == "auto" and by_core)
         return Way(self.methods[0], moves, self.tolerance, RESCUE.long, self.max_order)
 
     @property

@@ -37,7 +37,7 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     redundancy = find_redundancy(problem, closed)
     counts = np.array([k not in redundancy.dropped for k in problem.compiled.constraints.closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
-    return replace(closed, constants=choose_projection(problem, closed, spare=False)), redundancy
+    return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
 
 
 def ranked(

@@ -100,8 +100,8 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         at = algebraic(problem, at)
     if not loops:
         return Start(at)
-    at = replace(at, constants=choose_projection(problem, at))
-    return Start(at, redundancy, independent(compiled, at.constants))
+    at = replace(at, constants=choose_projection(problem, at, moves=True))
+    return Start(at, redundancy, independent(problem, at))
 
 
 def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:

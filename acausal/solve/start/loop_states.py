@@ -39,27 +39,37 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
         False makes some coordinates follow from the others (pivoted choice of states), True projects along the constraint
         Jacobian as it changes on the way, stiff coordinates the less.
     """
+    moving = _moving(problem, at, spare)
+    return moving if moves else chosen(problem, replace(at, constants=moving))
+
+
+def chosen(problem: Problem, at: Point) -> Constants:
+    """Return the constants with which some coordinates follow from the others, at a point whose projection moves."""
+    c = problem.compiled.constraints
+    J, nominal = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / nominal**2
+    selection = _select(levels_of(problem.compiled), D, c.counting(at.constants.closures))
+    return replace(at.constants, moves=False, D=selection * nominal)
+
+
+def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     c = problem.compiled.constraints
     rows, columns = c.entries
     on = c.counting(at.constants.closures)
     # States count in nominal values: the least change of them, J' over their squares, is the way to the constraints.
-    nominal = problem.nominal[: problem.nx]
-    J = c.held(at.x[None], problem.p, np.array([at.time]), at.constants.vector)[0] * on[rows] * nominal[columns]
+    J, nominal = _held(problem, Rows.of(at), at.constants)
+    J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
-    levels = levels_of(problem.compiled)
-    weights = _spared(levels, J, stiffness[columns], problem.feedback)
-    D = J * weights
-    size = np.sqrt(np.bincount(rows, D**2, minlength=c.size))
+    weights = _spared(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
+    size = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
     size = np.where(size > 0, size, 1.0)[rows]
-    factors = on[rows] * weights * nominal[columns] ** 2 / size
-    chosen = factors if moves else _select(levels, D / size, on) * nominal[columns]
-    return replace(at.constants, moves=moves, D=chosen)
+    return replace(at.constants, moves=True, D=on[rows] * weights * nominal**2 / size)
 
 
-def independent(compiled: CompiledModel, constants: Constants) -> tuple[str, ...]:
-    """Names of the states that do not follow from others."""
-    follows = set(compiled.constraints.entries[1][constants.D != 0].tolist())
-    return tuple(name for k, name in enumerate(compiled.states) if k not in follows)
+def independent(problem: Problem, at: Point) -> tuple[str, ...]:
+    """Names of the states that do not follow from others, at a point with the projection that moves."""
+    follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())
+    return tuple(name for k, name in enumerate(problem.compiled.states) if k not in follows)
 
 
 @once
@@ -194,7 +204,7 @@ def _oblique(J: scipy.sparse.csc_matrix, D: scipy.sparse.csc_matrix) -> float:
 
 
 def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
-    """How well the projection of a segment still suits each of n positions: 1 is best, 0 is singular.
+    """How well the coordinates that were chosen for a segment still suit each of n positions: 1 is best, 0 is singular.
 
     Parameters
     ----------
@@ -205,6 +215,26 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     constants : Constants
         Those of the segment.
     """
+    J, nominal = _held(problem, rows, constants)
+    return _transversality(levels_of(problem.compiled), J, constants.D / nominal)
+
+
+def suits(problem: Problem, at: Point) -> bool:
+    """Whether the projection of a point is one that moves, and suits the point."""
+    if not at.constants.moves:
+        return False
+    J, nominal = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / nominal**2
+    return bool(_transversality(levels_of(problem.compiled), J, D)[0] >= least_cosine(problem))
+
+
+def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
+    """Constraint Jacobians for states in nominal values, and these, as `Constraints.entries` has them."""
     c = problem.compiled.constraints
-    held, nominal = c.held(rows.x, problem.p, rows.times, constants.vector), problem.nominal[c.entries[1]]
-    return _transversality(levels_of(problem.compiled), held * nominal, constants.D / nominal)
+    nominal = problem.nominal[c.entries[1]]
+    return c.held(rows.x, problem.p, rows.times, constants.vector) * nominal, nominal
+
+
+def least_cosine(problem: Problem) -> float:
+    """Cosine below which a projection is worn; where n coordinates move alike, that of the best choice is 1/sqrt(n)."""
+    return min(LOOPS.worn, LOOPS.fit / problem.nx**0.5)

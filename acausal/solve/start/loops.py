@@ -98,7 +98,7 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linea
     """Close one level; where it is linear in its coordinates, a step of least change is enough."""
     evaluate = _residuals(problem, at, rows, free)
     left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
-    if not free.size:
+    if not free.size or left == 0:
         return at, left
     best, scale = at.x[free], problem.nominal[free]
     if linear:

@@ -107,13 +107,17 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
         # Where the block is singular, the step of least norm, if there is one, leads on.
         order = "NATURAL" if free[0] == nx else "COLAMD"
         solve = factored(part.sparse(local.entries), scale, POLICY.ranks.least_norm, order)
-        found = _damped(residual, solve, y, free, scale, -solve(value))
-        if found is None:
-            break
-        y, value, simplified = found
-        change = np.max(np.abs(simplified) / (scale + np.abs(y[free])))
+        step = -solve(value)
+        # A correction as small as rounding makes it has nothing to reduce: it ends the iteration.
+        if not _change(step, y[free], scale) <= NEWTON.converged:
+            found = _damped(residual, solve, y, free, scale, step)
+            if found is None:
+                break
+            y, value, simplified = found
+            step = -simplified
+        change = _change(step, y[free], scale)
         if change <= NEWTON.converged:
-            y[free] -= simplified if change > NEWTON.rounding else 0.0
+            y[free] += step if change > NEWTON.rounding else 0.0
             if np.any(np.abs(value) > NEWTON.consistent * reach(local, y, problem.nominal)[rows]):
                 break
             return at.with_y(y)
@@ -121,6 +125,11 @@ def newton(problem: Problem, system: InitialSystem, at: Point, flag: float, offs
     if np.all(np.abs(here) <= rounding(problem.local(at.with_y(y), flag), y, problem.nominal)[rows]):
         return at.with_y(y)
     raise lost(here)
+
+
+def _change(step: np.ndarray, y: np.ndarray, scale: np.ndarray) -> float:
+    """Largest relative change of an unknown."""
+    return float(np.max(np.abs(step) / (scale + np.abs(y))))
 
 
 def _damped(

@@ -42,8 +42,9 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     order = pivots(null * weight)
     first = [k for k in order[: len(null)] if k not in rate_of.values()]
     paired = np.array(sorted({*first, *(rate_of[k] for k in first if k in rate_of)}), dtype=int)
-    fits = len(paired) == len(null) and (not len(null) or np.linalg.matrix_rank(null[:, paired]) == len(null))
-    chosen = paired if fits else np.sort(order[: len(null)])
+    chosen = np.sort(order[: len(null)])
+    if len(paired) == len(null) and not np.array_equal(paired, chosen):
+        chosen = paired if np.linalg.matrix_rank(null[:, paired]) == len(null) else chosen
     return size[:, None] * np.linalg.solve(null[:, chosen], null).T / size[chosen], chosen
 
 

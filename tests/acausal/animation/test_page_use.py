@@ -350,9 +350,7 @@ def test_buttons_and_boxes(show: Show, run: dict) -> None:
 def test_nothing_moves_when_it_plays(show: Show, run: dict) -> None:
     """Whoever aims at the slider of time while it plays or stops hits what was aimed at."""
     browser = show(document(run))
-    places = (
-        "[...document.querySelectorAll('#transport *')].map((e) => e.getBoundingClientRect()).map((r) => [r.x, r.width])"
-    )
+    places = "[...document.querySelectorAll('#transport *')].map((e) => e.getBoundingClientRect()).map((r) => [r.x, r.width])"
     still = browser.run(places)
     for key in "  ":
         browser.key(key, key)
