@@ -53,21 +53,20 @@ def _found(compiled: CompiledModel, moves: bool, parts: int, numbers: bytes) -> 
     (begin, end), p, constants = np.split(np.frombuffer(numbers), [2, 2 + compiled.reduced.p.numel()])
     times = np.linspace(begin, end, parts + 1)
     values = laws.rows(np.zeros(compiled.nx), np.zeros(compiled.nz), times[:, None], p, constants)
-    return tuple(times[sorted({k for law in values.T for k in _ends(law)})].tolist())
+    return tuple(times[_ends(values)].tolist())
 
 
-def _ends(law: np.ndarray) -> list[int]:
-    """Places at which a law ends a rest, to return to rest before long."""
-    moves = np.flatnonzero(np.abs(np.diff(law)) > RESTS.still * np.ptp(law))
-    if not moves.size:
-        return []
-    first = np.flatnonzero(np.diff(moves, prepend=-2) > 1)
-    begins, ends = moves[first], moves[np.append(first[1:], len(moves)) - 1] + 1
-    rests = begins - np.append(0, ends[:-1])
-    return [
-        k
-        for k, end, rest in zip(begins.tolist(), ends.tolist(), rests.tolist(), strict=True)
-        if rest >= RESTS.least
-        and end - k <= RESTS.growth * rest
-        and abs(law[end] - law[k]) <= RESTS.left * np.ptp(law[k : end + 1])
-    ]
+def _ends(laws: np.ndarray) -> list[int]:
+    """Places at which laws, one a column, end a rest, to return to rest before long."""
+    n = len(laws) - 1
+    moves = np.abs(np.diff(laws, axis=0)) > RESTS.still * np.ptp(laws, axis=0)
+    parts = np.arange(n)[:, None]
+    moved = np.maximum.accumulate(np.where(moves, parts + 1, 0), axis=0)  # where the last move up to each part ends
+    rests = parts - np.pad(moved[:-1], ((1, 0), (0, 0)))
+    found = set[int]()
+    for k, law in np.argwhere(moves & (rests >= RESTS.least)).tolist():
+        end = k + int(np.argmin(np.append(moves[k:, law], False)))
+        way = laws[k : end + 1, law]
+        if end - k <= RESTS.growth * rests[k, law] and abs(way[-1] - way[0]) <= RESTS.left * np.ptp(way):
+            found.add(k)
+    return sorted(found)
