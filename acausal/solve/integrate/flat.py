@@ -12,6 +12,8 @@ from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.loop_states import levels_of
+from acausal.solve.start.parts import Part
+from acausal.solve.start.regular import least_singular_value
 
 LOOPS = POLICY.loops
 
@@ -87,12 +89,15 @@ def _least(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Consta
     held = c.held(x, problem.p, times, constants.vector) * nominal[c.entries[1]]
     held = held / _sizes(c, held)
     parts = [(part, counts[part.rows]) for part in levels_of(problem.compiled)]
-    found = [_smallest(part.dense(held)[:, on]) for part, on in parts if on.any()]
+    found = [_smallest(part, held, on) for part, on in parts if on.any()]
     return np.array(found).reshape(len(found), len(times))
 
 
-def _smallest(A: np.ndarray) -> np.ndarray:
-    """Smallest singular values of n matrices, to 1e-8 of the largest: the roots of eigenvalues of A A', or of A' A if smaller."""
+def _smallest(part: Part, held: np.ndarray, on: np.ndarray) -> np.ndarray:
+    """Smallest singular values of some rows of a part, to 1e-8 of the largest: the roots of eigenvalues of A A', or of A' A."""
+    if np.sum(on) > POLICY.ranks.small:
+        return np.array([least_singular_value(part.sparse(row)[on]) for row in held])
+    A = part.dense(held)[:, on]
     turned = A.transpose(0, 2, 1)
     square = A @ turned if A.shape[1] <= A.shape[2] else turned @ A
     return np.sqrt(np.maximum(np.linalg.eigvalsh(square)[:, 0], 0.0))

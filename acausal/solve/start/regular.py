@@ -11,6 +11,7 @@ from acausal.policy import POLICY
 from acausal.solve.problem import lengths
 
 RANKS = POLICY.ranks
+SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 
 
 def unit_rows(rows: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix:
@@ -29,14 +30,13 @@ def gram(rows: scipy.sparse.csc_matrix, tolerance: float) -> Callable[[np.ndarra
     if rows.shape[0] <= RANKS.small:
         return None
     least = max(tolerance, RANKS.squared)
-    options = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
     product = (rows @ rows.T).tocsc()
     shift = scipy.sparse.identity(len(product.indptr) - 1, format="csc") * least**2
     try:
-        shifted = scipy.sparse.linalg.splu(product - shift, **options)
+        shifted = scipy.sparse.linalg.splu(product - shift, **SYMMETRIC)
         if not (np.array_equal(shifted.perm_r, shifted.perm_c) and np.all(shifted.U.diagonal() > 0)):
             return None
-        return scipy.sparse.linalg.splu(product, **options).solve
+        return scipy.sparse.linalg.splu(product, **SYMMETRIC).solve
     except (RuntimeError, ValueError):
         return None
 
@@ -52,3 +52,18 @@ def complement(rows: scipy.sparse.csc_matrix, tolerance: float) -> np.ndarray | 
     for _ in range(2):  # the second time for rounding
         null = np.linalg.qr(null - own.T @ inverse(own @ null))[0]
     return null.T
+
+
+def least_singular_value(rows: scipy.sparse.csc_matrix) -> float:
+    """Return the smallest singular value of many sparse rows, or columns if these are fewer; 0 where rounding hides it."""
+    own = rows if rows.shape[0] <= rows.shape[1] else rows.T
+    product = (own @ own.T).tocsc()
+    n = product.shape[0]
+    options = {"return_eigenvectors": False, "v0": np.cos(np.arange(n)), "tol": POLICY.loops.angles}
+    try:
+        inverse = scipy.sparse.linalg.splu(product, **SYMMETRIC).solve
+        operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=inverse, dtype=float)
+        largest = float(scipy.sparse.linalg.eigsh(operator, 1, **options)[0])
+    except RuntimeError:
+        return 0.0
+    return largest**-0.5 if largest > 0 else 0.0

@@ -10,7 +10,7 @@ from acausal.solve.start import loop_states
 from acausal.solve.start.loop_states import _oblique, _select, _transversality
 from acausal.solve.start.parts import parts_of
 from acausal.solve.start.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
-from acausal.solve.start.regular import complement, gram, unit_rows
+from acausal.solve.start.regular import complement, gram, least_singular_value, unit_rows
 
 M, N = 150, 190
 
@@ -90,3 +90,20 @@ def test_large_parts_are_chosen_and_judged_as_small_ones(monkeypatch):
     found = _select(levels, J.data, on)
     np.testing.assert_array_equal(found, dense)
     np.testing.assert_allclose(_transversality(levels, J.data[None], found), worst, rtol=1e-3)
+
+
+@pytest.mark.parametrize("last", [1.0, 1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_least_singular_value_of_sparse_rows(last, turned):
+    """Of a band whose last row is nearly the one before it."""
+    A = unit_rows(band()).tolil()
+    A[-1] = A[-2].toarray() + last * A[-1].toarray()
+    A = (A.T if turned else A).tocsc()
+    expected = np.linalg.svd(A.toarray(), compute_uv=False)[-1]
+    assert least_singular_value(A) == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_least_singular_value_of_equal_rows_is_hidden_by_rounding():
+    A = unit_rows(band()).tolil()
+    A[-1] = A[-2]
+    assert least_singular_value(A.tocsc()) < 1e-7
