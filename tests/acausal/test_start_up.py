@@ -7,6 +7,7 @@ import pytest
 
 TABLES = {"matplotlib", "pandas", "rich"}
 SCIPY = {"scipy.interpolate", "scipy.linalg", "scipy.optimize", "scipy.sparse"}
+LARGE = {"scipy.interpolate", "scipy.optimize"}
 NOWHERE = {"distributed", "pytest", "sympy"}
 
 
@@ -15,7 +16,9 @@ NOWHERE = {"distributed", "pytest", "sympy"}
     [
         ("import acausal, components, models", NOWHERE | TABLES | SCIPY | {"networkx", "typer"}),
         ("run('list')", NOWHERE | TABLES | SCIPY | {"networkx"}),
-        ("run('check', 'spin-up')", NOWHERE | TABLES | {"scipy.interpolate", "scipy.optimize"}),
+        ("run('check', 'spin-up')", NOWHERE | TABLES | LARGE),
+        ("import acausal as ac, models\nac.simulate(models.Squeezer(), stop_time=1e-3)", NOWHERE | TABLES | LARGE),
+        ("import acausal as ac, models\nac.simulate(models.Governor(), stop_time=1)", NOWHERE | TABLES | LARGE),
     ],
 )
 def test_modules_that_are_not_loaded(code: str, unused: set[str]) -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from acausal.solve.hermite import coefficients, cubic
 
@@ -74,4 +73,17 @@ def root(times: tuple[float, float], value: tuple[float, float], rate: tuple[flo
 
     if b >= 0 or not value_at(1.0) < 0:  # where rates are so large that they hide b
         return times[1]
-    return times[0] + h * float(scipy.optimize.brentq(value_at, 0.0, 1.0, xtol=1e-15))  # type: ignore[arg-type]
+    # Newton's iteration, halving the interval where that leads out of it or on too slowly.
+    low, high, s, step = 0.0, 1.0, 0.5, 1.0
+    while abs(step) > np.finfo(float).eps:
+        here, slope = value_at(s), (3 * c3 * s + 2 * c2) * s + da
+        if here == 0:
+            break
+        low, high = (s, high) if here > 0 else (low, s)
+        if abs(2 * here) < abs(step * slope) and low < s - here / slope < high:
+            step = -here / slope
+            s += step
+        else:
+            step = (high - low) / 2
+            s = low + step
+    return times[0] + h * s

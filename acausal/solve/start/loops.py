@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
-import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
@@ -15,12 +12,11 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.descent import Matrix, Residuals, descend
 from acausal.solve.start.parts import part_of
 from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
-
-Residuals = Callable[[np.ndarray], "tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]"]
 
 
 @once
@@ -83,7 +79,7 @@ def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -
     part, of_entry = part_of(c.pattern, rows, free), size[c.pattern.indices]
     matrix = part.sparse if _are_many(rows) else part.dense
 
-    def evaluate(u: np.ndarray) -> tuple[np.ndarray, np.ndarray | scipy.sparse.csc_matrix]:
+    def evaluate(u: np.ndarray) -> tuple[np.ndarray, Matrix]:
         value, entries = c.values(_with(at, free, u).x, problem.p, at.time, at.constants.vector)
         return value[rows] / size[rows], matrix(entries / of_entry)
 
@@ -111,14 +107,7 @@ def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linea
         start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
         if not np.all(np.isfinite(evaluate(start)[0])):
             continue
-        options: Any = dict.fromkeys(("xtol", "ftol", "gtol"), LOOPS.ends)
-        options |= {
-            "x_scale": scale,
-            "max_nfev": LOOPS.evaluations,
-            "tr_solver": "lsmr" if _are_many(rows) else "exact",
-        }
-        options["jac"] = lambda u: evaluate(u)[1]
-        u = scipy.optimize.least_squares(lambda u: evaluate(u)[0], start, **options).x
+        u = descend(evaluate, start, scale)
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
             best, smallest = u, left

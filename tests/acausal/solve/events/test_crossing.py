@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from acausal.solve.events.crossing import Sides, dips, levels, root
+from acausal.solve.hermite import coefficients
 
 Polynomial = np.polynomial.Polynomial
 
@@ -69,6 +70,20 @@ def test_root_of_a_cubic(place, other):
     f = f * np.sign(f(a))
     found = root((a, b), (f(a), f(b)), (f.deriv()(a), f.deriv()(b)))
     assert found == pytest.approx(a + place * (b - a), rel=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_a_root_is_one_of_the_cubic(seed):
+    """Of values and rates of very different sizes."""
+    random = np.random.default_rng(seed)
+    a, b = 10.0 ** random.uniform([-9, -12], 3) * [1, -1]
+    da, db = random.standard_normal(2) * 10.0 ** random.uniform(-6, 4, 2)
+    s = root((0.0, 1.0), (a, b), (da, db))
+    c3, c2 = coefficients(a, b, da, db)
+    terms = np.array([c3 * s**3, c2 * s**2, da * s, a])
+    slope = abs(3 * c3 * s**2) + abs(2 * c2 * s) + abs(da)
+    assert 0 < s <= 1
+    assert abs(terms.sum()) <= 4e-16 * (np.abs(terms).sum() + slope)
 
 
 def test_a_value_that_is_still_not_below_leaves_at_the_end():

@@ -54,9 +54,12 @@ def test_a_pulse_that_ends_a_rest(model, method, tolerance, intervals) -> None:
 
 def test_what_acts_and_returns() -> None:
     pulse = np.exp(-(((LOOKS - 0.6) / 0.01) ** 2))
-    assert len(_ends(pulse)) == 1
-    assert 0.5 < LOOKS[_ends(pulse)[0]] < 0.57
-    assert len(_ends(pulse - 2 * np.exp(-(((LOOKS - 0.3) / 0.005) ** 2)))) == 2
+    other = -2 * np.exp(-(((LOOKS - 0.3) / 0.005) ** 2))
+    ends = _ends(pulse[:, None])
+    assert len(ends) == 1
+    assert 0.5 < LOOKS[ends[0]] < 0.57
+    assert len(_ends((pulse + other)[:, None])) == 2
+    assert _ends(np.column_stack([pulse, LOOKS, other, pulse])) == [*_ends(other[:, None]), *ends]
 
 
 @pytest.mark.parametrize(
@@ -73,7 +76,7 @@ def test_what_acts_and_returns() -> None:
     ],
 )
 def test_what_stays_or_never_rests(law) -> None:
-    assert _ends(law) == []
+    assert _ends(law[:, None]) == []
 
 
 @CORE
