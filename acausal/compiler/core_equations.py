@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import casadi as ca
+import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
-from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, with_powers
+from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
+from acausal.instructions import READABLE
 from acausal.language.functions import time
 
 
@@ -59,3 +61,24 @@ def core_square(compiled: CompiledModel, wanted: tuple[int, ...]) -> Square:
     """
     r, (unknowns, equations) = compiled.reduced, compiled.dependence.needed(wanted)
     return make_square([r.p, r.constants, r.x, r.z, time.sx], 2, r.running.alg[equations.tolist()], 3, unknowns)
+
+
+@once
+def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
+    """Return how watched excesses move, of p, constants, x, z, time and the rates of some algebraic unknowns.
+
+    Returns
+    -------
+    square : Square or None
+        The equations of these rates; None where there are no such unknowns.
+    tape : Tape
+        Watched excesses, then their rates.
+    """
+    r, (excess, direct, by_z, inner, follows) = compiled.reduced, compiled.guards.motion
+    rates = ca.SX.sym("rates", by_z.shape[1])
+    arguments = r.p, r.constants, r.x, r.z, time.sx, rates
+    column = ca.vertcat(excess, direct + by_z @ rates)
+    tape = make_tape(ca.Function("watched", list(arguments), [ca.densify(column)], READABLE), early=(0, 1))
+    if not rates.numel():
+        return None, tape
+    return make_square(arguments, 2, inner @ rates + follows, 5, np.arange(rates.numel())), tape

@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.clock import by_clock, functions, planned_times, truth
+from acausal.compiler.rowwise import Rowwise
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -183,8 +184,8 @@ class Guards:
         return Call(ca.Function("scale", [*self.arguments, nominal], [ca.densify(ca.fabs(J) @ nominal)]))
 
     @cached_property
-    def _motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Rates of the watched excesses with z held, their Jacobian by the z in them, and what determines the rates of these.
+    def motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
+        """Watched excesses, their rates with z held, their Jacobian by the z in them, and what determines the rates of these.
 
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
@@ -193,37 +194,23 @@ class Guards:
         unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))
         z, own = r.z[unknowns], r.running.alg[equations]
         direct, follows = (ca.densify(ca.jtimes(e, moving, seeds)) for e in (excess, own))
-        return direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
+        return excess, direct, ca.jacobian(excess, z), ca.jacobian(own, z), follows
 
     @cached_property
     def needs(self) -> set[int]:
         """Algebraic unknowns that watched excesses and their rates need."""
-        return self._dependence.inside(ca.veccat(self.excess[self.watched], *self._motion))
+        return self._dependence.inside(ca.veccat(*self.motion))
 
     @cached_property
-    def _rates(self) -> ca.Function:
-        """Function of x, z, parameters, time and constants: watched excesses and their time derivatives."""
-        excess, (direct, by_z, inner, follows) = self.excess[self.watched], self._motion
+    def along(self) -> Rowwise:
+        """Function of x, z, parameters, time and constants: watched excesses, then their time derivatives."""
+        excess, direct, by_z = self.motion[:3]
         if not by_z.shape[1]:
-            return ca.Function("rates", self.arguments, [excess, direct])
-        parts = ca.Function("parts", self.arguments, [excess, direct, by_z, inner, follows])
+            return Rowwise(ca.Function("rates", self.arguments, [ca.vertcat(excess, direct)]))
+        parts = ca.Function("parts", self.arguments, list(self.motion))
         inputs = [ca.MX.sym("i", a.numel()) for a in self.arguments]
         value, rate, J, own, right = parts(*inputs)
-        return ca.Function("rates", inputs, [value, rate - J @ ca.solve(own, right, "qr")])
-
-    def along(
-        self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return watched excesses and their time derivatives, a row for each time, which has constants of its own."""
-        n = len(t)
-        if n not in self._maps:
-            self._maps[n] = Call(self._rates.map(n))
-        value, rate = self._maps[n](x.ravel(), z.ravel(), np.tile(p, n), t, constants.ravel())
-        return value.reshape(n, -1).copy(), np.nan_to_num(rate.reshape(n, -1), posinf=0.0, neginf=0.0)
-
-    @cached_property
-    def _maps(self) -> dict[int, Call]:
-        return {}
+        return Rowwise(ca.Function("rates", inputs, [ca.vertcat(value, rate - J @ ca.solve(own, right, "qr"))]))
 
     def jump(self, guard: int) -> tuple[Call, list[tuple[bool, int]]]:
         """Function of x, z, parameters, time and constants: new values; and for each whether it is a state, and which."""

@@ -110,7 +110,7 @@ class Settler:
         found, settled = np.empty((n, len(self.square.unknowns))), np.empty(n, dtype=np.int32)
         lengths, strides, addresses = parts
         self.evaluations += self._library.ac_settle_rows(
-            *(self._memory, n, len(given), self.square.early, lengths.ctypes.data, strides.ctypes.data, addresses),
+            *(self._memory, n, len(given), self.square.early, lengths, strides, addresses),
             *(size.ctypes.data, enough, found.ctypes.data, settled.ctypes.data),
         )
         return found, settled > 0

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import copysign
-from typing import Any
+from typing import Any, TypeAlias
 
 import casadi as ca
 import numpy as np
@@ -15,6 +15,8 @@ import numpy as np
 from acausal.core.library import TapeData, loaded
 from acausal.garbage import uncollected
 from acausal.instructions import Instructions, read_instructions
+
+Int32s: TypeAlias = "ctypes.Array[ctypes.c_int32]"
 
 # In the order of `core.h`: the numbers are part of file formats.
 KINDS = (
@@ -97,14 +99,14 @@ class Tape:
         found, work = np.empty((n, len(self.output))), np.empty(self.size)
         call = loaded().ac_tape_rows
         call(
-            *(self.data, work.ctypes.data, n, len(given), lengths.ctypes.data, strides.ctypes.data, addresses),
+            *(self.data, work.ctypes.data, n, len(given), lengths, strides, addresses),
             found.ctypes.data,
         )
         return found
 
     def parts(
         self, *arguments: np.ndarray
-    ) -> tuple[list[np.ndarray], int, tuple[np.ndarray, np.ndarray, ctypes.Array[ctypes.c_void_p]]]:
+    ) -> tuple[list[np.ndarray], int, tuple[Int32s, Int32s, ctypes.Array[ctypes.c_void_p]]]:
         """Return arguments at many places as the library takes them: arrays, their number of places, and lengths, strides,
         addresses of the arrays, which have to be kept meanwhile.
 
@@ -115,13 +117,21 @@ class Tape:
         """
         given = [np.ascontiguousarray(a, dtype=float) for a in arguments]
         counts = {len(a) for a in given if a.ndim == 2}
-        if len(counts) > 1 or tuple(a.shape[-1] for a in given) != self.sizes:
+        if len(counts) > 1 or tuple([a.shape[-1] for a in given]) != self.sizes:
             raise ValueError(
                 f"arguments of {self.sizes} numbers are expected, not of shapes {[a.shape for a in given]}"
             )
-        strides = np.array([a.shape[1] if a.ndim == 2 else 0 for a in given], dtype=np.int32)
-        addresses = (ctypes.c_void_p * len(given))(*(a.ctypes.data for a in given))
-        return given, counts.pop() if counts else 1, (np.array(self.sizes, dtype=np.int32), strides, addresses)
+        strides = self._numbers(*[a.shape[1] if a.ndim == 2 else 0 for a in given])
+        addresses = (ctypes.c_void_p * len(given))(*[a.ctypes.data for a in given])
+        return given, counts.pop() if counts else 1, (self._lengths, strides, addresses)
+
+    @cached_property
+    def _numbers(self) -> type[ctypes.Array[ctypes.c_int32]]:
+        return ctypes.c_int32 * len(self.sizes)
+
+    @cached_property
+    def _lengths(self) -> ctypes.Array[ctypes.c_int32]:
+        return self._numbers(*self.sizes)
 
 
 def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:

@@ -9,10 +9,12 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.core_equations import core_motion
 from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
+from acausal.core import Settler, library
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 
@@ -114,7 +116,23 @@ class Problem:
 
     def watched(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
         """Return the watched excesses and their time derivatives, one row for each time."""
-        return self.compiled.guards.along(rows.x, rows.z, self.p, rows.times, rows.constants)
+        found = self._motion(rows) if library() else self.each(self.compiled.guards.along, rows)
+        n = found.shape[1] // 2
+        return found[:, :n], np.where(np.isfinite(found[:, n:]), found[:, n:], 0.0)
+
+    def _motion(self, rows: Rows) -> np.ndarray:
+        tape = core_motion(self.compiled)[1]
+        given = self.p, rows.constants, rows.x, rows.z, rows.times[:, None]
+        rates = np.zeros(tape.sizes[-1])
+        if self._settler:  # its equations are linear: one step is enough
+            rates, solved = self._settler(*given, rates, size=np.ones(len(rates)), enough=np.inf)
+            rates[~solved] = np.nan
+        return tape.rows(*given, rates)
+
+    @cached_property
+    def _settler(self) -> Settler | None:
+        square = core_motion(self.compiled)[0]
+        return Settler(square) if square else None
 
     def each(self, function: Rowwise, rows: Rows) -> np.ndarray:
         """Return the values of a function, one row for each time."""
