@@ -14,7 +14,6 @@ from acausal.solve.integrate.order import eigenvalues_of, sizes_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import initial_system
-from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import algebraic
 from acausal.solve.start.start import go_on, start
 from acausal.symbols import scalars, stacked
@@ -68,18 +67,17 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
         )
     system = initial_system(problem, at, initial)
     residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
-    return Beginning(_moving(problem, at), residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
+    return Beginning(_held(problem, at), residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
 
 
-def _moving(problem: Problem, at: Point) -> Point:
-    """Return the point with the projection that moves."""
+def _held(problem: Problem, at: Point) -> Point:
+    """Return the point on the constraints, and what follows from that."""
     c = problem.compiled.constraints
     if not c.size:
         return at
     z = at.z.copy()
     z[c.multipliers] = 0.0
-    held = replace(problem.projected(at), z=z)
-    return algebraic(problem, replace(held, constants=choose_projection(problem, held, moves=True)))
+    return algebraic(problem, replace(problem.projected(at), z=z))
 
 
 def _square(
