@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import current_thread, main_thread
@@ -63,10 +64,13 @@ class Signals:
 
     @classmethod
     def raise_lost(cls) -> None:
-        """Raise what a handler raised since the outermost block began: for use before work that takes long."""
+        """Raise what a handler raised since the outermost block began: for use before work that takes long.
+
+        What is being handled is not lost.
+        """
         for block in cls._open if current_thread() is main_thread() else ():
-            lost, block._caught = block._caught, None
-            if lost is not None:
+            if block._caught is not None and not _is_handled(block._caught):
+                lost, block._caught = block._caught, None
                 raise lost
 
     @classmethod
@@ -89,3 +93,11 @@ class Signals:
         finally:
             cls._wait = False
         cls.raise_lost()
+
+
+def _is_handled(error: BaseException) -> bool:
+    """Whether an exception is being handled here, or led to one that is."""
+    handled = sys.exc_info()[1]
+    while handled is not None and handled is not error:
+        handled = handled.__context__
+    return handled is error
