@@ -18,17 +18,16 @@ def _handler() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-def test_what_was_swallowed_is_raised_before_long_work() -> None:
-    with pytest.raises(KeyboardInterrupt), Signals():
+def swallowed() -> None:
+    with Signals():
         with contextlib.suppress(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
         Signals.raise_lost()
         pytest.fail("the interrupt is lost")
 
 
-def test_what_is_handled_is_not_raised_again() -> None:
-    kept = []
-    with pytest.raises(KeyboardInterrupt), Signals():
+def handled(kept: list[str]) -> None:
+    with Signals():
         try:
             signal.raise_signal(signal.SIGINT)
         except KeyboardInterrupt:
@@ -39,6 +38,17 @@ def test_what_is_handled_is_not_raised_again() -> None:
                 Signals.raise_lost()
             kept.append("what was computed")
             raise
+
+
+def test_what_was_swallowed_is_raised_before_long_work() -> None:
+    with pytest.raises(KeyboardInterrupt):
+        swallowed()
+
+
+def test_what_is_handled_is_not_raised_again() -> None:
+    kept: list[str] = []
+    with pytest.raises(KeyboardInterrupt):
+        handled(kept)
     assert kept
 
 
