@@ -1,21 +1,87 @@
-"""Interrupts are told once, however foreign code deals with them."""
+"""Interrupts are raised wherever they come, though CasADi passes over what a handler raises while it converts arguments."""
 
 from __future__ import annotations
 
 import contextlib
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable
 
+import casadi as ca
+import numpy as np
 import pytest
 
+import acausal as ac
+from acausal.compiler.call import quiet
+from acausal.locks import alone
 from acausal.signals import Signals
+from models.simple_pendulum import SimplePendulum
+
+PLACES = 15
+WORK: dict[str, Callable[[], object]] = {
+    "compile": lambda: ac.compile(SimplePendulum()),
+    "simulate": lambda: ac.simulate(SimplePendulum(), stop_time=0.1, intervals=2, energy=True)["hinge.phi"],
+    "linearize": lambda: ac.linearize(SimplePendulum()),
+}
 
 
 @pytest.fixture(autouse=True)
-def _handler() -> Iterator[None]:
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+def handled():
     yield
-    signal.signal(signal.SIGINT, before)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def is_raised(work: Callable[[], object], at: int | None, seen: list[int]) -> bool:
+    """Call a function with an interrupt at one of the lines that Python runs in CasADi's interface; append their number."""
+    count = 0
+
+    def trace(frame, event, _):
+        nonlocal count
+        if frame.f_code.co_filename != ca.casadi.__file__:
+            return None
+        if event == "line":
+            count += 1
+            if count == at:
+                signal.raise_signal(signal.SIGINT)
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        work()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(before)
+        seen.append(count)
+    return False
+
+
+@pytest.mark.parametrize("name", WORK)
+def test_interrupts_in_the_interface_of_casadi(name):
+    seen: list[int] = []
+    WORK[name]()
+    assert not is_raised(WORK[name], None, seen)
+    for at in np.linspace(1, seen[0], PLACES).astype(int):
+        assert is_raised(WORK[name], int(at), seen), at
+
+
+def test_a_lost_interrupt_is_raised_before_the_next_call_of_a_solver():
+    went_on = []
+
+    @alone
+    def swallow():
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        with quiet():
+            went_on.append("called")
+
+    with pytest.raises(KeyboardInterrupt):
+        swallow()
+    assert not went_on
+    with quiet():
+        went_on.append("called")
+    assert went_on
 
 
 def swallowed() -> None:
@@ -26,7 +92,7 @@ def swallowed() -> None:
         pytest.fail("the interrupt is lost")
 
 
-def handled(kept: list[str]) -> None:
+def keeping(kept: list[str]) -> None:
     with Signals():
         try:
             signal.raise_signal(signal.SIGINT)
@@ -48,7 +114,7 @@ def test_what_was_swallowed_is_raised_before_long_work() -> None:
 def test_what_is_handled_is_not_raised_again() -> None:
     kept: list[str] = []
     with pytest.raises(KeyboardInterrupt):
-        handled(kept)
+        keeping(kept)
     assert kept
 
 
