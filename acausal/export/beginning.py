@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -67,17 +67,8 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
         )
     system = initial_system(problem, at, initial)
     residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
-    return Beginning(_held(problem, at), residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
-
-
-def _held(problem: Problem, at: Point) -> Point:
-    """Return the point on the constraints, and what follows from that."""
-    c = problem.compiled.constraints
-    if not c.size:
-        return at
-    z = at.z.copy()
-    z[c.multipliers] = 0.0
-    return algebraic(problem, replace(problem.projected(at), z=z))
+    held = algebraic(problem, problem.projected(at)) if problem.compiled.constraints.size else at
+    return Beginning(held, residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
 
 
 def _square(

@@ -83,7 +83,7 @@ class Loops:
     ends: float = 1e-15
     polishing: int = 5
     # Damping of the first step of a try, over the greatest square of a residual's gradient. From random guesses of five
-    # mechanisms closed positions are the nearer the larger it is; from 0.1 on it makes no difference.
+    # mechanisms closed positions are the nearer the larger it is; from 0.1 on it makes little difference.
     damping: float = 0.1
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).

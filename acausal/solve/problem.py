@@ -105,8 +105,10 @@ class Problem:
         return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
 
     def projected(self, at: Point) -> Point:
-        """Return the point with every coordinate where the constraints have it."""
-        return replace(at, x=self.compiled.constraints.project(at.x, at.z, self.p, at.time, at.constants.vector))
+        """Return the point with every coordinate where the constraints have it, multipliers 0."""
+        c, z = self.compiled.constraints, at.z.copy()
+        z[c.multipliers] = 0.0
+        return replace(at, x=c.project(at.x, at.z, self.p, at.time, at.constants.vector), z=z)
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""

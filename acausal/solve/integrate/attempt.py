@@ -83,9 +83,7 @@ class Integrator:
         if not self.loops:
             return at
         if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
-            z = at.z.copy()
-            z[self.compiled.constraints.multipliers] = 0.0
-            self._chosen = at, moves, self._suited(replace(self.problem.projected(at), z=z), moves)
+            self._chosen = at, moves, self._suited(self.problem.projected(at), moves)
         return self._chosen[2]
 
     def _suited(self, at: Point, moves: bool) -> Point:

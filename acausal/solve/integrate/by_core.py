@@ -90,9 +90,8 @@ class ByCore(Integration):
     def _return(self) -> None:
         """Go on from where the constraints have the states: errors that lead away from there would add up."""
         time, x, z = self._rodas.last
-        there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z)).x
-        z[self.request.problem.compiled.constraints.multipliers] = 0.0
-        self._rodas.move(there, z)
+        there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z))
+        self._rodas.move(there.x, there.z)
 
     def _passed_flat(self) -> bool:
         """Whether loops may have passed a flat position in the last steps."""
