@@ -7,7 +7,7 @@ import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
-from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
+from acausal.core import Equations, Sampled, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 
@@ -82,3 +82,45 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
     if not rates.numel():
         return None, tape
     return make_square(arguments, 2, inner @ rates + follows, 5, np.arange(rates.numel())), tape
+
+
+@once
+def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
+    """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
+
+    That is where nothing is planned, where what is differentiated may jump, in closed loops, and without states.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    moves : bool
+        As of `core_equations`.
+    """
+    r, guards = compiled.reduced, compiled.guards
+    if not compiled.nx or compiled.constraints.size or guards.differentiated or not guards.plans:
+        return None
+    moving, watched = core_motion(compiled)
+    given = r.x, r.z, r.p, time.sx, r.constants
+    nominal = ca.SX.sym("nominal", compiled.nx + compiled.nz)
+    values, to, jump = list[ca.SX](), list[int](), [0]
+    for guard in guards.watched:
+        if guards.guards[guard].jumps:
+            call, places = guards.jump(guard)
+            values.append(call.function(*given))
+            to += [-1 if is_state else guards.n_switches + place for is_state, place in places]
+        jump.append(len(to))
+    planned = guards.planned.function(r.p, r.constants)
+    column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)
+    arguments = [r.p, r.constants, r.x, r.z, time.sx, nominal]
+    acts = make_tape(ca.Function("acts", arguments, [ca.densify(column)], READABLE))
+    everything = tuple(range(compiled.nz))
+    needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
+    return Sampled(
+        core_equations(compiled, False, moves),
+        core_square(compiled, everything) if everything else None,
+        core_square(compiled, needed) if needed else None,
+        *(moving, watched, acts),
+        np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
+        *(np.array(places, dtype=np.int32) for places in (jump, to)),
+    )

@@ -6,16 +6,21 @@ from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
+from acausal.core.sampler import Back, Sampled, Sampler, Samples
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
 
 __all__ = [
     "LU",
+    "Back",
     "Curve",
     "End",
     "Equations",
     "Outputs",
     "Rodas",
+    "Sampled",
+    "Sampler",
+    "Samples",
     "Settler",
     "Square",
     "StoredModel",

@@ -90,6 +90,9 @@ FUNCTIONS = {
     "ac_rodas_move": (None, (c_void_p, c_void_p, c_void_p)),
     "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
     "ac_rodas_free": (None, (c_void_p,)),
+    "ac_sampler_make": (c_void_p, (c_void_p,)),
+    "ac_sampler_go": (c_int32, (c_void_p,) * 7),
+    "ac_sampler_free": (None, (c_void_p,)),
 }
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
-from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks, Rests
+from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks, Rests, Sampling
 from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
@@ -31,6 +31,7 @@ class Policy:
     energy: Energy
     sizes: Sizes
     instants: Instants
+    sampling: Sampling
     agenda: Agenda
     rests: Rests
     clock: Clock
@@ -60,6 +61,7 @@ POLICY = Policy(
     Energy(),
     Sizes(),
     Instants(),
+    Sampling(),
     Agenda(),
     Rests(),
     Clock(),

@@ -46,6 +46,16 @@ class Rests:
 
 
 @dataclass(frozen=True)
+class Sampling:
+    """Planned instants that are passed at one go."""
+
+    # Rows at one go.
+    rows: int = 512
+    # Instants at most that are left to the search after one with something else, before the next try: twice as many each time.
+    longest: int = 64
+
+
+@dataclass(frozen=True)
 class Agenda:
     """Times that are known before."""
 

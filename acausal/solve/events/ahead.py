@@ -62,17 +62,19 @@ class Ahead:
         Finds the events.
     stride : Stride
         How far one looks at once, and how closely.
+    step : float
+        First step in s of what follows; chosen if 0.
     """
 
     def __init__(self, integrator: Integrator, instants: Instants, times: np.ndarray) -> None:
         self.integrator, self.instants = integrator, instants
         self.locator, self.stride = Locator(integrator, instants), Stride(times)
         self._march: March | None = None
-        self._step, self._hasty = 0.0, False
+        self.step, self._hasty = 0.0, False
 
-    def begin(self) -> None:
-        """Choose the next first step anew."""
-        self._step = 0.0
+    def begin(self, step: float = 0.0) -> None:
+        """Try a step first in what follows, or choose it anew."""
+        self.step = step
 
     def look(self, at: Point, end: float) -> Found:
         """Integrate some way towards the end of a segment, and look for an event there."""
@@ -104,7 +106,7 @@ class Ahead:
         march = self._march
         if march is None or not march.goes_on(at, end):
             outputs = self.stride.outputs(at.time, end)
-            march = self._march = March(self.integrator, at, outputs, self._step)
+            march = self._march = March(self.integrator, at, outputs, self.step)
         leg = march.go(self.stride.density)
         while leg:
             try:
@@ -115,7 +117,7 @@ class Ahead:
                 continue
             kept = march.keep(leg, crossing.after.time if crossing else np.inf)
             if kept:
-                self._step, self._march = march.step, None if crossing else march
+                self.step, self._march = march.step, None if crossing else march
                 return Found(at, kept, crossing)
             break
         return self._refused(at, end, march)

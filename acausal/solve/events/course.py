@@ -21,6 +21,7 @@ from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
+from acausal.solve.events.sampling import Sampling
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
@@ -59,6 +60,7 @@ class Course:
         self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
         self.ahead = Ahead(integrator, self.instants, times)
         self.agenda = Agenda(self.guards, problem.p, times)
+        self.sampling = Sampling(self.ahead, self.instants, times)
         self.events: list[float] = []
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.weak = 0
@@ -137,6 +139,7 @@ class Course:
                 at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
                 self.ahead.stride.lengthen()
         while at.time < end:
+            at = self._sampled(at, end)
             instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)
@@ -145,6 +148,19 @@ class Course:
                 at = replace(at, time=end) if row == end else self._at_row(replace(at, time=max(row, instant)))
             self.integrator.report(at.time)
         return at
+
+    def _sampled(self, at: Point, end: float) -> Point:
+        """Pass planned instants in the core, as many as are sure."""
+        passed = self.sampling.go(at, end)
+        if not passed:
+            return at
+        self.integrator.trace.add(passed.leg)
+        for time in passed.events:
+            self._count(time, self.guards.watched)
+            self._refuse_chattering(time, self.guards.watched)
+        self.ahead.stride.begin()
+        self.integrator.report(passed.at.time)
+        return passed.at
 
     def _advance(self, at: Point, end: float) -> Point:
         """Go as far as one looks ahead at once, or to the first event."""

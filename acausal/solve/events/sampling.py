@@ -1,0 +1,129 @@
+"""Go on over instants that discrete variables plan at one go, as the sampling of a controller does.
+
+The core does what `Course` does from one instant to the next as long as nothing else happens and nothing is in doubt:
+conditions stay clear of their changes, and what becomes true at an instant lets discrete variables jump.
+"""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from acausal.compiler.core_equations import core_sampled
+from acausal.core import Back, Sampler, library
+from acausal.policy import POLICY
+from acausal.solve.events.ahead import Ahead
+from acausal.solve.events.instant import Instants
+from acausal.solve.integrate.ladder import Way
+from acausal.solve.integrate.methods import METHODS
+from acausal.solve.integrate.one_step import are_rates, sizes
+from acausal.solve.integrate.trace import Leg
+from acausal.solve.points import Point, Rows
+
+SAMPLING = POLICY.sampling
+
+
+@dataclass(frozen=True)
+class Passed:
+    """Instants that were passed: the rows up to the last one, the point after it, and the times of all."""
+
+    leg: Leg
+    at: Point
+    events: list[float]
+
+
+class Sampling:
+    """Runs over planned instants.
+
+    Parameters
+    ----------
+    ahead : Ahead
+        Looks ahead wherever this does not.
+    instants : Instants
+        Watched conditions.
+    times : array
+        Output times in s.
+    """
+
+    def __init__(self, ahead: Ahead, instants: Instants, times: np.ndarray) -> None:
+        self.ahead, self.integrator, self.instants, self.times = ahead, ahead.integrator, instants, times
+        self._made: tuple[Way, Sampler | None] | None = None
+        self._wait, self._next = 0, 1
+
+    def go(self, at: Point, end: float) -> Passed | None:
+        """Pass instants before the end of a segment, as many as are sure; None for none."""
+        if self._wait or not (sampler := self._sampler()):
+            self._wait = max(0, self._wait - 1)
+            return None
+        e, trace, way = sampler.sampled.equations, self.integrator.trace, self.integrator.way
+        at_once = max(1, POLICY.calls.at_once // (e.values.size + e.slopes.size))
+        started = clock.perf_counter()
+        found = sampler.go(
+            *(at.time, at.x, at.z, at.constants.vector, at.truth),
+            end=end,
+            step=self.ahead.step,
+            steps=at_once,
+            density=self.ahead.stride.density,
+        )
+        trace.seconds += clock.perf_counter() - started
+        state, compiled = found.state, self.integrator.compiled
+        trace.count(way.method, state.steps, state.steps + state.refused, state.values, calls=state.instants)
+        self.integrator.consistent.evaluations += state.evaluations
+        rows = Rows(found.times, found.x, found.z, found.c)
+        # From far away, unknowns may come to rest where the equations do not hold.
+        if not state.instants or not self.integrator.consistent.holds(rows, len(rows) - 1, POLICY.calls.holds):
+            if found.back is not Back.NO_INSTANT:
+                self._wait, self._next = self._next, min(2 * self._next, SAMPLING.longest)
+            return None
+        self._next = 1
+        self.ahead.begin(state.step)
+        self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, found.peak)
+        constants = compiled.layout.constants(rows.constants[-1])
+        leg = Leg(rows, np.zeros((len(rows), 2)), constants, state.steps)
+        return Passed(
+            leg,
+            replace(leg.end(at), time=state.time, truth=found.truth),
+            found.events[np.isfinite(found.events)].tolist(),
+        )
+
+    def _sampler(self) -> Sampler | None:
+        """The core's, made anew where the way changes; None where there is none."""
+        if self._made is None or self._made[0] is not self.integrator.way:
+            self._made = self.integrator.way, self._make(self.integrator.way)
+        return self._made[1]
+
+    def _make(self, way: Way) -> Sampler | None:
+        problem, settings, method = self.integrator.problem, self.integrator.settings, METHODS[way.method]
+        if not library() or settings.energy or not method.marches:
+            return None
+        sampled, nominal = core_sampled(problem.compiled, way.moves), settings.nominal
+        if not sampled:
+            return None
+        thresholds = {
+            "span": self.instants.span,
+            "soon": POLICY.instants.short,
+            "moves": POLICY.instants.moves,
+            "level": POLICY.locate.level,
+            "reach": POLICY.locate.reach,
+            "error": POLICY.locate.error,
+            "shortest": self.ahead.locator.shortest,
+            "added": POLICY.agenda.added,
+            "crowded": POLICY.instants.window,
+            "enough": POLICY.consistent.settled,
+            "noise": POLICY.consistent.noise,
+        }
+        return Sampler(
+            *(sampled, SAMPLING.rows, thresholds),
+            p=problem.p,
+            times=self.times,
+            nominal=nominal,
+            declared=problem.nominal[problem.nx :],
+            size=sizes(problem, nominal, settings.vibration) if method.damps else nominal[: problem.nx],
+            rate=are_rates(problem),
+            tolerance=way.tolerance,
+            smooth=not method.damps,
+            largest=method.damps,
+            fine=POLICY.looks.fine,
+        )

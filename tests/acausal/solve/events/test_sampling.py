@@ -1,0 +1,220 @@
+"""Planned instants that are passed at one go, against the search from one to the next."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model, Scalar, der, discrete, output, parameter, piecewise, reinit, time, variable, when
+from acausal.compiler import CompiledModel
+from acausal.core import library
+from acausal.core.sampler import Sampler
+from acausal.solve.events.sampling import Sampling
+from tests.benchmarks.events.scenes import SampledPendulum
+
+pytestmark = pytest.mark.skipif(library() is None, reason="needs the core")
+
+
+class Plant(Model):
+    """Mass on a spring, with a force that is set at instants."""
+
+    stop_time = 3.0
+    period: Scalar = parameter("between two samples", default=0.01)
+    u: Scalar = discrete("force")
+    due: Scalar = discrete("time of the next sample")
+    q: Scalar = variable("place", start=1, fixed=True)
+    v: Scalar = variable("speed", start=0, fixed=True)
+    f: Scalar = variable("force of the spring", start=1)
+    shown: Scalar = output("place")
+
+    def equations(self):
+        yield self.v == der(self.q)
+        yield self.f + 0.1 * self.f**3 == -9 * self.q - 0.2 * self.v
+        yield der(self.v) == self.f + self.u
+        yield self.shown == self.q
+        yield from self.sampling()
+
+    def sampling(self):
+        yield when(
+            time >= self.due, reinit(self.u, -2 * self.v), reinit(self.due, self.due + self.period), at_start=True
+        )
+
+
+class Uneven(Plant):
+    """The next sample is the sooner the faster it moves."""
+
+    def sampling(self):
+        pause = self.period / (1 + self.v**2)
+        yield when(time >= self.due, reinit(self.u, -2 * self.f), reinit(self.due, time + pause), at_start=True)
+
+
+class TwoRates(Plant):
+    """Two clocks, of which some instants are the same."""
+
+    w: Scalar = discrete("slow part")
+    slow: Scalar = discrete("time of the next slow sample")
+
+    def sampling(self):
+        yield when(time >= self.due, reinit(self.u, self.w - self.v), reinit(self.due, self.due + 0.01), at_start=True)
+        yield when(time >= self.slow, reinit(self.w, 9 - self.f), reinit(self.slow, self.slow + 0.03), at_start=True)
+
+
+class Switching(Plant):
+    """Between samples it passes a stop, and a counter counts that."""
+
+    n: Scalar = discrete("number of passages")
+
+    def sampling(self):
+        yield from Plant.sampling(self)
+        yield when(self.q < -0.2, reinit(self.n, self.n + 1))
+        yield when(self.q > piecewise((0.3, self.v > 0), 0.2), reinit(self.v, 0.9 * self.v))
+
+
+class Kicked(Plant):
+    """Every sample, a state jumps."""
+
+    due: Scalar = discrete("time of the next sample", start=0.01)
+
+    def sampling(self):
+        yield when(time >= self.due, reinit(self.v, self.v - 0.01 * self.q), reinit(self.due, self.due + self.period))
+
+
+class Stopping(Plant):
+    """After a second, nothing is planned any more."""
+
+    def sampling(self):
+        following = piecewise((self.due + self.period, self.due < 1), 1e9)
+        yield when(time >= self.due, reinit(self.u, self.q), reinit(self.due, following), at_start=True)
+
+
+class Quantised(Plant):
+    """The force has steps, and is the same at many samples."""
+
+    def sampling(self):
+        level = piecewise((1, self.q < -0.3), (-1, self.q > 0.3), 0)
+        yield when(time >= self.due, reinit(self.u, level), reinit(self.due, self.due + self.period), at_start=True)
+
+
+class Pulsed(Plant):
+    """A pulse by the clock between the samples."""
+
+    def sampling(self):
+        on = piecewise((0.5, time < 1.0037), (0, time < 2), 1)
+        yield when(
+            time >= self.due, reinit(self.u, on - self.v), reinit(self.due, self.due + self.period), at_start=True
+        )
+
+
+MODELS = (Plant, Uneven, TwoRates, Switching, Kicked, Stopping, Quantised, Pulsed)
+
+
+@cache
+def compiled(model: type[Model]) -> CompiledModel:
+    return ac.compile(model())
+
+
+def both(monkeypatch: Any, model: type[Model], **options: Any) -> tuple[ac.Result, ac.Result]:
+    """The same run at one go, and by the search."""
+    found = ac.simulate(compiled(model), **options)
+    with monkeypatch.context() as patch:
+        patch.setattr(Sampling, "go", lambda *_: None)
+        return found, ac.simulate(compiled(model), **options)
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+@pytest.mark.parametrize("model", MODELS)
+def test_same_as_the_search(monkeypatch: Any, model: type[Model], tolerance: float, method: str) -> None:
+    one, other = both(monkeypatch, model, tolerance=tolerance, method=method, intervals=70)
+    assert one.stats.events == other.stats.events > 0
+    np.testing.assert_allclose(one.stats.event_times, other.stats.event_times, rtol=1e-9, atol=1e-9 * tolerance)
+    for name in one:
+        scale = np.max(np.abs(np.nan_to_num(other[name], posinf=0))) + 1e-3
+        np.testing.assert_allclose(one[name], other[name], rtol=0, atol=1e-8 * scale, err_msg=name)
+    assert one.stats.steps == pytest.approx(other.stats.steps, rel=0.05, abs=5)
+
+
+@pytest.mark.parametrize("intervals", [1, 7, 300, 3000])
+def test_outputs_at_and_between_instants(monkeypatch: Any, intervals: int) -> None:
+    one, other = both(monkeypatch, Plant, intervals=intervals)
+    np.testing.assert_array_equal(one.time, other.time)
+    for name in one:
+        np.testing.assert_allclose(one[name], other[name], rtol=0, atol=1e-10, err_msg=name)
+
+
+def test_counts_are_those_of_the_search(monkeypatch: Any) -> None:
+    one, other = both(monkeypatch, SampledPendulum, stop_time=0.5)
+    for name in ("events", "steps", "factorisations", "residual_evaluations", "calls", "method"):
+        assert getattr(one.stats, name) == getattr(other.stats, name)
+
+
+def test_it_is_taken(monkeypatch: Any) -> None:
+    """All instants but the last one before each end are passed in a few calls."""
+    passed = []
+    go = Sampler.go
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        passed.append(go(*arguments, **options))
+        return passed[-1]
+
+    monkeypatch.setattr(Sampler, "go", counted)
+    found = ac.simulate(compiled(SampledPendulum), stop_time=1.0)
+    assert sum(samples.state.instants for samples in passed) >= found.stats.events - 5
+    assert len(passed) < 10
+
+
+def test_a_stop_between_samples_is_found_at_its_time() -> None:
+    """The controller rests, so that the motion is known: with a force of 0 the counter counts passages of a spring."""
+
+    class Free(Switching):
+        def equations(self):
+            yield self.v == der(self.q)
+            yield self.f == -9 * self.q
+            yield der(self.v) == self.f + self.u
+            yield self.shown == self.q
+            yield when(time >= self.due, reinit(self.u, 0), reinit(self.due, self.due + self.period), at_start=True)
+            yield when(self.q < -0.2, reinit(self.n, self.n + 1))
+
+    found = ac.simulate(Free(), tolerance=1e-8)
+    passages = (np.arccos(-0.2) + 2 * np.pi * np.arange(2)) / 3
+    times = np.array(found.stats.event_times)
+    for passage in passages:
+        assert np.min(np.abs(times - passage)) < 1e-7
+    assert found["n"][-1] == 2
+
+
+def test_sampled_system_in_closed_form() -> None:
+    """A rate held between samples: x(k + 1) = (1 - k T) x(k), exactly."""
+
+    class Held(Model):
+        stop_time = 1.0
+        x: Scalar = variable("place", start=1, fixed=True)
+        u: Scalar = discrete("speed")
+        due: Scalar = discrete("time of the next sample")
+
+        def equations(self):
+            yield der(self.x) == self.u
+            yield when(time >= self.due, reinit(self.u, -self.x / 2), reinit(self.due, self.due + 0.01), at_start=True)
+
+    found = ac.simulate(Held(), intervals=100)
+    np.testing.assert_allclose(found["x"], (1 - 0.01 / 2) ** np.arange(101), rtol=1e-12)
+
+
+def test_what_has_no_value_at_an_instant_is_told_as_by_the_search(monkeypatch: Any) -> None:
+    class Lost(Plant):
+        def sampling(self):
+            wrong = ac.sqrt(1.5 - time)
+            yield when(time >= self.due, reinit(self.u, wrong), reinit(self.due, self.due + self.period), at_start=True)
+
+    with pytest.raises(ac.SimulationError, match=r"reinit\(\) gives no finite number") as caught:
+        ac.simulate(Lost())
+    assert caught.value.result.time[-1] == pytest.approx(1.5, abs=0.05)
+
+
+def test_energies_are_kept(monkeypatch: Any) -> None:
+    one = ac.simulate(compiled(SampledPendulum), stop_time=0.3, energy=True)
+    assert abs(one.stats.energy_method) < 1e-2 * one.stats.energy_supplied
