@@ -108,7 +108,7 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
         if guards.guards[guard].jumps:
             call, places = guards.jump(guard)
             values.append(call.function(*given))
-            to += [-1 if is_state else guards.n_switches + place for is_state, place in places]
+            to += [-1 - place if is_state else guards.n_switches + place for is_state, place in places]
         jump.append(len(to))
     planned = guards.planned.function(r.p, r.constants)
     column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)

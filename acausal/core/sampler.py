@@ -39,7 +39,20 @@ class SampledData(Structure):
     )
 
 
-THRESHOLDS = ("span", "soon", "moves", "level", "reach", "error", "shortest", "added", "crowded", "enough", "noise")
+THRESHOLDS = (
+    "span",
+    "tolerance",
+    "soon",
+    "moves",
+    "level",
+    "reach",
+    "error",
+    "shortest",
+    "added",
+    "crowded",
+    "enough",
+    "noise",
+)
 
 
 class SamplesData(Structure):
@@ -90,7 +103,7 @@ class Sampled:
     jump : array of int
         Where the jumps of each condition begin; last, how many there are.
     to : array of int
-        Place of each new value among the constants, -1 where a state jumps.
+        Place of each new value among the constants, -1 - place where a state jumps.
     """
 
     equations: Equations

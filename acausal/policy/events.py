@@ -23,7 +23,7 @@ class Instants:
     # Events within that part of the run, or without any motion between them, that are chattering.
     most: int = 100
     window: float = 1e-9
-    # Events after which a run is told that as many to its end, more than the second, takes half a minute and more.
+    # Searched events after which a run is told that as many to its end, more than the second, takes half a minute and more.
     many: int = 200
     dear: int = 5_000
 

@@ -128,7 +128,7 @@ typedef struct {
     int32_t conditions, jumps;
     const int32_t *is_switch;        /* (conditions) of a switch, not of jumps */
     const int32_t *jump;             /* (conditions + 1) where the jumps of each begin */
-    const int32_t *to;               /* (jumps) place of each new value in c, -1: none that may jump here */
+    const int32_t *to;               /* (jumps) place of each new value in c; -1 - place in x */
 } ac_sampled;
 
 /* What a run over planned instants is asked for. The thresholds are those of acausal/policy/events.py. */
@@ -138,7 +138,7 @@ typedef struct {
     int64_t most;                    /* steps, refused ones among them */
     int32_t density, fine, outputs;  /* pairs of looks between outputs, parts of a step at least; times of all outputs */
     double span;                     /* of the run in s */
-    double soon, moves, level, reach, error, shortest, added, crowded, enough, noise;
+    double tolerance, soon, moves, level, reach, error, shortest, added, crowded, enough, noise;
     const double *p, *time;          /* parameters; (outputs) in s, ascending */
     const double *nominal, *declared; /* (nx + nz) sizes in the run, (nz) as they were stated */
     int32_t room;                    /* for rows */

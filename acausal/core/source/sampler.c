@@ -28,7 +28,7 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
     s->needed = sampled->needed ? ac_settler_make(sampled->needed) : NULL;
     s->moving = sampled->moving ? ac_settler_make(sampled->moving) : NULL;
     s->settled = calloc(LOOKS + 1 + 2 * m, sizeof *s->settled);
-    s->block = calloc((LOOKS + 2) * row + 2 * nc + longest(sampled->watched, sampled->acts) + 2 * nz + (LOOKS + 1) * picked
+    s->block = calloc((LOOKS + 2) * row + nc + longest(sampled->watched, sampled->acts) + 2 * nz + (LOOKS + 1) * picked
                       + 2 * moving + acted + m + 5 * n + 1, sizeof(double));
     if (!s->rodas || !s->settled || !s->block || (sampled->whole && !s->whole) || (sampled->needed && !s->needed)
         || (sampled->moving && !s->moving)) {
@@ -42,7 +42,7 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
         both[k]->time = at, both[k]->x = at + rows, both[k]->z = both[k]->x + rows * nx, both[k]->found = both[k]->z + rows * nz;
         at += rows * row;
     }
-    s->c = at, s->jumped = s->c + nc, s->tape = s->jumped + nc, s->size = s->tape + longest(sampled->watched, sampled->acts);
+    s->c = at, s->tape = s->c + nc, s->size = s->tape + longest(sampled->watched, sampled->acts);
     s->sizes = s->size + nz, s->picked = s->sizes + nz, s->rates = s->picked + (LOOKS + 1) * picked, s->ones = s->rates + moving;
     s->acted = s->ones + moving, s->width = s->acted + acted;
     s->step_y = s->width + m, s->before = s->step_y + n, s->dense = s->before + n;
@@ -70,7 +70,7 @@ static void act(ac_sampler *s) {
     ac_tape_rows(s->of.acts, s->tape, 1, 6, length, stride, part, s->acted);
     for (int32_t k = 0; k < s->of.conditions; k++) {
         const double scale = s->acted[k];
-        s->width[k] = s->request.steps->tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
+        s->width[k] = s->request.tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
     }
 }
 
@@ -104,27 +104,25 @@ static int holds(const ac_sampler *s, int32_t k, int before) {
 static int happen(ac_sampler *s, int32_t *truth) {
     const ac_sampled *of = &s->of;
     const double *jump = s->acted + of->conditions;
-    int32_t fires = 0;
-    copy(s->jumped, s->c, of->equations->nc);
+    int32_t changes = 0;
     for (int32_t k = 0; k < of->conditions; k++) {
         const int32_t now = holds(s, k, truth[k]);
         if (of->is_switch[k] && now != truth[k]) return 0;
         for (int32_t j = of->jump[k]; now && !truth[k] && j < of->jump[k + 1]; j++) {
-            if (of->to[j] < 0 || !isfinite(jump[j])) return 0;
-            s->jumped[of->to[j]] = jump[j];
-            fires = 1;
+            double *to = of->to[j] < 0 ? s->now.x - of->to[j] - 1 : s->c + of->to[j];
+            if (!isfinite(jump[j])) return 0;
+            changes |= *to != jump[j];
+            *to = jump[j];
         }
         s->truth[k] = now;
     }
-    if (!fires || !memcmp(s->jumped, s->c, (size_t)of->equations->nc * sizeof *s->c)) return 0;
-    copy(s->c, s->jumped, of->equations->nc);
-    if (!stand(s)) return 0;
+    if (!changes || !stand(s)) return 0;
     for (int32_t k = 0; k < of->conditions; k++) {
         const int32_t now = holds(s, k, s->truth[k]);
         if (now != s->truth[k] && (now || of->is_switch[k])) return 0;
         s->truth[k] = now;
     }
-    for (int32_t k = 0; k < of->conditions; k++) truth[k] = s->truth[k];
+    memcpy(truth, s->truth, (size_t)of->conditions * sizeof *truth);
     return 1;
 }
 
@@ -212,7 +210,7 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
     return found;
 }
 
-/* Pass the next instant; where that is not possible, rows and counts apart, nothing of the state is changed. */
+/* Pass the next instant; -1 where that was possible. */
 static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_t *output, int64_t *left) {
     const ac_samples *q = &s->request;
     const double now = s->now.time[0], instant = planned(s);

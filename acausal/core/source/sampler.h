@@ -18,7 +18,7 @@ struct ac_sampler {
     double *block;                    /* all the memory, but for the flags */
     int32_t *settled, *risen, *truth; /* (LOOKS + 1), (conditions) positive in this leg, (conditions) before an instant */
     ac_looks now, looks;              /* one row, LOOKS + 1 rows */
-    double *c, *jumped;               /* constants now, and after jumps */
+    double *c;                        /* constants now */
     double *tape, *size, *sizes, *picked, *rates, *ones; /* tape: of whichever is evaluated */
     double *acted, *width;            /* what acts; how far conditions may be off */
     double *step_y, *dense, *before;  /* end of a step, its interpolant, its start */

@@ -62,6 +62,7 @@ class Course:
         self.agenda = Agenda(self.guards, problem.p, times)
         self.sampling = Sampling(self.ahead, self.instants, times)
         self.events: list[float] = []
+        self.searched = 0  # those of them that were not passed at one go, which cost a hundred times as much
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.weak = 0
         self.first: Point | None = None
@@ -130,7 +131,8 @@ class Course:
     def _count(self, time: float, guards: list[int]) -> None:
         """Note an event at which some conditions change."""
         self.events.append(time)
-        if len(self.events) == INSTANTS.many:
+        self.searched += 1
+        if self.searched == INSTANTS.many:
             warn_of_many(self.integrator.compiled, time, self.times, guards)
 
     def _segment(self, at: Point, end: float) -> Point:
@@ -150,14 +152,13 @@ class Course:
         return at
 
     def _sampled(self, at: Point, end: float) -> Point:
-        """Pass planned instants in the core, as many as are sure."""
+        """Pass planned instants at one go, as many as are sure."""
         passed = self.sampling.go(at, end)
         if not passed:
             return at
         self.integrator.trace.add(passed.leg)
-        for time in passed.events:
-            self._count(time, self.guards.watched)
-            self._refuse_chattering(time, self.guards.watched)
+        self.events += passed.events
+        self.recent.extend(passed.events)
         self.ahead.stride.begin()
         self.integrator.report(passed.at.time)
         return passed.at

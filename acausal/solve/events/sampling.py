@@ -103,6 +103,7 @@ class Sampling:
             return None
         thresholds = {
             "span": self.instants.span,
+            "tolerance": self.instants.tolerance,
             "soon": POLICY.instants.short,
             "moves": POLICY.instants.moves,
             "level": POLICY.locate.level,
