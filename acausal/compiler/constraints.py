@@ -38,6 +38,10 @@ class Constraints:
         Constraint of each closure.
     kinds : array of int
         Residuals that are entries of one equation, or the same time derivative of it, have one number.
+    places : list of int
+        State of each coordinate that is projected.
+    coordinates : Call
+        Function of x, z, p, time and constants: where the constraints have these.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
     pattern : csc_matrix, shape (size, nx)
@@ -77,7 +81,7 @@ class Constraints:
         self.function = ca.Function("constraints", arguments, [ca.densify(column), J])
         self._call = Call(self.function)
         coordinates = r.resolve(r.projections.coordinates)
-        self._coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
+        self.coordinates = Call(ca.Function("coordinates", [r.x, r.z, *arguments[1:]], [ca.densify(coordinates)]))
         found = [(algebraic[v], k) for k, (v, _) in enumerate(constrained.following) if v in algebraic]
         self._follows = np.array([place for place, _ in found], dtype=int)
         following = stacked([r.running.following[k] for _, k in found])
@@ -86,7 +90,7 @@ class Constraints:
             (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic
         ]
         self._kept = np.array(same, dtype=int).reshape(-1, 2).T
-        self._places = [states[p.state] for p in constrained.projections]
+        self.places = [states[p.state] for p in constrained.projections]
 
     def __call__(
         self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray
@@ -134,7 +138,7 @@ class Constraints:
         """Return the states with every coordinate where the constraints have it."""
         projected = x.copy()
         if self.size:
-            projected[self._places] = self._coordinates(x, z, p, t, constants)[0]
+            projected[self.places] = self.coordinates(x, z, p, t, constants)[0]
         return projected
 
     def complete(self, x: np.ndarray, z: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> np.ndarray:

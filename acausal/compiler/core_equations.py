@@ -88,7 +88,7 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
 def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
     """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
 
-    That is where nothing is planned, where what is differentiated may jump, in closed loops, and without states.
+    That is where nothing is planned, where what is differentiated may jump, and without states.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
         As of `core_equations`.
     """
     r, guards = compiled.reduced, compiled.guards
-    if not compiled.nx or compiled.constraints.size or guards.differentiated or not guards.plans:
+    if not compiled.nx or guards.differentiated or not guards.plans:
         return None
     moving, watched = core_motion(compiled)
     given = r.x, r.z, r.p, time.sx, r.constants
@@ -114,13 +114,21 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
     column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)
     arguments = [r.p, r.constants, r.x, r.z, time.sx, nominal]
     acts = make_tape(ca.Function("acts", arguments, [ca.densify(column)], READABLE))
+    c = compiled.constraints
+    project = ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE)
     everything = tuple(range(compiled.nz))
     needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
     return Sampled(
         core_equations(compiled, False, moves),
         core_square(compiled, everything) if everything else None,
         core_square(compiled, needed) if needed else None,
-        *(moving, watched, acts),
-        np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
-        *(np.array(places, dtype=np.int32) for places in (jump, to)),
+        moving,
+        watched,
+        acts,
+        is_switch=np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
+        jump=np.array(jump, dtype=np.int32),
+        to=np.array(to, dtype=np.int32),
+        project=make_tape(project) if c.size else None,
+        coordinate=np.array(c.places, dtype=np.int32),
+        multiplier=c.multipliers.astype(np.int32),
     )

@@ -33,9 +33,9 @@ class SampledData(Structure):
     _fields_ = (
         ("equations", POINTER(EquationsData)),
         *((name, POINTER(SquareData)) for name in ("whole", "needed", "moving")),
-        *((name, POINTER(TapeData)) for name in ("watched", "acts")),
-        *((name, c_int32) for name in ("conditions", "jumps")),
-        *((name, c_void_p) for name in ("is_switch", "jump", "to")),
+        *((name, POINTER(TapeData)) for name in ("watched", "acts", "project")),
+        *((name, c_int32) for name in ("conditions", "jumps", "multipliers")),
+        *((name, c_void_p) for name in ("is_switch", "jump", "to", "coordinate", "multiplier")),
     )
 
 
@@ -52,6 +52,7 @@ THRESHOLDS = (
     "crowded",
     "enough",
     "noise",
+    "apart",
 )
 
 
@@ -61,7 +62,7 @@ class SamplesData(Structure):
     _fields_ = (
         ("steps", POINTER(RequestData)),
         ("end", c_double),
-        ("most", c_int64),
+        *((name, c_int64) for name in ("most", "longest")),
         *((name, c_int32) for name in ("density", "fine", "outputs")),
         *((name, c_double) for name in THRESHOLDS),
         *((name, c_void_p) for name in ("p", "time", "nominal", "declared")),
@@ -104,6 +105,10 @@ class Sampled:
         Where the jumps of each condition begin; last, how many there are.
     to : array of int
         Place of each new value among the constants, -1 - place where a state jumps.
+    project : Tape or None
+        Where closed loops have coordinates, None where there are none.
+    coordinate, multiplier : arrays of int
+        Places of these coordinates among the states, and of what keeps them there among the algebraic unknowns.
     """
 
     equations: Equations
@@ -115,15 +120,20 @@ class Sampled:
     is_switch: np.ndarray
     jump: np.ndarray
     to: np.ndarray
+    project: Tape | None
+    coordinate: np.ndarray
+    multiplier: np.ndarray
 
     @cached_property
     def data(self) -> SampledData:
         """What the library takes; it holds addresses of the arrays of this model."""
         squares = (None if s is None else pointer(s.data) for s in (self.whole, self.needed, self.moving))
+        tapes = (None if t is None else pointer(t.data) for t in (self.watched, self.acts, self.project))
+        places = (self.is_switch, self.jump, self.to, self.coordinate, self.multiplier)
         return SampledData(
-            *(pointer(self.equations.data), *squares, pointer(self.watched.data), pointer(self.acts.data)),
-            *(len(self.is_switch), len(self.to)),
-            *(array.ctypes.data for array in (self.is_switch, self.jump, self.to)),
+            *(pointer(self.equations.data), *squares, *tapes),
+            *(len(self.is_switch), len(self.to), len(self.multiplier)),
+            *(array.ctypes.data for array in places),
         )
 
 
@@ -175,6 +185,8 @@ class Sampler:
         As of `Rodas.begin`.
     fine : int
         Parts of a step at whose ends conditions are looked at, at least.
+    longest : int, optional
+        Steps from one instant to the next.
     """
 
     def __init__(
@@ -193,6 +205,7 @@ class Sampler:
         smooth: bool,
         largest: bool,
         fine: int,
+        longest: int = 2**62,
     ) -> None:
         self._library, self.sampled, e = loaded(), sampled, sampled.equations
         self._memory = self._library.ac_sampler_make(byref(sampled.data))
@@ -215,6 +228,7 @@ class Sampler:
             **{name: array.ctypes.data for name, array in arrays.items()},
             **{name: thresholds[name] for name in THRESHOLDS},
             fine=fine,
+            longest=longest,
             outputs=len(times),
             room=room,
         )

@@ -125,20 +125,23 @@ typedef struct {
     const ac_square *moving;         /* for the rates of some of them, which stand behind the inputs; NULL for none */
     const ac_tape *watched;          /* of these rates too: conditions, hold where they are not positive; their rates */
     const ac_tape *acts;             /* of nominal values of x, z too: what these change in conditions; new values; instants */
-    int32_t conditions, jumps;
+    const ac_tape *project;          /* where closed loops have coordinates; NULL where there are none */
+    int32_t conditions, jumps, multipliers;
     const int32_t *is_switch;        /* (conditions) of a switch, not of jumps */
     const int32_t *jump;             /* (conditions + 1) where the jumps of each begin */
     const int32_t *to;               /* (jumps) place of each new value in c; -1 - place in x */
+    const int32_t *coordinate;       /* (outputs of project) places in x */
+    const int32_t *multiplier;       /* (multipliers) places in z, of what keeps coordinates there */
 } ac_sampled;
 
 /* What a run over planned instants is asked for. The thresholds are those of acausal/policy/events.py. */
 typedef struct {
     const ac_request *steps;         /* tolerance, sizes and kind of its steps; the rest of it is not read */
     double end;                      /* of the segment in s */
-    int64_t most;                    /* steps, refused ones among them */
+    int64_t most, longest;           /* steps, refused ones among them: of all, and from one instant to the next */
     int32_t density, fine, outputs;  /* pairs of looks between outputs, parts of a step at least; times of all outputs */
     double span;                     /* of the run in s */
-    double tolerance, soon, moves, level, reach, error, shortest, added, crowded, enough, noise;
+    double tolerance, soon, moves, level, reach, error, shortest, added, crowded, enough, noise, apart;
     const double *p, *time;          /* parameters; (outputs) in s, ascending */
     const double *nominal, *declared; /* (nx + nz) sizes in the run, (nz) as they were stated */
     int32_t room;                    /* for rows */

@@ -10,9 +10,12 @@
 
 #define GOLDEN 0.6180339887498949 /* no periodic motion stays in step with looks that it divides */
 
-static size_t longest(const ac_tape *a, const ac_tape *b) {
-    const size_t one = ac_tape_length(a), other = ac_tape_length(b);
-    return one > other ? one : other;
+/* Length of the longest array of the tapes that share one. */
+static size_t longest(const ac_sampled *of) {
+    const ac_tape *tape[] = {of->watched, of->acts, of->project};
+    size_t most = 0;
+    for (int k = 0; k < 3; k++) most = tape[k] && ac_tape_length(tape[k]) > most ? ac_tape_length(tape[k]) : most;
+    return most;
 }
 
 ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
@@ -21,15 +24,15 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
     const ac_equations *e = sampled->equations;
     const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, nc = (size_t)e->nc, m = (size_t)sampled->conditions;
     const size_t moving = sampled->moving ? (size_t)sampled->moving->n : 0, picked = moving > nz ? moving : nz;
-    const size_t row = 1 + n + 2 * m, acted = (size_t)sampled->acts->outputs;
+    const size_t row = 1 + n + 2 * m, acted = (size_t)sampled->acts->outputs, tape = longest(sampled);
     s->of = *sampled;
     s->rodas = ac_rodas_make(e);
     s->whole = sampled->whole ? ac_settler_make(sampled->whole) : NULL;
     s->needed = sampled->needed ? ac_settler_make(sampled->needed) : NULL;
     s->moving = sampled->moving ? ac_settler_make(sampled->moving) : NULL;
     s->settled = calloc(LOOKS + 1 + 2 * m, sizeof *s->settled);
-    s->block = calloc((LOOKS + 2) * row + nc + longest(sampled->watched, sampled->acts) + 2 * nz + (LOOKS + 1) * picked
-                      + 2 * moving + acted + m + 5 * n + 1, sizeof(double));
+    s->block = calloc((LOOKS + 2) * row + nc + tape + 2 * nz + (LOOKS + 1) * picked
+                      + 2 * moving + acted + m + 5 * n + nx + 1, sizeof(double));
     if (!s->rodas || !s->settled || !s->block || (sampled->whole && !s->whole) || (sampled->needed && !s->needed)
         || (sampled->moving && !s->moving)) {
         ac_sampler_free(s);
@@ -42,10 +45,10 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
         both[k]->time = at, both[k]->x = at + rows, both[k]->z = both[k]->x + rows * nx, both[k]->found = both[k]->z + rows * nz;
         at += rows * row;
     }
-    s->c = at, s->tape = s->c + nc, s->size = s->tape + longest(sampled->watched, sampled->acts);
+    s->c = at, s->tape = s->c + nc, s->size = s->tape + tape;
     s->sizes = s->size + nz, s->picked = s->sizes + nz, s->rates = s->picked + (LOOKS + 1) * picked, s->ones = s->rates + moving;
     s->acted = s->ones + moving, s->width = s->acted + acted;
-    s->step_y = s->width + m, s->before = s->step_y + n, s->dense = s->before + n;
+    s->step_y = s->width + m, s->before = s->step_y + n, s->dense = s->before + n, s->coordinates = s->dense + 3 * n;
     for (size_t k = 0; k < moving; k++) s->ones[k] = 1;
     return s;
 }
@@ -81,6 +84,22 @@ static int stand(ac_sampler *s) {
     return 1;
 }
 
+/* Bring the coordinates of closed loops where the constraints have them at the present; whether they were nearly there. */
+static int project(ac_sampler *s) {
+    const ac_equations *e = s->of.equations;
+    const int32_t length[5] = {e->np, e->nc, e->nx, e->nz, 1}, stride[5] = {0};
+    const double *part[5] = {s->request.p, s->c, s->now.x, s->now.z, s->now.time};
+    if (!s->of.project) return 1;
+    ac_tape_rows(s->of.project, s->tape, 1, 5, length, stride, part, s->coordinates);
+    for (int32_t k = 0; k < s->of.project->outputs; k++) {
+        double *x = s->now.x + s->of.coordinate[k];
+        const double q = s->coordinates[k], nominal = s->request.nominal[s->of.coordinate[k]];
+        if (!(fabs(q - *x) <= s->request.apart * (nominal + fabs(q)))) return 0;
+        *x = q;
+    }
+    return 1;
+}
+
 /* The next instant that is planned. */
 static double planned(const ac_sampler *s) {
     double next = INFINITY;
@@ -105,12 +124,13 @@ static int happen(ac_sampler *s, int32_t *truth) {
     const ac_sampled *of = &s->of;
     const double *jump = s->acted + of->conditions;
     int32_t changes = 0;
+    if (!project(s)) return 0;
     for (int32_t k = 0; k < of->conditions; k++) {
         const int32_t now = holds(s, k, truth[k]);
         if (of->is_switch[k] && now != truth[k]) return 0;
         for (int32_t j = of->jump[k]; now && !truth[k] && j < of->jump[k + 1]; j++) {
             double *to = of->to[j] < 0 ? s->now.x - of->to[j] - 1 : s->c + of->to[j];
-            if (!isfinite(jump[j])) return 0;
+            if (!isfinite(jump[j]) || (of->project && of->to[j] < 0)) return 0;
             changes |= *to != jump[j];
             *to = jump[j];
         }
@@ -177,6 +197,8 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
     steps.x = steps.z = steps.integral = NULL, steps.room = 1;
     steps.step_time = &time, steps.step_y = s->step_y, steps.step_dense = s->dense;
     ac_progress done = {0}, before = {0};
+    if (!project(s)) return AC_DOUBT;
+    for (int32_t k = 0; k < s->of.multipliers; k++) s->now.z[s->of.multiplier[k]] = 0;
     ac_rodas_begin(s->rodas, &steps, s->now.x, s->now.z, s->request.p, s->c);
     copy(s->before, s->now.x, nx), copy(s->before + nx, s->now.z, nz);
     copy(s->looks.x, s->now.x, nx), copy(s->looks.z, s->now.z, nz), copy(s->looks.found, s->now.found, 2 * m);
@@ -192,7 +214,7 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
         state->steps += done.steps - before.steps, state->refused += done.refused - before.refused;
         state->values += done.values - before.values;
         before = done;
-        if (end != AC_DONE && end != AC_MORE) found = AC_DOUBT;
+        if ((end != AC_DONE && end != AC_MORE) || done.steps + done.refused > s->request.longest) found = AC_DOUBT;
         else if (done.kept) {
             int32_t inside = 0;
             while (inside < outputs && s->request.time[output + inside] < time) inside++;
@@ -204,6 +226,11 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
             }
             state->step = fmax(last, time - at), last = time - at, at = time;
             copy(s->before, s->step_y, nx + nz);
+            /* Loops are looked at where steps end. */
+            if (s->of.project && end == AC_MORE && found == AC_NO_INSTANT) {
+                if (state->rows + outputs + 1 >= s->request.room) return AC_FULL;
+                put_row(s, state, time, s->step_y, s->step_y + nx, NAN);
+            }
         }
     }
     if (found == AC_NO_INSTANT) copy(s->now.x, s->step_y, nx), copy(s->now.z, s->step_y + nx, nz);

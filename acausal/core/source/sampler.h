@@ -20,7 +20,7 @@ struct ac_sampler {
     ac_looks now, looks;              /* one row, LOOKS + 1 rows */
     double *c;                        /* constants now */
     double *tape, *size, *sizes, *picked, *rates, *ones; /* tape: of whichever is evaluated */
-    double *acted, *width;            /* what acts; how far conditions may be off */
+    double *acted, *width, *coordinates; /* what acts; how far conditions may be off; what is projected */
     double *step_y, *dense, *before;  /* end of a step, its interpolant, its start */
     ac_samples request;
     int64_t evaluations;

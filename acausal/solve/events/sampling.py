@@ -16,6 +16,7 @@ from acausal.core import Back, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
+from acausal.solve.integrate.flat import flat_time, passes_flat
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import are_rates, sizes
@@ -57,7 +58,9 @@ class Sampling:
         if self._wait or not (sampler := self._sampler()):
             self._wait = max(0, self._wait - 1)
             return None
-        e, trace, way = sampler.sampled.equations, self.integrator.trace, self.integrator.way
+        integrator = self.integrator
+        e, trace, way = sampler.sampled.equations, integrator.trace, integrator.way
+        at = integrator.restarted(at, way.moves)
         at_once = max(1, POLICY.calls.at_once // (e.values.size + e.slopes.size))
         started = clock.perf_counter()
         found = sampler.go(
@@ -72,8 +75,7 @@ class Sampling:
         trace.count(way.method, state.steps, state.steps + state.refused, state.values, calls=state.instants)
         self.integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
-        # From far away, unknowns may come to rest where the equations do not hold.
-        if not state.instants or not self.integrator.consistent.holds(rows, len(rows) - 1, POLICY.calls.holds):
+        if not state.instants or not self._is_sure(at, rows, METHODS[way.method].damps):
             if found.back is not Back.NO_INSTANT:
                 self._wait, self._next = self._next, min(2 * self._next, SAMPLING.longest)
             return None
@@ -87,6 +89,17 @@ class Sampling:
             replace(leg.end(at), time=state.time, truth=found.truth),
             found.events[np.isfinite(found.events)].tolist(),
         )
+
+    def _is_sure(self, at: Point, rows: Rows, damps: bool) -> bool:
+        """Whether closed loops pass no flat position in rows after a point; elsewhere, whether equations hold in the last one."""
+        if not self.integrator.loops:
+            # From far away, unknowns may come to rest where they do not.
+            return self.integrator.consistent.holds(rows, len(rows) - 1, POLICY.calls.holds)
+        way = Rows.joined([Rows.of(at), rows])
+        if damps:
+            y = np.hstack([way.x, way.z])
+            return flat_time(self.integrator.problem, way.times, y, at.constants) is None
+        return not passes_flat(self.integrator.problem, way.times, way.x, at.constants)
 
     def _sampler(self) -> Sampler | None:
         """The core's, made anew where the way changes; None where there is none."""
@@ -114,6 +127,7 @@ class Sampling:
             "crowded": POLICY.instants.window,
             "enough": POLICY.consistent.settled,
             "noise": POLICY.consistent.noise,
+            "apart": POLICY.loops.apart,
         }
         return Sampler(
             *(sampled, SAMPLING.rows, thresholds),
@@ -127,4 +141,5 @@ class Sampling:
             smooth=not method.damps,
             largest=method.damps,
             fine=POLICY.looks.fine,
+            longest=POLICY.calls.steps if self.integrator.loops else 2**62,
         )

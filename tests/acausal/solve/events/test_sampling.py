@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, discrete, output, parameter, piecewise, reinit, time, variable, when
+from acausal import Model, Scalar, connect, der, discrete, output, parameter, piecewise, reinit, time, variable, when
 from acausal.compiler import CompiledModel
 from acausal.core import library
 from acausal.core.sampler import Sampler
 from acausal.solve.events.sampling import Sampling
+from components.rotational import Torque
+from models import FourBar
 from tests.benchmarks.events.scenes import SampledPendulum
 
 pytestmark = pytest.mark.skipif(library() is None, reason="needs the core")
@@ -109,7 +111,27 @@ class Pulsed(Plant):
         )
 
 
-MODELS = (Plant, Uneven, TwoRates, Switching, Kicked, Stopping, Quantised, Pulsed)
+class Loop(FourBar):
+    """A controller drives the crank of a closed loop."""
+
+    stop_time = 0.4
+    u: Scalar = discrete("torque", unit="N.m")
+    due: Scalar = discrete("time of the next sample", unit="s")
+    gain: Scalar = parameter("torque over speed", unit="N.m.s", default=5)
+    motor = Torque()
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.motor.flange, self.j1.axis)
+
+    def equations(self):
+        yield from super().equations()
+        yield self.motor.tau == self.u
+        torque = self.gain * (3 - self.j1.w)
+        yield when(time >= self.due, reinit(self.u, torque), reinit(self.due, self.due + 0.01), at_start=True)
+
+
+MODELS = (Loop, Plant, Uneven, TwoRates, Switching, Kicked, Stopping, Quantised, Pulsed)
 
 
 @cache
