@@ -15,9 +15,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import sqrt as root
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from acausal import Expr, as_expr, cos, expect, sin, sqrt
@@ -39,7 +41,7 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
         Its frames, from frame_a to frame_b.
     """
     chain = _Chain(beam, frames)
-    shape, by_axial, by_slope = chain.shape(), *chain.errors()
+    shape, by_axial, by_slope = chain.shape, *chain.errors()
     error = Bend(*(a + s for a, s in zip(by_axial, by_slope, strict=True)))
     size, whole = chain.deflection(error) * chain.loosened(error), chain.deflection(shape)
     whole = sqrt(whole * whole + (SEEN * beam.length) * (SEEN * beam.length))
@@ -79,7 +81,7 @@ class _Chain:
         self.ends = (roots, [f.frame_a for f in self.frames]), (tips, [f.frame_b for f in self.frames])
         self.tension = self._tension()
         # How much each end is one of a hinge: the moment of a clamp is of the size of those in the beam.
-        moment = self._stiffness(self.shape()) * self.EJ / self.beam.length
+        moment = self._stiffness(self.shape) * self.EJ / self.beam.length
         loads = (as_expr(port.t[2].sx) / HINGE for port in (self.beam.frame_a, self.beam.frame_b))
         self.hinged = tuple(moment / (moment + t * t) for t in loads)
 
@@ -103,6 +105,7 @@ class _Chain:
         """For each frame its value times the weights of its elements."""
         return _map(np.kron(np.eye(len(self.frames)), weights[:, None]), values)
 
+    @cached_property
     def shape(self) -> Bend:
         """Bending of every element, in m."""
         v_1, a, v_2, b = (_joined(frame[i][k : self.n + k] for frame in self.nodes) for k in (0, 1) for i in (0, 1))
@@ -110,7 +113,7 @@ class _Chain:
 
     def errors(self) -> tuple[Bend, Bend]:
         """Bending of every element, in m, that the neglected forces would cause: those of axial forces, and of slopes."""
-        e, N, power = self.shape(), self.tension, 2 if self.beam.geometric_stiffness else 1
+        e, N, power = self.shape, self.tension, 2 if self.beam.geometric_stiffness else 1
         pulls, slopes = [], []
         for sign, slope, bent in gauss(e):
             stiff = self.EJ / (2 * self.l ** (2 * power + 3)) * _power(slope, 2 * power - 1) * bent
@@ -145,12 +148,10 @@ class _Chain:
     def _heights(self, e: Bend) -> Any:
         """Heights of all nodes above the chord, or the tangent at the root, or at the tip if that alone is clamped, in m."""
         k = np.arange(self.count + 1)
-        steps = k[:, None] - k[:-1] - 0.5
-        by_q, by_r = -np.where(steps > 0, steps, 0), np.where(steps > 0, 0.5, 0)
+        y = _before((e.r - e.q) / 2 - _before(e.q)[:-1])
         if self.beam.reference == "pinned":
-            by_q, by_r = (M - np.outer(k / self.count, M[-1]) for M in (by_q, by_r))
-            return _map(by_q, e.q) + _map(by_r, e.r)
-        y, turned = _map(by_q, e.q) + _map(by_r, e.r), self.hinged[0] * (1 - self.hinged[1])
+            return y - k / self.count * y[self.count]
+        turned = self.hinged[0] * (1 - self.hinged[1])
         return y - turned * (np.ones(k.size) * y[self.count] - (k - self.count) * _total(e.q))
 
     def deflection(self, e: Bend) -> Any:
@@ -198,12 +199,18 @@ def _power(x: Any, n: int) -> Any:
 
 def _joined(parts: Iterable[list[Any]]) -> Any:
     """Vector of all entries, without units, which deflections and turns share."""
-    return as_expr([as_expr(entry.sx) for part in parts for entry in part])
+    entries = [entry.sx for part in parts for entry in part]
+    return Expr(ca.vertcat(*entries), shape=(len(entries),))
 
 
 def _map(M: np.ndarray, x: Any) -> Any:
     """Matrix of numbers times a vector, without its units."""
-    return Expr(as_expr(M).sx @ x.sx, shape=(len(M),))
+    return Expr(ca.sparsify(ca.DM(M)) @ x.sx, shape=(len(M),))
+
+
+def _before(x: Any) -> Any:
+    """Sum of all entries before each, and of all: one more than there are."""
+    return Expr(ca.vertcat(0, ca.cumsum(x.sx)), shape=(len(x) + 1,))
 
 
 def _total(x: Any) -> Any:
