@@ -62,7 +62,8 @@ class SamplesData(Structure):
     _fields_ = (
         ("steps", POINTER(RequestData)),
         ("end", c_double),
-        *((name, c_int64) for name in ("most", "longest")),
+        *((name, c_int64) for name in ("most", "longest", "ringing")),
+        ("calm", c_double),
         *((name, c_int32) for name in ("density", "fine", "outputs")),
         *((name, c_double) for name in THRESHOLDS),
         *((name, c_void_p) for name in ("p", "time", "nominal", "declared")),
@@ -185,8 +186,10 @@ class Sampler:
         As of `Rodas.begin`.
     fine : int
         Parts of a step at whose ends conditions are looked at, at least.
-    longest : int, optional
-        Steps from one instant to the next.
+    longest, ringing : int, optional
+        Steps from one instant to the next, and where these are further apart than `calm`.
+    calm : float, optional
+        A time in s.
     """
 
     def __init__(
@@ -206,6 +209,8 @@ class Sampler:
         largest: bool,
         fine: int,
         longest: int = 2**62,
+        ringing: int = 2**62,
+        calm: float = np.inf,
     ) -> None:
         self._library, self.sampled, e = loaded(), sampled, sampled.equations
         self._memory = self._library.ac_sampler_make(byref(sampled.data))
@@ -229,6 +234,8 @@ class Sampler:
             **{name: thresholds[name] for name in THRESHOLDS},
             fine=fine,
             longest=longest,
+            ringing=ringing,
+            calm=calm,
             outputs=len(times),
             room=room,
         )
@@ -263,7 +270,7 @@ class Sampler:
         step : float
             First step in s, chosen if 0.
         steps : int
-            How many at most, refused ones among them.
+            After how many, refused ones among them, it comes back at an instant.
         density : int
             Pairs of looks between two outputs at least.
         """

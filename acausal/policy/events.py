@@ -49,8 +49,11 @@ class Rests:
 class Sampling:
     """Planned instants that are passed at one go."""
 
-    # Rows at one go.
+    # Rows at one go, and numbers in them: 8 MB.
     rows: int = 512
+    numbers: int = 1_000_000
+    # Steps from one instant to the next: where there are more, the search for events costs less than they do.
+    steps: int = 64
     # Instants at most that are left to the search after one with something else, before the next try: twice as many each time.
     longest: int = 64
 

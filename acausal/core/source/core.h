@@ -138,7 +138,8 @@ typedef struct {
 typedef struct {
     const ac_request *steps;         /* tolerance, sizes and kind of its steps; the rest of it is not read */
     double end;                      /* of the segment in s */
-    int64_t most, longest;           /* steps, refused ones among them: of all, and from one instant to the next */
+    int64_t most, longest, ringing;  /* steps, refused ones too: after which no leg begins; of a leg; of one that is longer than: */
+    double calm;                     /* in s */
     int32_t density, fine, outputs;  /* pairs of looks between outputs, parts of a step at least; times of all outputs */
     double span;                     /* of the run in s */
     double tolerance, soon, moves, level, reach, error, shortest, added, crowded, enough, noise, apart;

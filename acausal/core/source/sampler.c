@@ -188,7 +188,7 @@ static void put_row(const ac_sampler *s, ac_sampled_state *state, double time, c
 }
 
 /* From the present to an instant, with the outputs before it; whether nothing happens on the way. */
-static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t output, int32_t outputs, int64_t *left, const int32_t *truth) {
+static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t output, int32_t outputs, const int32_t *truth) {
     const int32_t nx = s->of.equations->nx, nz = s->of.equations->nz, m = s->of.conditions;
     const double ends[2] = {s->now.time[0], to};
     double time, at = ends[0], last = 0;
@@ -196,6 +196,7 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
     steps.first_step = fmin(state->step, to - at), steps.outputs = 1, steps.time = ends, steps.most = INT64_MAX / 4;
     steps.x = steps.z = steps.integral = NULL, steps.room = 1;
     steps.step_time = &time, steps.step_y = s->step_y, steps.step_dense = s->dense;
+    const int64_t longest = to - at > s->request.calm ? s->request.ringing : s->request.longest;
     ac_progress done = {0}, before = {0};
     if (!project(s)) return AC_DOUBT;
     for (int32_t k = 0; k < s->of.multipliers; k++) s->now.z[s->of.multiplier[k]] = 0;
@@ -206,15 +207,11 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
     for (int32_t k = 0; k < m; k++) s->risen[k] = 0;
     int32_t end = AC_MORE, found = AC_NO_INSTANT;
     while (found == AC_NO_INSTANT && end == AC_MORE) {
-        if ((*left)-- <= 0) {
-            found = AC_FULL;
-            break;
-        }
         end = ac_rodas_go(s->rodas, 1, &done);
         state->steps += done.steps - before.steps, state->refused += done.refused - before.refused;
         state->values += done.values - before.values;
         before = done;
-        if ((end != AC_DONE && end != AC_MORE) || done.steps + done.refused > s->request.longest) found = AC_DOUBT;
+        if ((end != AC_DONE && end != AC_MORE) || done.steps + done.refused > longest) found = AC_DOUBT;
         else if (done.kept) {
             int32_t inside = 0;
             while (inside < outputs && s->request.time[output + inside] < time) inside++;
@@ -238,7 +235,7 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
 }
 
 /* Pass the next instant; -1 where that was possible. */
-static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_t *output, int64_t *left) {
+static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_t *output) {
     const ac_samples *q = &s->request;
     const double now = s->now.time[0], instant = planned(s);
     if (!(instant < q->end)) return AC_NO_INSTANT;
@@ -254,8 +251,8 @@ static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_
     const double to = fmin(instant, label), event = fmax(instant, label);
     if (event + q->shortest >= q->end) return AC_NO_INSTANT;
     if (to - now <= q->crowded * q->span) return AC_DOUBT;
-    if (state->rows + outputs >= q->room) return AC_FULL;
-    const int32_t found = pass(s, state, to, *output, outputs, left, truth);
+    if (state->rows + outputs >= q->room || state->steps + state->refused >= q->most) return AC_FULL;
+    const int32_t found = pass(s, state, to, *output, outputs, truth);
     if (found != AC_NO_INSTANT) return found;
     s->now.time[0] = event;
     if (!stand(s) || !happen(s, truth)) return AC_DOUBT;
@@ -267,7 +264,6 @@ static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_
 int32_t ac_sampler_go(ac_sampler *s, const ac_samples *request, ac_sampled_state *state, double *x, double *z, double *c, int32_t *truth) {
     const ac_equations *e = s->of.equations;
     int32_t output = 0, found = -1;
-    int64_t left = request->most;
     s->request = *request, s->evaluations = 0;
     copy(s->now.x, x, e->nx), copy(s->now.z, z, e->nz), copy(s->c, c, e->nc);
     s->now.time[0] = state->time;
@@ -276,7 +272,7 @@ int32_t ac_sampler_go(ac_sampler *s, const ac_samples *request, ac_sampled_state
     while (found < 0) {
         const int32_t rows = state->rows;
         const double step = state->step;
-        found = go(s, state, truth, &output, &left);
+        found = go(s, state, truth, &output);
         if (found >= 0) {
             state->rows = rows, state->step = step;
             break;

@@ -140,8 +140,10 @@ class Course:
             while at.time < end:
                 at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
                 self.ahead.stride.lengthen()
+        happened = -1
         while at.time < end:
-            at = self._sampled(at, end)
+            if happened != len(self.events):
+                at, happened = self._sampled(at, end), len(self.events)
             instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)

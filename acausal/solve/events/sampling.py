@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.core_equations import core_sampled
-from acausal.core import Back, Sampler, library
+from acausal.core import Back, Sampled, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
@@ -54,20 +54,19 @@ class Sampling:
         self._wait, self._next = 0, 1
 
     def go(self, at: Point, end: float) -> Passed | None:
-        """Pass instants before the end of a segment, as many as are sure; None for none."""
+        """Pass instants before the end of a segment, from one that has just happened; None where it is not sure what happens."""
         if self._wait or not (sampler := self._sampler()):
             self._wait = max(0, self._wait - 1)
             return None
         integrator = self.integrator
-        e, trace, way = sampler.sampled.equations, integrator.trace, integrator.way
+        trace, way = integrator.trace, integrator.way
         at = integrator.restarted(at, way.moves)
-        at_once = max(1, POLICY.calls.at_once // (e.values.size + e.slopes.size))
         started = clock.perf_counter()
         found = sampler.go(
             *(at.time, at.x, at.z, at.constants.vector, at.truth),
             end=end,
             step=self.ahead.step,
-            steps=at_once,
+            steps=_at_once(sampler.sampled),
             density=self.ahead.stride.density,
         )
         trace.seconds += clock.perf_counter() - started
@@ -112,8 +111,14 @@ class Sampling:
         if not library() or settings.energy or not method.marches:
             return None
         sampled, nominal = core_sampled(problem.compiled, way.moves), settings.nominal
-        if not sampled:
+        if not sampled or (self.integrator.loops and not way.moves):
             return None
+        # Vibrations that one instant after the other does not show may cost more steps than the motion: the search decides.
+        whole = self.times[[0, -1]]
+        rings = settings.may_ring(whole) and way.method != settings.methods[-1]
+        e = sampled.equations
+        rows = min(SAMPLING.rows, 1 + SAMPLING.numbers // (e.nx + e.nz + e.nc))
+        longest = min(SAMPLING.steps, max(POLICY.looks.steps, _at_once(sampled)))
         thresholds = {
             "span": self.instants.span,
             "tolerance": self.instants.tolerance,
@@ -130,7 +135,7 @@ class Sampling:
             "apart": POLICY.loops.apart,
         }
         return Sampler(
-            *(sampled, SAMPLING.rows, thresholds),
+            *(sampled, rows, thresholds),
             p=problem.p,
             times=self.times,
             nominal=nominal,
@@ -141,5 +146,13 @@ class Sampling:
             smooth=not method.damps,
             largest=method.damps,
             fine=POLICY.looks.fine,
-            longest=POLICY.calls.steps if self.integrator.loops else 2**62,
+            longest=longest,
+            ringing=min(longest, settings.patience(way, whole)) if rings else longest,
+            calm=2 * np.pi / settings.vibration if rings else np.inf,
         )
+
+
+def _at_once(sampled: Sampled) -> int:
+    """Steps that take some hundredths of a second, for which an interrupt waits."""
+    e = sampled.equations
+    return max(1, POLICY.calls.at_once // (e.values.size + e.slopes.size))
