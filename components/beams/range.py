@@ -16,10 +16,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from math import sqrt as root
 from typing import Any
 
-import casadi as ca
 import numpy as np
 
 from acausal import Expr, as_expr, cos, expect, sin, sqrt
@@ -199,18 +199,17 @@ def _power(x: Any, n: int) -> Any:
 
 def _joined(parts: Iterable[list[Any]]) -> Any:
     """Vector of all entries, without units, which deflections and turns share."""
-    entries = [entry.sx for part in parts for entry in part]
-    return Expr(ca.vertcat(*entries), shape=(len(entries),))
+    return as_expr([Expr(entry.sx) for part in parts for entry in part])
 
 
 def _map(M: np.ndarray, x: Any) -> Any:
     """Matrix of numbers times a vector, without its units."""
-    return Expr(ca.sparsify(ca.DM(M)) @ x.sx, shape=(len(M),))
+    return Expr(as_expr(M).sx @ x.sx, shape=(len(M),))
 
 
 def _before(x: Any) -> Any:
     """Sum of all entries before each, and of all: one more than there are."""
-    return Expr(ca.vertcat(0, ca.cumsum(x.sx)), shape=(len(x) + 1,))
+    return as_expr([as_expr(0), *(Expr(entry) for entry in accumulate(x.sx.elements()))])
 
 
 def _total(x: Any) -> Any:
