@@ -4,6 +4,7 @@
 
 #include "file.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,7 +74,7 @@ static void act(ac_sampler *s) {
     ac_tape_rows(s->of.acts, s->tape, 1, 6, length, stride, part, s->acted);
     for (int32_t k = 0; k < s->of.conditions; k++) {
         const double scale = s->acted[k];
-        s->width[k] = s->request.tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
+        s->width[k] = s->request.tolerance * (scale > 0 ? fmin(scale, DBL_MAX) : 1);
     }
 }
 

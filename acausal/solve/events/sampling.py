@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.compiler.core_equations import core_sampled
+from acausal.compiler.core_equations import core_equations, core_sampled
 from acausal.core import Back, Sampled, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
@@ -21,7 +21,9 @@ from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
+from acausal.solve.start.newton import terms
 
 SAMPLING = POLICY.sampling
 
@@ -74,7 +76,8 @@ class Sampling:
         trace.count(way.method, state.steps, state.steps + state.refused, state.values, calls=state.instants)
         self.integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
-        if not state.instants or not self._is_sure(at, rows, METHODS[way.method].damps):
+        instants = np.isfinite(found.events)
+        if not state.instants or not self._is_sure(at, rows, instants, METHODS[way.method].damps):
             if found.back is not Back.NO_INSTANT:
                 self._wait, self._next = self._next, min(2 * self._next, SAMPLING.longest)
             return None
@@ -86,19 +89,29 @@ class Sampling:
         return Passed(
             leg,
             replace(leg.end(at), time=state.time, truth=found.truth),
-            found.events[np.isfinite(found.events)].tolist(),
+            found.events[instants].tolist(),
         )
 
-    def _is_sure(self, at: Point, rows: Rows, damps: bool) -> bool:
-        """Whether closed loops pass no flat position in rows after a point; elsewhere, whether equations hold in the last one."""
+    def _is_sure(self, at: Point, rows: Rows, instants: np.ndarray, damps: bool) -> bool:
+        """Whether closed loops pass no flat position in rows after a point; elsewhere, whether equations hold at the instants."""
         if not self.integrator.loops:
-            # From far away, unknowns may come to rest where they do not.
-            return self.integrator.consistent.holds(rows, len(rows) - 1, POLICY.calls.holds)
+            return self._hold(rows[instants])
         way = Rows.joined([Rows.of(at), rows])
         if damps:
             y = np.hstack([way.x, way.z])
             return flat_time(self.integrator.problem, way.times, y, at.constants) is None
         return not passes_flat(self.integrator.problem, way.times, way.x, at.constants)
+
+    def _hold(self, rows: Rows) -> bool:
+        """Whether algebraic equations hold in rows: from far away, unknowns may come to rest where they do not."""
+        problem, consistent = self.integrator.problem, self.integrator.consistent
+        nx, nominal = problem.nx, problem.nominal
+        some = [problem.point(rows, k) for k in spread(len(rows), POLICY.consistent.looks)]
+        least = np.min([terms(problem.local(at), at.y, nominal)[nx : nx + problem.nz] for at in some], axis=0)
+        values = core_equations(problem.compiled, False, self.integrator.way.moves).values
+        left = values.rows(rows.x, rows.z, rows.times[:, None], problem.p, rows.constants)[:, nx:]
+        doubtful = ~np.all(np.abs(left) <= POLICY.calls.holds * least, axis=1)
+        return all(consistent.holds(rows, k, POLICY.calls.holds) for k in np.flatnonzero(doubtful).tolist())
 
     def _sampler(self) -> Sampler | None:
         """The core's, made anew where the way changes; None where there is none."""
