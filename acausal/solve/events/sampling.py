@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations, core_sampled
-from acausal.core import Back, Sampled, Sampler, library
+from acausal.core import Back, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
 from acausal.solve.integrate.flat import flat_time, passes_flat
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
-from acausal.solve.integrate.one_step import are_rates, sizes
+from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
@@ -68,23 +68,23 @@ class Sampling:
             *(at.time, at.x, at.z, at.constants.vector, at.truth),
             end=end,
             step=self.ahead.step,
-            steps=_at_once(sampler.sampled),
+            steps=at_once(sampler.sampled.equations),
             density=self.ahead.stride.density,
         )
         trace.seconds += clock.perf_counter() - started
-        state, compiled = found.state, self.integrator.compiled
+        state = found.state
         trace.count(way.method, state.steps, state.steps + state.refused, state.values, calls=state.instants)
-        self.integrator.consistent.evaluations += state.evaluations
+        integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
         instants = np.isfinite(found.events)
-        if not state.instants or not self._is_sure(at, rows, instants, METHODS[way.method].damps):
+        if not state.instants or not self._is_sure(at, rows, instants):
             if found.back is not Back.NO_INSTANT:
                 self._wait, self._next = self._next, min(2 * self._next, SAMPLING.longest)
             return None
         self._next = 1
         self.ahead.begin(state.step)
         self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, found.peak)
-        constants = compiled.layout.constants(rows.constants[-1])
+        constants = integrator.compiled.layout.constants(rows.constants[-1])
         leg = Leg(rows, np.zeros((len(rows), 2)), constants, state.steps)
         return Passed(
             leg,
@@ -92,15 +92,14 @@ class Sampling:
             found.events[instants].tolist(),
         )
 
-    def _is_sure(self, at: Point, rows: Rows, instants: np.ndarray, damps: bool) -> bool:
+    def _is_sure(self, at: Point, rows: Rows, instants: np.ndarray) -> bool:
         """Whether closed loops pass no flat position in rows after a point; elsewhere, whether equations hold at the instants."""
         if not self.integrator.loops:
             return self._hold(rows[instants])
-        way = Rows.joined([Rows.of(at), rows])
-        if damps:
-            y = np.hstack([way.x, way.z])
-            return flat_time(self.integrator.problem, way.times, y, at.constants) is None
-        return not passes_flat(self.integrator.problem, way.times, way.x, at.constants)
+        problem, passed = self.integrator.problem, Rows.joined([Rows.of(at), rows])
+        if METHODS[self.integrator.way.method].damps:
+            return flat_time(problem, passed.times, np.hstack([passed.x, passed.z]), at.constants) is None
+        return not passes_flat(problem, passed.times, passed.x, at.constants)
 
     def _hold(self, rows: Rows) -> bool:
         """Whether algebraic equations hold in rows: from far away, unknowns may come to rest where they do not."""
@@ -131,7 +130,7 @@ class Sampling:
         rings = settings.may_ring(whole) and way.method != settings.methods[-1]
         e = sampled.equations
         rows = min(SAMPLING.rows, 1 + SAMPLING.numbers // (e.nx + e.nz + e.nc))
-        longest = min(SAMPLING.steps, max(POLICY.looks.steps, _at_once(sampled)))
+        longest = min(SAMPLING.steps, max(POLICY.looks.steps, at_once(e)))
         thresholds = {
             "span": self.instants.span,
             "tolerance": self.instants.tolerance,
@@ -153,19 +152,10 @@ class Sampling:
             times=self.times,
             nominal=nominal,
             declared=problem.nominal[problem.nx :],
-            size=sizes(problem, nominal, settings.vibration) if method.damps else nominal[: problem.nx],
-            rate=are_rates(problem),
+            **error_test(problem, nominal, settings.vibration, method.damps),
             tolerance=way.tolerance,
-            smooth=not method.damps,
-            largest=method.damps,
             fine=POLICY.looks.fine,
             longest=longest,
             ringing=min(longest, settings.patience(way, whole)) if rings else longest,
             calm=2 * np.pi / settings.vibration if rings else np.inf,
         )
-
-
-def _at_once(sampled: Sampled) -> int:
-    """Steps that take some hundredths of a second, for which an interrupt waits."""
-    e = sampled.equations
-    return max(1, POLICY.calls.at_once // (e.values.size + e.slopes.size))

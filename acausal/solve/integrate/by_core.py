@@ -13,7 +13,7 @@ from acausal.policy import POLICY
 from acausal.solve.integrate.flat import flat_time, passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
-from acausal.solve.integrate.one_step import are_rates, sizes
+from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.problem import Problem
 
@@ -36,21 +36,17 @@ class ByCore(Integration):
     def __init__(self, request: Request, damps: bool) -> None:
         self.request = request
         problem, way, at = request.problem, request.way, request.at
-        nominal = request.settings.nominal
         equations = core_equations(problem.compiled, request.works, way.moves)
-        self._at_once = max(1, POLICY.calls.at_once // (equations.values.size + equations.slopes.size))
+        self._at_once = at_once(equations)
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
         self.ended, self._keeps = False, loops or request.curves
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
-            size=sizes(problem, nominal, request.settings.vibration) if damps else nominal[: problem.nx],
+            **error_test(problem, request.settings.nominal, request.settings.vibration, damps),
             tolerance=way.tolerance,
             first_step=min(request.first_step, request.span),
-            rate=are_rates(problem),
-            smooth=not damps,
-            largest=damps,
             room=POLICY.calls.steps if self._keeps else 0,
             curves=request.curves,
             most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,

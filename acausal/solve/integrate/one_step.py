@@ -7,8 +7,11 @@ damped instead of followed. The largest error of any state counts there: so few 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from acausal.core import Equations
 from acausal.policy import POLICY
 from acausal.solve.integrate.integration import Request
 from acausal.solve.problem import Problem
@@ -39,6 +42,25 @@ def are_rates(problem: Problem) -> np.ndarray:
     found = np.zeros(problem.nx, dtype=np.int32)
     found[[rate for _, rate in problem.rates]] = 1
     return found
+
+
+def error_test(problem: Problem, nominal: np.ndarray, vibration: float, damps: bool) -> dict[str, Any]:
+    """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth and largest.
+
+    Parameters
+    ----------
+    problem, nominal, vibration
+        As of `sizes`.
+    damps : bool
+        Whether the method damps.
+    """
+    size = sizes(problem, nominal, vibration) if damps else nominal[: problem.nx]
+    return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps}
+
+
+def at_once(equations: Equations) -> int:
+    """Return how many steps of the core take some hundredths of a second, for which an interrupt may wait."""
+    return max(1, CALLS.at_once // (equations.values.size + equations.slopes.size))
 
 
 def first_step(request: Request) -> float:
