@@ -88,6 +88,7 @@ FUNCTIONS = {
     "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),
     "ac_rodas_begin": (None, (c_void_p, POINTER(RequestData), *[c_void_p] * 4)),
     "ac_rodas_move": (None, (c_void_p, c_void_p, c_void_p)),
+    "ac_rodas_allow": (None, (c_void_p, c_int64)),
     "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
     "ac_rodas_free": (None, (c_void_p,)),
     "ac_sampler_make": (c_void_p, (c_void_p,)),

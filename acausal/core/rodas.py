@@ -264,6 +264,10 @@ class Rodas:
         """Go on from other states and algebraic unknowns, near those after the last step."""
         self._library.ac_rodas_move(self._memory, *map(_address, (x, z)))
 
+    def allow(self, most: int) -> None:
+        """Take so many steps between two outputs at most from now on, as after `End.MANY`."""
+        self._library.ac_rodas_allow(self._memory, most)
+
     @property
     def steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Times and values, of which the states come first, before and after each step since it was last told to go on.

@@ -10,7 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
-from acausal.solve.integrate.order import eigenvalues_of, sizes_of
+from acausal.solve.integrate.order import Spectrum
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import initial_system
@@ -68,7 +68,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     system = initial_system(problem, at, initial)
     residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
     held = algebraic(problem, problem.projected(at)) if problem.compiled.constraints.size else at
-    return Beginning(held, residuals, starts, sizes_of(eigenvalues_of(problem, at))[1])
+    return Beginning(held, residuals, starts, Spectrum(problem, at).vibration)
 
 
 def _square(

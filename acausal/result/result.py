@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -81,11 +80,11 @@ class Result:
     def stats(self) -> Statistics:
         """Sizes, counts and seconds of the run."""
         count = getattr(self._evaluate, "evaluations", None)
-        return self._stats if count is None else replace(self._stats, consistent_evaluations=count)
+        return self._stats if count is None else self._stats.changed(consistent_evaluations=count)
 
     def with_stats(self, **values: Any) -> Result:
         """Return the same result with other statistics."""
-        stats = replace(self.stats, **values)
+        stats = self.stats.changed(**values)
         return Result(self.time, self._evaluate, self.tree, self.outputs, stats, self.title, self._more)
 
     def __repr__(self) -> str:

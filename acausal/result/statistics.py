@@ -2,9 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, Generic, TypeVar
+
+from acausal.locks import alone
+
+Value = TypeVar("Value")
+
+
+class Later(Generic[Value]):
+    """A field that may be given as a function without arguments, which is called when it is first read.
+
+    Parameters
+    ----------
+    default : any
+        Its value where none is given.
+    """
+
+    def __init__(self, default: Value) -> None:
+        self._default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, instance: object, owner: type) -> Value:
+        if instance is None:
+            return self._default
+        values: dict[str, Any] = vars(instance)
+        if callable(later := values[self._name]):
+            values[self._name] = alone(later)()
+        return values[self._name]
+
+    def __set__(self, instance: object, value: Value | Callable[[], Value]) -> None:
+        vars(instance)[self._name] = value
 
 
 @dataclass(frozen=True)
@@ -62,15 +93,15 @@ class Statistics(Mapping[str, Any]):
     calls: int = 0
     choices: int = 0
     consistent_evaluations: int = 0
-    max_order: int = 0
-    order_reason: str = ""
+    max_order: Later[int] = Later(0)
+    order_reason: Later[str] = Later("")
     tolerance: float = 0.0
     sizes: dict[str, float] = field(default_factory=dict)
     method: str = ""
     method_reason: str = ""
     method_steps: dict[str, int] = field(default_factory=dict)
     damped: bool = False
-    fastest_rate: float = 0.0
+    fastest_rate: Later[float] = Later(0.0)
     constraints: str = "none"
     loosened_at: list[float] = field(default_factory=list)
     break_times: list[float] = field(default_factory=list)
@@ -98,13 +129,20 @@ class Statistics(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         """Return what goes by a name."""
-        value = self.__dict__.get(name)
+        value = getattr(self, name) if name in self.__dict__ else None
         if value is None:
             raise KeyError(name)
         return value
 
+    def changed(self, **values: Any) -> Statistics:
+        """Return the same with other values."""
+        return Statistics(**{**vars(self), **values})
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
     def __iter__(self) -> Iterator[str]:
-        return (f.name for f in fields(self) if getattr(self, f.name) is not None)
+        return (f.name for f in fields(self) if vars(self)[f.name] is not None)
 
     def __len__(self) -> int:
         return sum(1 for _ in self)

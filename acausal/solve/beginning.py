@@ -10,7 +10,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import latest
 from acausal.solve.checks.validity import check_start
-from acausal.solve.integrate.order import eigenvalues_of
+from acausal.solve.integrate.order import Spectrum
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
@@ -27,15 +27,15 @@ class Beginning:
         Consistent values.
     at : Point
         The same point, or one beside it where that is singular.
-    eigenvalues : array of complex
-        Of the linearised system there.
+    spectrum : Spectrum
+        Eigenvalues there.
     seconds : float
         What it took to find them.
     """
 
     start: Start
     at: Point
-    eigenvalues: np.ndarray
+    spectrum: Spectrum
     seconds: float
 
 
@@ -65,4 +65,4 @@ def _found(problem: Problem, time: float, later: float, initial: str) -> Beginni
     begun = start(problem, time, later, initial)
     check_start(problem, begun.point)
     at = go_on(problem, begun)
-    return Beginning(begun, at, eigenvalues_of(problem, at), clock.perf_counter() - started)
+    return Beginning(begun, at, Spectrum(problem, at), clock.perf_counter() - started)

@@ -27,7 +27,6 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.integrate.ladder import Failure, Kind
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
-from acausal.solve.integrate.order import order_limit, sizes_of
 from acausal.solve.integrate.settings import Progress, Settings
 from acausal.solve.integrate.sizes import absolute_sizes, smaller_sizes
 from acausal.solve.integrate.trace import Trace
@@ -118,7 +117,6 @@ class _Done:
     at: Point
     integrator: Integrator
     course: Course
-    reason: str
     failure: BaseException | None
 
     @property
@@ -150,28 +148,23 @@ def _plan(problem: Problem, task: Task) -> _Plan:
 
 def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning) -> _Done:
     """Integrate, again where states turn out to be much smaller than they were taken for."""
-    at, rates, span = beginning.at, beginning.eigenvalues, task.stop_time - task.start_time
-    max_order, reason = (task.max_order, "given") if task.max_order else order_limit(rates, span)
-    fastest, vibration = sizes_of(rates)
+    at, span = beginning.at, task.stop_time - task.start_time
     settings = Settings(
         nominal=problem.nominal,
         tolerance=task.tolerance,
         outputs=task.intervals,
-        max_order=max_order,
+        spectrum=beginning.spectrum,
+        span=span,
+        given_order=task.max_order,
         energy=task.energy,
         progress=task.progress,
         constraints=task.constraints,
         methods=chosen(task.method, task.max_order),
-        fastest=fastest,
-        vibration=vibration,
-        order_is_open=task.max_order is None and max_order < POLICY.order.highest,
     )
     counts = Trace()
     for _ in range(POLICY.sizes.passes):
         integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
-        done = _Done(
-            beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), reason, None
-        )
+        done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:
@@ -231,15 +224,15 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         residual_evaluations=trace.residual_evaluations,
         calls=trace.calls,
         choices=trace.choices,
-        max_order=integrator.way.order,
-        order_reason="; ".join([done.reason, *trace.orders]),
+        max_order=lambda: integrator.order,
+        order_reason=lambda: "; ".join([integrator.settings.limit[1], *trace.orders]),
         tolerance=integrator.settings.tolerance,
         sizes=absolute_sizes(compiled, integrator.settings.nominal),
         method=" and ".join(steps) or "none",
         method_reason="; ".join([why_first(task.method, task.max_order), *trace.changes]),
         method_steps=dict(steps),
         damped=any(METHODS[name].damps for name in trace.methods),
-        fastest_rate=integrator.settings.fastest,
+        fastest_rate=lambda: integrator.settings.spectrum.fastest,
         constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",
         loosened_at=trace.loosened,
         break_times=plan.breaks,
@@ -257,15 +250,14 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    stats = replace(stats, doubts=[*found, *_loosened(integrator), *_flat(integrator)])
+    stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:
             caution(ROUGH)
         stored = Evaluator(rows[[0, -1]], integrator.consistent)
         change = float(np.diff(stored(compiled.reduced.flat.energies["stored_energy"])[:, 0])[0])
         supplied, dissipated = integrator.trace.energy.tolist()
-        stats = replace(
-            stats,
+        stats = stats.changed(
             energy_supplied=supplied,
             energy_stored_change=change,
             energy_dissipated=dissipated,

@@ -114,6 +114,7 @@ AC_PUBLIC ac_rodas *ac_rodas_make(const ac_equations *equations);
 AC_PUBLIC void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p,
                               const double *c);
 AC_PUBLIC void ac_rodas_move(ac_rodas *r, const double *x, const double *z);
+AC_PUBLIC void ac_rodas_allow(ac_rodas *r, int64_t most);
 AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress);
 AC_PUBLIC void ac_rodas_free(ac_rodas *r);
 

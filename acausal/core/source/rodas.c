@@ -37,9 +37,7 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
         ac_rodas_free(r);
         return NULL;
     }
-    r->values = r->block;
-    r->slopes = r->values + values;
-    r->powers = r->slopes + slopes;
+    r->values = r->block, r->slopes = r->values + values, r->powers = r->slopes + slopes;
     r->y = r->powers + powers;
     r->next = r->y + n, r->stage = r->next + n, r->b = r->stage + n, r->u = r->b + n;
     r->dense = r->u + STAGES * n, r->matrix = r->dense + 3 * n;
@@ -97,6 +95,9 @@ void ac_rodas_move(ac_rodas *r, const double *x, const double *z) {
     if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
     r->stale = 1;
 }
+
+/* Take so many steps between two outputs at most from now on. */
+void ac_rodas_allow(ac_rodas *r, int64_t most) { r->request.most = most; }
 
 /* Changes of the states over tolerance (size + |x|): their root mean square, or the largest. */
 static double norm(const ac_rodas *r, const double *change) {

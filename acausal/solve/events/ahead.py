@@ -82,7 +82,7 @@ class Ahead:
             return self._marched(at, end)
         grid = self.stride.grid(at.time, end)
         integrator = self.integrator
-        way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, grid))
+        way = integrator.settings.first(integrator.way, grid)
         leg = integrator.attempt(at, self.stride.looks(grid), way)
         if isinstance(leg, Refusal):
             return self._otherwise(at, grid, leg)
@@ -158,9 +158,9 @@ class Ahead:
     def _otherwise(self, at: Point, grid: np.ndarray, refusal: Refusal) -> Found:
         """Try in another way, or over a shorter time, as the law may no longer be valid beyond an event."""
         integrator, settings = self.integrator, self.integrator.settings
-        if refusal.kind is Kind.STEPS and is_open(integrator, grid) and integrator.way.order == settings.max_order:
+        if refusal.kind is Kind.STEPS and is_open(integrator, grid) and integrator.order == settings.max_order:
             choose(integrator, at, grid[:2])
-            if integrator.way.order != settings.max_order:
+            if integrator.order != settings.max_order:
                 return Found(at)
         following = next_ways(integrator.way, refusal, settings.rescues(grid, integrator.loops))
         if integrator.loops and refusal.kind is Kind.CORRECTOR and integrator.way.method == settings.careful:

@@ -127,7 +127,8 @@ class Sampling:
             return None
         # Vibrations that one instant after the other does not show may cost more steps than the motion: the search decides.
         whole = self.times[[0, -1]]
-        rings = settings.may_ring(whole) and way.method != settings.methods[-1]
+        ringing = settings.first(way, whole).ringing
+        ringing = ringing if ringing and settings.rings(ringing.interval) else None
         e = sampled.equations
         rows = min(SAMPLING.rows, 1 + SAMPLING.numbers // (e.nx + e.nz + e.nc))
         longest = min(SAMPLING.steps, max(POLICY.looks.steps, at_once(e)))
@@ -152,10 +153,10 @@ class Sampling:
             times=self.times,
             nominal=nominal,
             declared=problem.nominal[problem.nx :],
-            **error_test(problem, nominal, settings.vibration, method.damps),
+            **error_test(problem, settings, method.damps),
             tolerance=way.tolerance,
             fine=POLICY.looks.fine,
             longest=longest,
-            ringing=min(longest, settings.patience(way, whole)) if rings else longest,
-            calm=2 * np.pi / settings.vibration if rings else np.inf,
+            ringing=min(longest, ringing.steps) if ringing else longest,
+            calm=2 * np.pi / settings.spectrum.vibration if ringing else np.inf,
         )

@@ -58,6 +58,11 @@ class Integrator:
         return self.settings.tolerance
 
     @property
+    def order(self) -> int:
+        """Highest order of the multistep method in the way of now."""
+        return self.way.order or self.settings.max_order
+
+    @property
     def loops(self) -> bool:
         """Whether there are constraints."""
         return bool(self.compiled.constraints.size)
@@ -76,7 +81,7 @@ class Integrator:
             method = METHODS[way.method]
             damped = ", which damps vibrations that positions do not show" if method.damps else ""
             self.trace.changes.append(f"{method.name} from t = {refusal.time:.6g} s on{damped}: {refusal.kind.value}")
-        self.way = way
+        self.way = replace(way, ringing=None)
 
     def restarted(self, at: Point, moves: bool) -> Point:
         """Return a point where the constraints hold, with a projection that suits the position."""
@@ -123,7 +128,7 @@ class Integrator:
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
             more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
-            parts, way = parts * more, replace(way, max_steps=-(-way.max_steps // more))
+            parts, way = parts * more, way.shared(more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at))
         started = clock.perf_counter()
@@ -158,7 +163,7 @@ class Integrator:
         if self.is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)
         trace.flat += [integration.flat] if integration.flat is not None else []
-        few = POLICY.energy.resolved if METHODS[way.method].multistep and way.order <= 2 else 1
+        few = POLICY.energy.resolved if METHODS[way.method].multistep and self.order <= 2 else 1
         if request.works and not self.compiled.powers.is_zero() and steps < n * few:
             given = np.vstack([np.zeros((1, 2)), found.energy])
             work, known = refined(self.consistent, found.since(at), given, way.tolerance, steps < n)

@@ -91,7 +91,7 @@ def by_idas(request: Request) -> ByCasadi:
     options = {
         "reltol": way.tolerance,
         "abstolv": np.maximum(way.tolerance * nominal, request.floor).tolist(),
-        "max_multistep_order": way.order,
+        "max_multistep_order": way.order or request.settings.max_order,
         "suppress_algebraic": True,
         "max_num_steps": way.max_steps,
         "disable_internal_warnings": True,
@@ -122,7 +122,7 @@ def by_rosenbrock(request: Request) -> ByCasadi:
     if first := first_step(request):
         options["step0"] = first
     seen = (
-        sizes(request.problem, request.settings.nominal, request.settings.vibration),
+        sizes(request.problem, request.settings.nominal, request.settings.spectrum.vibration),
         UNSEEN * problem.nominal[problem.nx :],
     )
     return ByCasadi(request, "rosenbrock", options, ("n_steps", "n_jac", "n_rhs"), seen)

@@ -38,18 +38,20 @@ class ByCore(Integration):
         problem, way, at = request.problem, request.way, request.at
         equations = core_equations(problem.compiled, request.works, way.moves)
         self._at_once = at_once(equations)
+        most = max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps
+        self._ringing = None if damps else way.ringing
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
         self.ended, self._keeps = False, loops or request.curves
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
-            **error_test(problem, request.settings.nominal, request.settings.vibration, damps),
+            **error_test(problem, request.settings, damps),
             tolerance=way.tolerance,
             first_step=min(request.first_step, request.span),
             room=POLICY.calls.steps if self._keeps else 0,
             curves=request.curves,
-            most=max(POLICY.rescue.fewest_long, way.max_steps) if damps else way.max_steps,
+            most=min(most, self._ringing.steps) if self._ringing else most,
         )
 
     @property
@@ -72,6 +74,10 @@ class ByCore(Integration):
             self._return()
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
+        if end == End.MANY and self._ringing:
+            rings = self.request.settings.rings(self._ringing.interval)
+            self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
+            self._ringing, end = None, End.MORE
         if self._loops and self._damps:
             self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
         elif self._loops and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):

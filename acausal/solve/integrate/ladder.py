@@ -13,6 +13,22 @@ RESCUE = POLICY.rescue
 
 
 @dataclass(frozen=True)
+class Ringing:
+    """When to ask whether vibrations that outputs at some distance cannot show are in the way.
+
+    Attributes
+    ----------
+    steps : int
+        Steps for an output interval after which to ask, and to give up if so.
+    interval : float
+        Longest distance of outputs in s.
+    """
+
+    steps: int
+    interval: float
+
+
+@dataclass(frozen=True)
 class Way:
     """How to integrate a leg.
 
@@ -26,21 +42,29 @@ class Way:
         Relative tolerance.
     max_steps : int
         Steps after which to give up.
-    order : int
-        Highest order of the multistep method.
+    order : int or None
+        Highest order of the multistep method; None for the limit of the run.
     gentle : bool
         Whether to begin with a short step.
     careful : bool
         The same, and to factorise without reusing earlier pivots.
+    ringing : Ringing or None
+        Whether and when vibrations count as in the way.
     """
 
     method: str
     moves: bool
     tolerance: float
     max_steps: int
-    order: int = 5
+    order: int | None = None
     gentle: bool = False
     careful: bool = False
+    ringing: Ringing | None = None
+
+    def shared(self, parts: int) -> Way:
+        """Return it for outputs that are so many times as dense."""
+        ringing = self.ringing and replace(self.ringing, steps=-(-self.ringing.steps // parts))
+        return replace(self, max_steps=-(-self.max_steps // parts), ringing=ringing)
 
 
 Found = TypeVar("Found")

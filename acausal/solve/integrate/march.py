@@ -49,7 +49,7 @@ class March:
         self._pieces = len(integrator.trace.pieces)
         self.refusal: Refusal | None = None
         self.step = first_step
-        self._way = replace(way, max_steps=integrator.settings.patience(way, outputs))
+        self._way = integrator.settings.first(way, outputs)
         start = integrator.restarted(at, way.moves)
         request = Request(
             *(integrator.problem, integrator.settings, self._way, start, outputs, False),

@@ -14,6 +14,7 @@ import numpy as np
 from acausal.core import Equations
 from acausal.policy import POLICY
 from acausal.solve.integrate.integration import Request
+from acausal.solve.integrate.settings import Settings
 from acausal.solve.problem import Problem
 
 CALLS = POLICY.calls
@@ -44,17 +45,20 @@ def are_rates(problem: Problem) -> np.ndarray:
     return found
 
 
-def error_test(problem: Problem, nominal: np.ndarray, vibration: float, damps: bool) -> dict[str, Any]:
+def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, Any]:
     """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth and largest.
 
     Parameters
     ----------
-    problem, nominal, vibration
-        As of `sizes`.
+    problem : Problem
+        The model.
+    settings : Settings
+        How the run is to be integrated.
     damps : bool
         Whether the method damps.
     """
-    size = sizes(problem, nominal, vibration) if damps else nominal[: problem.nx]
+    nominal = settings.nominal
+    size = sizes(problem, nominal, settings.spectrum.vibration) if damps else nominal[: problem.nx]
     return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps}
 
 
@@ -65,5 +69,5 @@ def at_once(equations: Equations) -> int:
 
 def first_step(request: Request) -> float:
     """Return a first step that the fastest vibration resolves, as a fraction of the leg; 0 where there is none."""
-    fastest = request.settings.fastest
+    fastest = request.settings.spectrum.fastest
     return min(CALLS.first, 10.0 ** -np.ceil(np.log10(fastest * request.span))) if fastest > 0 else 0.0

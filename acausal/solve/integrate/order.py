@@ -8,6 +8,8 @@ the motion must lie inside the wedge.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -20,6 +22,30 @@ from acausal.solve.start.tangent import of_states, tangent
 ORDER = POLICY.order
 
 
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Eigenvalues of a model at a point, found when they are first asked for: many runs do without."""
+
+    problem: Problem
+    at: Point
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """As `eigenvalues_of`."""
+        return eigenvalues_of(self.problem, self.at)
+
+    @property
+    def fastest(self) -> float:
+        """Size of the largest; 0 where there is none."""
+        return float(np.max(np.abs(self.values), initial=0.0))
+
+    @property
+    def vibration(self) -> float:
+        """Size of the largest that oscillates; 0 where there is none."""
+        return float(np.max(np.abs(self.values[np.imag(self.values) != 0]), initial=0.0))
+
+
+@np.errstate(all="ignore")
 def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
     """Return eigenvalues of the linearised system: all of a small one, the slowest and the fastest pair of a large one.
 
@@ -29,12 +55,6 @@ def eigenvalues_of(problem: Problem, at: Point) -> np.ndarray:
         return _eigenvalues(problem, at)
     except (RuntimeError, np.linalg.LinAlgError):
         return np.zeros(0, complex)
-
-
-def sizes_of(values: np.ndarray) -> tuple[float, float]:
-    """Return the size of the largest eigenvalue, and of the largest that oscillates; 0 where there is none."""
-    fastest, vibration = (float(np.max(np.abs(some), initial=0.0)) for some in (values, values[np.imag(values) != 0]))
-    return fastest, vibration
 
 
 def _eigenvalues(problem: Problem, at: Point) -> np.ndarray:

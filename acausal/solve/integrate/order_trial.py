@@ -26,21 +26,21 @@ def is_open(integrator: Integrator, times: np.ndarray) -> bool:
     Vibrations that may be damped do not matter: where they need many steps, the one-step method takes over.
     """
     settings = integrator.settings
-    if not settings.order_is_open or not METHODS[integrator.way.method].multistep or settings.may_ring(times):
+    if not METHODS[integrator.way.method].multistep or not settings.order_is_open or settings.may_ring(times):
         return False
     return _stable(integrator, times) < settings.patience(integrator.way, times)
 
 
 def _stable(integrator: Integrator, times: np.ndarray) -> float:
     """Steps for an output interval with which the highest order is stable."""
-    return integrator.settings.fastest * float(np.max(np.diff(times), initial=0.0)) / ORDER.stable
+    return integrator.settings.spectrum.fastest * float(np.max(np.diff(times), initial=0.0)) / ORDER.stable
 
 
 def _patience(integrator: Integrator, times: np.ndarray) -> int:
     """Steps for an output interval after which the present order is given up."""
     most = integrator.settings.patience(integrator.way, times)
     dear = int(ORDER.dear * _stable(integrator, times))
-    return most if integrator.way.order == ORDER.highest else min(most, max(ORDER.fewest, dear))
+    return most if integrator.order == ORDER.highest else min(most, max(ORDER.fewest, dear))
 
 
 def doubt(integrator: Integrator, times: np.ndarray) -> int:
@@ -97,7 +97,8 @@ def choose(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | None:
         What was integrated on the way, if the limit stays.
     """
     # Amid vibrations, values that are consistent at the first order are hard to find: begin with a short step.
-    low, high, before = integrator.settings.max_order, ORDER.highest, replace(integrator.way, gentle=True)
+    low, high = integrator.settings.max_order, ORDER.highest
+    before = replace(integrator.way, order=integrator.order, gentle=True)
     patience = _patience(integrator, times)
     found, work = _tried(integrator, at, times, replace(before, max_steps=patience))
     gain = ORDER.gain if before.order == low else 1

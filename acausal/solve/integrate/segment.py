@@ -49,13 +49,12 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
 
 def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | Refusal:
     """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
-    rescues = integrator.settings.rescues(times, integrator.loops)
     while True:
-        way = replace(integrator.way, max_steps=integrator.settings.patience(integrator.way, times))
+        way = integrator.settings.first(integrator.way, times)
         found = integrator.attempt(at, times, way)
         if isinstance(found, Leg):
             return found
-        following = next_ways(way, found, rescues)
+        following = next_ways(way, found, integrator.settings.rescues(times, integrator.loops))
         if not following:
             return found
         integrator.take(following[0], found)

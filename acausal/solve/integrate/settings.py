@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from acausal.core import library
 from acausal.policy import POLICY
-from acausal.solve.integrate.ladder import Rescues, Way
+from acausal.solve.integrate.ladder import Rescues, Ringing, Way
+from acausal.solve.integrate.order import Spectrum, order_limit
 
 RESCUE = POLICY.rescue
 
@@ -28,8 +30,12 @@ class Settings:
         Relative tolerance.
     outputs : int
         Output intervals of the whole run.
-    max_order : int
-        Limit of the order of the multistep method.
+    spectrum : Spectrum
+        Eigenvalues at the start.
+    span : float
+        Length of the whole run in s.
+    given_order : int or None
+        Limit of the order of the multistep method; None where eigenvalues tell.
     energy : bool
         Whether to integrate the powers as well.
     progress : callable, optional
@@ -38,23 +44,33 @@ class Settings:
         Methods that may be taken, the first one first.
     constraints : str
         As of `simulate`.
-    fastest, vibration : float
-        Size of the largest eigenvalue at the start in 1/s, and of the largest that oscillates.
-    order_is_open : bool
-        Whether a trial may decide on the highest order.
     """
 
     nominal: np.ndarray
     tolerance: float
     outputs: int
-    max_order: int
+    spectrum: Spectrum
+    span: float
+    given_order: int | None
     energy: bool
     methods: tuple[str, ...]
     progress: Progress | None = None
     constraints: str = "auto"
-    fastest: float = 0.0
-    vibration: float = 0.0
-    order_is_open: bool = False
+
+    @cached_property
+    def limit(self) -> tuple[int, str]:
+        """Limit of the order of the multistep method, and why."""
+        return (self.given_order, "given") if self.given_order else order_limit(self.spectrum.values, self.span)
+
+    @property
+    def max_order(self) -> int:
+        """Limit of the order of the multistep method."""
+        return self.limit[0]
+
+    @property
+    def order_is_open(self) -> bool:
+        """Whether a trial may decide on the highest order."""
+        return self.given_order is None and self.max_order < POLICY.order.highest
 
     @property
     def way(self) -> Way:
@@ -62,7 +78,7 @@ class Settings:
         # Steps of the core are long, and states that are chosen once wear out.
         by_core = self.methods[0] != "idas" and library() is not None
         moves = self.constraints == "projection" or (self.constraints == "auto" and by_core)
-        return Way(self.methods[0], moves, self.tolerance, RESCUE.long, self.max_order)
+        return Way(self.methods[0], moves, self.tolerance, RESCUE.long)
 
     @property
     def careful(self) -> str:
@@ -71,7 +87,11 @@ class Settings:
 
     def may_ring(self, times: np.ndarray) -> bool:
         """Whether vibrations that outputs at some times cannot show may cost more steps than the motion."""
-        return len(self.methods) > 1 and self.vibration * float(np.max(np.diff(times))) > 2 * np.pi
+        return self.rings(float(np.max(np.diff(times))))
+
+    def rings(self, interval: float) -> bool:
+        """The same for the longest distance of outputs, in s."""
+        return len(self.methods) > 1 and self.spectrum.vibration * interval > 2 * np.pi
 
     def rescues(self, times: np.ndarray, loops: bool) -> Rescues:
         """What may be changed between tries of a leg with these outputs."""
@@ -80,8 +100,14 @@ class Settings:
     def patience(self, way: Way, times: np.ndarray) -> int:
         """Steps for an output interval after which a first call is given up."""
         n = len(times) - 1
-        if way.method == self.methods[-1] or not self.may_ring(times):
+        if way.method in ("following", self.methods[-1]) or not self.may_ring(times):
             return max(RESCUE.fewest_long, RESCUE.long // n)
-        if way.method == "following":
-            return max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))
         return max(RESCUE.fewest_short, RESCUE.short // n)
+
+    def first(self, way: Way, times: np.ndarray) -> Way:
+        """Return a way with the patience of a first call."""
+        ringing = None
+        if way.method == "following" != self.methods[-1]:
+            steps = max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))
+            ringing = Ringing(steps, float(np.max(np.diff(times))))
+        return replace(way, max_steps=self.patience(way, times), ringing=ringing)

@@ -214,6 +214,24 @@ def test_steps_between_two_outputs_are_limited():
     assert vibration(1e-4, most=whole.progress.steps).end == End.DONE
 
 
+def test_a_limit_that_was_reached_can_be_raised_without_a_trace():
+    e, start = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
+
+    def found(*limits: int) -> tuple[End, bytes]:
+        rodas = Rodas(e)
+        first, *others = limits
+        out = rodas.begin(TIMES[[0, -1]], *start, size=np.ones(2), tolerance=1e-9, most=first)
+        end = rodas.go(2**62)
+        for most in others:
+            assert (end, rodas.progress.steps) == (End.MANY, first)
+            rodas.allow(most)
+            end = rodas.go(2**62)
+        return end, out.x.tobytes()
+
+    assert found(10, 10_000) == found(10_000)
+    assert found(10, 20)[0] == End.MANY
+
+
 def test_steps_are_kept():
     e, given = known(), [np.array(v, dtype=float) for v in ([0, 1], [0], [3], [])]
     rodas = Rodas(e)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import pickle
+from copy import deepcopy
+
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, fixed, output, variable
+from acausal import Model, Scalar, der, fixed, output, reinit, time, variable, when
 from acausal.core import library
 from acausal.solve.integrate.methods import METHODS, chosen, why_first
+from acausal.solve.integrate.order import eigenvalues_of
 from components.rotational import Damper
 from models import FourBar, NFourBar
 from tests.reference import four_bar
@@ -89,6 +93,46 @@ class Fast(Spring):
     def equations(self):
         yield der(self.x) == self.v
         yield der(self.v) == -1e8 * self.x
+
+
+class Driven(Model):
+    """A law that turns four times between two outputs, and nothing that vibrates by itself."""
+
+    x: Scalar = output("what follows it")
+
+    def equations(self):
+        yield der(self.x) == 50 * ac.cos(50 * time) - (self.x - ac.sin(50 * time))
+
+
+@CORE
+@pytest.mark.parametrize("watched", [False, True])
+def test_what_takes_as_many_steps_and_does_not_vibrate_is_followed(watched):
+    class Watched(Driven):
+        def equations(self):
+            yield from super().equations()
+            yield when(time >= 150, reinit(self.x, self.x + 1))
+
+    result = ac.simulate((Watched if watched else Driven)(x=fixed(0.0)), stop_time=200.0, intervals=400, tolerance=1e-3)
+    assert result.stats.steps > 400 * 12  # 150 sqrt(1000) / 400 of them are allowed where something vibrates
+    assert (result.stats.method, result.stats.damped) == ("rosenbrock", False)
+    jump = np.where(result.time >= 150, np.exp(np.minimum(150 - result.time, 0)), 0) if watched else 0
+    np.testing.assert_allclose(result["x"], np.sin(50 * result.time) + jump, atol=0.05)
+
+
+@CORE
+def test_eigenvalues_are_found_when_they_are_read(monkeypatch):
+    asked, found = [], eigenvalues_of
+    monkeypatch.setattr("acausal.solve.integrate.order.eigenvalues_of", lambda *of: asked.append(1) or found(*of))
+    result = spring(tolerance=1e-6)
+    assert result.stats.steps > 0
+    assert "steps" in dict.fromkeys(result.stats)
+    before = len(asked)
+    other, copied = pickle.loads(pickle.dumps(result)), deepcopy(result)
+    for stats in (result.stats, result.stats, other.stats, copied.stats, result.with_stats(stopped="here").stats):
+        assert stats.fastest_rate == stats["fastest_rate"] == pytest.approx(1.0)
+        assert (stats.max_order, stats.order_reason) == (5, "no oscillation is both fast and lightly damped")
+        assert dict(stats)["max_order"] == 5
+    assert (before, len(asked)) == (0, 1)
 
 
 @CORE
