@@ -11,6 +11,8 @@ class Newton:
 
     # Deuflhard 2004, section 3.3: a damped iteration that is to converge does so in a few tens of steps.
     iterations: int = 60
+    # Evaluations in which undamped steps of the core find algebraic unknowns, if that is accepted: one, and its confirmation.
+    quick: int = 2
     # Change in a step, over the size: the next one, of its square, is rounding.
     converged: float = 1e-8
     # A last correction below this is rounding itself.

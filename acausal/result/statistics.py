@@ -16,12 +16,12 @@ class Later(Generic[Value]):
 
     Parameters
     ----------
-    default : any
+    default : any, or callable
         Its value where none is given.
     """
 
-    def __init__(self, default: Value) -> None:
-        self._default = default
+    def __init__(self, default: Value | Callable[[], Value]) -> None:
+        self._default: Any = default
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -107,8 +107,8 @@ class Statistics(Mapping[str, Any]):
     break_times: list[float] = field(default_factory=list)
     events: int = 0
     event_times: list[float] = field(default_factory=list)
-    loops: list[dict[str, Any]] = field(default_factory=list)
-    independent_states: list[str] = field(default_factory=list)
+    loops: Later[list[dict[str, Any]]] = Later(list)
+    independent_states: Later[list[str]] = Later(list)
     doubts: list[str] = field(default_factory=list)
     operations: int | None = None
     stopped: str | None = None

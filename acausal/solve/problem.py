@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler import CompiledModel
-from acausal.compiler.core_equations import core_motion
+from acausal.compiler.core_equations import core_motion, core_square
 from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.compiler.rowwise import Rowwise
@@ -109,6 +109,18 @@ class Problem:
         c, z = self.compiled.constraints, at.z.copy()
         z[c.multipliers] = 0.0
         return replace(at, x=c.project(at.x, at.z, self.p, at.time, at.constants.vector), z=z)
+
+    def solved(self, at: Point, most: int) -> Point | None:
+        """Return the point with all algebraic unknowns solved for by the core; None where that takes more evaluations."""
+        if not library() or not self.nz:
+            return None
+        settler = Settler(core_square(self.compiled, tuple(range(self.nz))))
+        z, settled = settler(
+            *(self.p, at.constants.vector, at.x, at.z, np.array([[at.time]])),
+            size=self.nominal[self.nx :],
+            enough=POLICY.consistent.settled,
+        )
+        return replace(at, z=z[0]) if settled[0] and settler.evaluations <= most else None
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""

@@ -206,8 +206,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 
 def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
-    compiled = integrator.compiled
-    found = done.begun.found(compiled)
+    compiled, begun = integrator.compiled, done.begun
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
@@ -238,8 +237,8 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         break_times=plan.breaks,
         events=len(done.course.events),
         event_times=done.course.events,
-        loops=loops_at(compiled.reduced, found),
-        independent_states=list(found.independent),
+        loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
+        independent_states=lambda: list(begun.independent),
     )
 
 

@@ -50,19 +50,19 @@ def _found(compiled: CompiledModel, moves: bool, parts: int, numbers: bytes) -> 
     laws = laws_of_time(compiled, moves)
     if laws is None:
         return ()
-    (begin, end), p, constants = np.split(np.frombuffer(numbers), [2, 2 + compiled.reduced.p.numel()])
-    times = np.linspace(begin, end, parts + 1)
+    given, n = np.frombuffer(numbers), compiled.reduced.p.numel()
+    times, p, constants = np.linspace(given[0], given[1], parts + 1), given[2 : 2 + n], given[2 + n :]
     values = laws.rows(np.zeros(compiled.nx), np.zeros(compiled.nz), times[:, None], p, constants)
     return tuple(times[_ends(values)].tolist())
 
 
 def _ends(laws: np.ndarray) -> list[int]:
     """Places at which laws, one a column, end a rest, to return to rest before long."""
-    n = len(laws) - 1
-    moves = np.abs(np.diff(laws, axis=0)) > RESTS.still * np.ptp(laws, axis=0)
-    parts = np.arange(n)[:, None]
-    moved = np.maximum.accumulate(np.where(moves, parts + 1, 0), axis=0)  # where the last move up to each part ends
-    rests = parts - np.pad(moved[:-1], ((1, 0), (0, 0)))
+    moves = np.abs(laws[1:] - laws[:-1]) > RESTS.still * (np.max(laws, axis=0) - np.min(laws, axis=0))
+    parts = np.arange(len(moves))[:, None]
+    rests = parts + np.zeros_like(moves, dtype=int)
+    # Where the last move before each part ends.
+    rests[1:] -= np.maximum.accumulate(np.where(moves, parts + 1, 0), axis=0)[:-1]
     found = set[int]()
     for k, law in np.argwhere(moves & (rests >= RESTS.least)).tolist():
         end = k + int(np.argmin(np.append(moves[k:, law], False)))

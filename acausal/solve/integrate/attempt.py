@@ -199,10 +199,10 @@ class Integrator:
         found, lost = self.consistent(given)
         last = found[-1:]
         end = self.problem.point(last, 0)
-        q = self.problem.projected(end).x
+        q = self.problem.projected(end).x if self.loops else end.x
         if not np.all(np.abs(q - end.x) <= POLICY.loops.apart * (self.settings.nominal[: len(q)] + np.abs(q))):
             return Refusal(Kind.APART, end.time)
-        for k in np.flatnonzero(np.isin(given.times, lost)).tolist():
+        for k in np.flatnonzero(np.isin(given.times, lost)).tolist() if lost else ():
             if not self.consistent.holds(given, k, way.tolerance):
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
         # From far away, unknowns may come to rest where the equations do not hold.

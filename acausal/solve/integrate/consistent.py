@@ -166,8 +166,10 @@ class Consistent:
         given = self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
         found, settled = settler(*given, size=size[unknowns], enough=enough)
         self.evaluations += settler.evaluations - before
-        rows.z[np.ix_(settled, unknowns)] = found[settled]
-        return np.flatnonzero(~settled)
+        left = np.flatnonzero(~settled)
+        found[left] = rows.z[left][:, unknowns]
+        rows.z[:, unknowns] = found
+        return left
 
     def _settle(self, step: Pass, size: np.ndarray, rows: Rows, some: np.ndarray) -> set[int]:
         """Repeat a pass in place in some rows until nothing changes; return those where it did not get there."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -29,7 +30,7 @@ from acausal.structure import complete
 INITIAL = ("fixed", "guesses", "steady")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Start:
     """Where a run starts, and what was found there about its loops.
 
@@ -39,13 +40,18 @@ class Start:
         Consistent values.
     redundancy : Redundancy
         Constraints that are dropped.
-    independent : tuple of str
-        Names of the states that do not follow from others; none where there are no loops.
+    loops : Problem or None
+        The model, if it has loops.
     """
 
     point: Point
     redundancy: Redundancy = field(default_factory=Redundancy)
-    independent: tuple[str, ...] = ()
+    loops: Problem | None = None
+
+    @cached_property
+    def independent(self) -> tuple[str, ...]:
+        """Names of the states that do not follow from others; none where there are no loops."""
+        return independent(self.loops, self.point) if self.loops else ()
 
     def found(self, compiled: CompiledModel) -> AtStart:
         """Return what a report says about it."""
@@ -101,7 +107,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     if not loops:
         return Start(at)
     at = replace(at, constants=choose_projection(problem, at, moves=True))
-    return Start(at, redundancy, independent(problem, at))
+    return Start(at, redundancy, problem)
 
 
 def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:

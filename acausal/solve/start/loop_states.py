@@ -66,6 +66,7 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     return replace(at.constants, moves=True, D=on[rows] * weights * nominal**2 / size)
 
 
+@np.errstate(all="ignore")
 def independent(problem: Problem, at: Point) -> tuple[str, ...]:
     """Names of the states that do not follow from others, at a point with the projection that moves."""
     follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())

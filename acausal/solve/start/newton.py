@@ -153,6 +153,8 @@ def _damped(
 
 def algebraic(problem: Problem, at: Point) -> Point:
     """Solve for the algebraic unknowns, with the states as they are."""
+    if found := problem.solved(at, NEWTON.quick):
+        return found
     try:
         return newton(problem, _algebraic(problem.compiled), at, 0.0)
     except Lost:

@@ -50,12 +50,9 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         begun = _begun(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
-        new = head.copy()
-        own = np.setdiff1d(
-            np.arange(guards.n_switches + guards.n_discretes), [k for k in guards.timed if k < guards.n_switches]
-        )
-        new[own] = found[own]
-        if np.allclose(new, head, rtol=POLICY.switches.same, atol=0.0):
+        new, by_clock = found.copy(), [k for k in guards.timed if k < guards.n_switches]
+        new[by_clock] = head[by_clock]
+        if np.all((new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
         older, previous, head = previous, head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import acausal as ac
+import models
+from acausal import Model, Scalar, der, fixed, variable
+from acausal.core import library
 from acausal.policy import POLICY
-from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton
+from acausal.solve.problem import Problem
+from acausal.solve.start.newton import InitialSystem, _algebraic, algebraic, follow, newton
+from acausal.solve.start.start import start
 from tests.acausal.solve.made import Made, linear
+
+NEWTON = POLICY.newton
 
 
 def system(n: int, known=(), rows=None) -> InitialSystem:
@@ -149,3 +158,47 @@ def test_algebraic_unknowns_alone():
     found = algebraic(problem, problem.at(2.0, 0.0, 0.0))
     assert found.x.tolist() == [2.0]
     np.testing.assert_allclose(found.z, np.linalg.solve(A[1:, 1:], -A[1:, 0] * 2), rtol=1e-14)
+
+
+CORE = pytest.mark.skipif(library() is None, reason="needs the core")
+
+
+class Root(Model):
+    """z^3 = x, whose slope is 0 at z = 0."""
+
+    x: Scalar = variable("what it follows from")
+    z: Scalar = variable("the root", start=1)
+
+    def equations(self):
+        yield der(self.x) == -self.x
+        yield self.z**3 == self.x
+
+
+@CORE
+@pytest.mark.parametrize(
+    "scene", ["FourBar", "NFourBar", "Bricard", "FourBarSpatial", "Squeezer", "SliderCrank", "Governor"]
+)
+def test_the_core_finds_what_the_damped_iteration_finds(scene):
+    compiled = ac.compile(getattr(models, scene)())
+    problem = Problem(compiled, compiled.parameter_values(None))
+    at = start(problem, 0.0, 0.5, "guesses").point
+    rng, accepted = np.random.default_rng(0), 0
+    multipliers = compiled.constraints.multipliers
+    for size in (0.0, 1.0, 1e3):
+        z = at.z.copy()
+        z[multipliers] += size * rng.standard_normal(len(multipliers))
+        there = replace(at, z=z)
+        found, expected = problem.solved(there, NEWTON.quick), newton(problem, _algebraic(compiled), there, 0.0)
+        if found:
+            accepted += 1
+            np.testing.assert_allclose(found.z, expected.z, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected.z)))
+    assert accepted
+
+
+@CORE
+def test_what_the_core_does_not_find_at_once_is_left_to_the_damped_iteration():
+    compiled = ac.compile(Root(x=fixed(8.0)))
+    problem = Problem(compiled, compiled.parameter_values(None))
+    far = replace(start(problem, 0.0, 1.0, "guesses").point, z=np.array([-1e-3]))
+    assert problem.solved(far, NEWTON.quick) is None
+    assert algebraic(problem, far).z == pytest.approx([2.0])
