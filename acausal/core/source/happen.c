@@ -1,4 +1,5 @@
 /* What happens at one instant: switches flip and variables jump until nothing changes. As `Instants` of Python does it. */
+#include "condition.h"
 #include "instance.h"
 
 #include <math.h>
@@ -32,13 +33,11 @@ double ac_width(const ac_instance *i, int32_t guard) {
     return i->now.tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
 }
 
-/* Whether a watched condition holds from now on; what passes 0 just now counts as passed. */
+/* Whether a watched condition holds from now on. */
 static int holds(const ac_instance *i, int32_t k, double rate) {
-    const double value = i->guards[k], width = ac_width(i, k), span = i->of->span;
-    const int moving = fabs(rate) * span > MOVES * width;
-    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(rate) * SOON * span;
-    if (moving && soon && fabs(value) <= width) return rate < 0;
-    return value == 0 ? i->truth[k] > 0 : value < 0;
+    const double value = i->guards[k], width = ac_width(i, k), change = rate * i->of->span;
+    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * SOON;
+    return ac_holds(value, change, width, MOVES * width, soon, i->truth[k] > 0);
 }
 
 /* What one round finds: flips of switches in `on` (of c), conditions that fire in `fires` (of all). */

@@ -14,12 +14,17 @@ static const double H[3][STAGES] = {
      -0.15582684282751913, 4.883087185713722},
 };
 
-static void interpolate(const ac_rodas *r, double s, double *y) {
-    const double *d = r->dense;
-    const int32_t n = r->n;
-    for (int32_t k = 0; k < n; k++) {
-        y[k] = (1 - s) * r->y[k] + s * (r->next[k] + (1 - s) * (d[k] + s * (d[n + k] + s * d[2 * n + k])));
+/* Some of n values at a part s of a step, from those at its ends and the coefficients of its interpolant. */
+void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,
+                    int32_t count, double *y) {
+    const double *a = dense, *b = a + n, *c = b + n;
+    for (int32_t k = first; k < first + count; k++) {
+        *y++ = (1 - s) * before[k] + s * (after[k] + (1 - s) * (a[k] + s * (b[k] + s * c[k])));
     }
+}
+
+static void interpolate(const ac_rodas *r, double s, double *y) {
+    ac_interpolate(r->n, r->y, r->next, r->dense, s, 0, r->n, y);
 }
 
 /* Integral of the powers over a part of the step: Lobatto's rule of order 6 on the interpolant. */

@@ -21,5 +21,7 @@ struct ac_rodas {
 
 void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t);
 void ac_rodas_write(ac_rodas *r, double h, int last);
+void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,
+                    int32_t count, double *y);
 
 #endif

@@ -2,7 +2,9 @@
    wherever something is in doubt. */
 #include "sampler.h"
 
+#include "condition.h"
 #include "file.h"
+#include "rodas.h"
 
 #include <float.h>
 #include <math.h>
@@ -111,13 +113,11 @@ static double planned(const ac_sampler *s) {
     return next;
 }
 
-/* Whether a condition holds from now on; what passes 0 just now counts as passed. */
+/* Whether a condition holds from now on. */
 static int holds(const ac_sampler *s, int32_t k, int before) {
     const ac_samples *q = &s->request;
-    const double value = s->now.found[k], rate = s->now.found[s->of.conditions + k], width = s->width[k];
-    const int moving = fabs(rate) * q->span > q->moves * width, soon = fabs(value) <= fabs(rate) * q->soon * q->span;
-    if (moving && soon && fabs(value) <= width) return rate < 0;
-    return value == 0 ? before : value < 0;
+    const double value = s->now.found[k], change = s->now.found[s->of.conditions + k] * q->span, width = s->width[k];
+    return ac_holds(value, change, width, q->moves * width, fabs(value) <= fabs(change) * q->soon, before);
 }
 
 /* Let variables jump at the present; whether it is sure what happens. */
@@ -147,14 +147,11 @@ static int happen(ac_sampler *s, int32_t *truth) {
     return 1;
 }
 
-/* Values at a part of the last step; see `outputs.c`. */
+/* Values at a part of the last step. */
 static void within(const ac_sampler *s, double part, double *x, double *z) {
-    const int32_t nx = s->of.equations->nx, n = nx + s->of.equations->nz;
-    const double *d = s->dense;
-    for (int32_t k = 0; k < n; k++) {
-        const double curve = d[k] + part * (d[n + k] + part * d[2 * n + k]);
-        *(k < nx ? x + k : z + (k - nx)) = (1 - part) * s->before[k] + part * (s->step_y[k] + (1 - part) * curve);
-    }
+    const int32_t nx = s->of.equations->nx, nz = s->of.equations->nz, n = nx + nz;
+    ac_interpolate(n, s->before, s->step_y, s->dense, part, 0, nx, x);
+    ac_interpolate(n, s->before, s->step_y, s->dense, part, nx, nz, z);
 }
 
 /* Look at the last step, and whether nothing happens in it; the first look is the last one at the step before. */

@@ -1,5 +1,6 @@
 /* Co-Simulation: steps of the core's method, across communication points where there are no inputs; events within them. */
 #include "instance.h"
+#include "rodas.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,15 +13,12 @@
 #define CROWDED 1e-9    /* of a run: within that time ... */
 #define MOST_CROWDED 100 /* ... so many events are chattering */
 
-/* States and guesses of algebraic unknowns at a time within the last step; see `outputs.c`. */
+/* States and guesses of algebraic unknowns at a time within the last step. */
 static void stand(ac_instance *i, double time) {
-    const int32_t nx = ac_states(i), n = nx + i->of->parts.model.equations.nz;
-    const double h = i->now.to - i->now.from, s = h > 0 ? (time - i->now.from) / h : 1, *d = i->dense;
-    for (int32_t k = 0; k < n; k++) {
-        const double curve = d[k] + s * (d[n + k] + s * d[2 * n + k]);
-        const double y = s >= 1 ? i->after[k] : (1 - s) * i->before[k] + s * (i->after[k] + (1 - s) * curve);
-        *(k < nx ? i->x + k : i->z + (k - nx)) = y;
-    }
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
+    const double h = i->now.to - i->now.from, s = h > 0 ? fmin((time - i->now.from) / h, 1) : 1;
+    ac_interpolate(n, i->before, i->after, i->dense, s, 0, nx, i->x);
+    ac_interpolate(n, i->before, i->after, i->dense, s, nx, nz, i->z);
     i->now.time = time;
     ac_moved(i);
 }
