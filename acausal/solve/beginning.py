@@ -52,7 +52,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
 def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
     """Return the beginning of runs with the same feedback, start time, first instant and parameters, given as bytes."""
     (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])
-    found = _found(Problem(compiled, p, float(feedback)), float(time), float(later), initial)
+    found = _found(Problem(compiled, p, float(feedback), runs=True), float(time), float(later), initial)
     # Two runs share it.
     for at in (found.start.point, found.at):
         for array in (at.x, at.z, at.truth):

@@ -31,11 +31,14 @@ class Problem:
         Values of its free parameters.
     feedback : float
         How fast states return to invariants, in 1/s.
+    runs : bool
+        Whether it is integrated, for which the core's equations of the algebraic unknowns are made in any case.
     """
 
     compiled: CompiledModel
     p: np.ndarray
     feedback: float = 1.0
+    runs: bool = False
 
     @property
     def nx(self) -> int:
@@ -111,8 +114,11 @@ class Problem:
         return replace(at, x=c.project(at.x, at.z, self.p, at.time, at.constants.vector), z=z)
 
     def solved(self, at: Point, most: int) -> Point | None:
-        """Return the point with all algebraic unknowns solved for by the core; None where that takes more evaluations."""
-        if not library() or not self.nz:
+        """Return the point with all algebraic unknowns solved for by the core; None where that takes more evaluations.
+
+        None also for what is not integrated.
+        """
+        if not (self.runs and library() and self.nz):
             return None
         settler = Settler(core_square(self.compiled, tuple(range(self.nz))))
         z, settled = settler(

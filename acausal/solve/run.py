@@ -126,7 +126,7 @@ class _Done:
 
 
 def _begun(compiled: CompiledModel, p: np.ndarray, task: Task) -> tuple[Problem, _Plan, Beginning]:
-    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time))
+    problem = Problem(compiled, p, POLICY.loops.feedback / (task.stop_time - task.start_time), runs=True)
     plan = _plan(problem, task)
     return problem, plan, begin(problem, task.start_time, plan.inside, task.initial)
 

@@ -43,7 +43,7 @@ def dips(sides: Sides) -> tuple[np.ndarray, np.ndarray]:
         # Both forms of the root of the derivative, so that none cancels.
         for top, bottom in ((-c2 + sign * root, 3 * c3), (da, -c2 - sign * root)):
             s = np.divide(top, bottom, out=np.zeros_like(top), where=np.abs(bottom) > np.finfo(float).tiny)
-            s = np.clip(np.nan_to_num(s), 0.0, 1.0)
+            s = np.fmin(np.fmax(s, 0.0), 1.0)
             least = np.minimum(least, ((c3 * s + c2) * s + da) * s + a)
     return least, _errors(sides)
 

@@ -11,6 +11,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.between import between
 from acausal.solve.events.crossing import Sides, dips, levels, root
 from acausal.solve.events.instant import Instants
+from acausal.solve.events.samples import Sample, Samples
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted
 from acausal.solve.integrate.trace import Leg
@@ -20,20 +21,6 @@ from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
-
-
-@dataclass(frozen=True)
-class Sample:
-    """Watched conditions at a point: excesses and their rates, positive if unchanged."""
-
-    at: Point
-    value: np.ndarray
-    rate: np.ndarray
-
-    @property
-    def time(self) -> float:
-        """Time in s."""
-        return self.at.time
 
 
 @dataclass(frozen=True)
@@ -101,17 +88,12 @@ class Locator:
         known, text = self._known(samples)
         if not text:
             return self._change(at, samples, depth, content)
-        found = self._change(at, samples[:known], depth, content) if known > 1 else None
+        found = self._change(at, samples.before(known), depth, content) if known > 1 else None
         return found or self._to_undecided(at, samples, known, text)
 
-    def _change(self, at: Point, samples: list[Sample], depth: int, content: bool) -> Crossing | None:
+    def _change(self, at: Point, samples: Samples, depth: int, content: bool) -> Crossing | None:
         """The first change along samples whose conditions have values."""
-        sides = Sides(
-            np.array([r.time for r in samples]),
-            np.array([r.value for r in samples]),
-            np.array([r.rate for r in samples]),
-        )
-        width = self.instants.width(at)
+        sides, width = samples.sides, self.instants.width(at)
         level = levels(sides, LOCATE.level * width)
         out = np.any(sides.value[1:] < level[1:], axis=1)
         end = int(np.argmax(out)) if out.any() else len(out)
@@ -121,7 +103,7 @@ class Locator:
         most = max(LOCATE.suspects, len(out) // LOOKS.fine) if depth == 0 or content else len(out)
         near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= LOCATE.reach * travel
         round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
-        turning = _near(samples[: end + 1], level[: end + 1])
+        turning = _near(samples.before(end + 1).sides, level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < LOCATE.error * error))), axis=1)[
             : end + 1
         ]
@@ -136,7 +118,7 @@ class Locator:
                 raise TooCoarse
             suspects = suspects[:0]
         peak = np.maximum.accumulate(sides.value, axis=0)
-        for k in suspects if depth < LOCATE.depth else []:
+        for k in suspects.tolist() if depth < LOCATE.depth else []:
             inner = self._inside(samples[k], samples[k + 1], depth)
             if inner:
                 return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
@@ -146,16 +128,16 @@ class Locator:
             return None
         return self._narrow(at, samples[end], samples[end + 1], LOCATE.level * width, peak[end])
 
-    def _known(self, samples: list[Sample]) -> tuple[int, str]:
+    def _known(self, samples: Samples) -> tuple[int, str]:
         """How many samples have conditions with values, and what to say of the next; "" if what has none does not matter."""
-        lost = np.isnan([r.value for r in samples])
+        lost = np.isnan(samples.value)
         rows = np.flatnonzero(lost.any(axis=1))
         for k in rows[[0, -1]] if rows.size else ():
             if text := undecided(self.integrator.problem, samples[k].at, self.instants.watched[lost[k]].tolist()):
                 return int(rows[0] if k == rows[0] else k), text
         return len(samples), ""
 
-    def _to_undecided(self, at: Point, samples: list[Sample], known: int, text: str) -> Crossing:
+    def _to_undecided(self, at: Point, samples: Samples, known: int, text: str) -> Crossing:
         """A change just before a condition has no value any more.
 
         Raises
@@ -166,10 +148,10 @@ class Locator:
         a, b = samples[max(known - 1, 0)], samples[known]
         slack = LOCATE.level * self.instants.width(at)
         while b.time - a.time > self.shortest:
-            middle = self._between(at, a, b, (a.time + b.time) / 2)
-            if isinstance(middle, Refusal):
-                raise Failure.of(middle)
-            without = self._known([middle])[1]
+            found = self._between(at, a, b, (a.time + b.time) / 2)
+            if isinstance(found, Refusal):
+                raise Failure.of(found)
+            without, middle = self._known(found)[1], found[0]
             if without:
                 b, text = middle, without
             elif np.any(middle.value < np.minimum(a.value, 0.0) - np.where(a.value > 0, 0.0, slack)):
@@ -180,18 +162,20 @@ class Locator:
 
     def sample(self, at: Point, here: Point) -> Sample:
         """Values of the watched conditions at another point, on the side on which they are at `at`."""
-        return self._samples(replace(here, truth=at.truth), Rows.of(here))[0]
+        return self._alone(at, here)[0]
 
-    def _samples(self, at: Point, rows: Rows) -> list[Sample]:
+    def _alone(self, at: Point, here: Point) -> Samples:
+        return self._samples(replace(here, truth=at.truth), Rows.of(here))
+
+    def _samples(self, at: Point, rows: Rows) -> Samples:
         """Rows of the segment of a point, consistent as far as the watched conditions need it, on the side of that point."""
         problem = self.integrator.problem
         rows, _ = self.integrator.consistent(rows, self.instants.guards.needs)
         value, rate = problem.watched(rows)
         side = np.where(at.truth, -1.0, 1.0)
-        columns = zip(rows.times.tolist(), rows.x, rows.z, value * side, rate * side, strict=True)
-        return [Sample(Point(t, x, z, at.constants, at.truth), g, d) for t, x, z, g, d in columns]
+        return Samples(at, rows, value * side, rate * side)
 
-    def _seen_between(self, samples: list[Sample], level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
+    def _seen_between(self, samples: Samples, level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
         found = np.zeros(end, dtype=bool)
         todo = [(k, samples[k], samples[k + 1], level[k]) for k in turning]
@@ -202,14 +186,15 @@ class Locator:
                 continue
             looks += LOOKS.fine
             inner = self._interpolated(a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
-            if inner is None or looks > LOCATE.looks or any(np.any(r.value < least) for r in inner):
+            if inner is None or looks > LOCATE.looks or np.any(inner.value < least):
                 found[k] = True
                 continue
-            parts = [a, *inner, b]
-            todo += [(k, parts[i], parts[i + 1], least) for i in _near(parts, np.tile(least, (len(parts), 1)))]
+            parts = [a, *(inner[i] for i in range(len(inner))), b]
+            times, value, rate = (np.array([getattr(r, name) for r in parts]) for name in ("time", "value", "rate"))
+            todo += [(k, parts[i], parts[i + 1], least) for i in _near(Sides(times, value, rate), least)]
         return found
 
-    def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> list[Sample] | None:
+    def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> Samples | None:
         """Rows between two others, of the leg or on their cubic; None where that does not follow the motion."""
         if self._rows:
             return self._samples(a.at, self._rows(times))
@@ -250,13 +235,13 @@ class Locator:
             if span > 0.5 * width[-2] or not a.time < time < min(b.time, wall):
                 time = a.time + span / 2
             width.append(span)
-            middle = self._between(at, a, b, time)
-            if isinstance(middle, Refusal):
-                wall, refusal = time, middle
-            elif np.any(middle.value < level):
-                b = middle
+            found = self._between(at, a, b, time)
+            if isinstance(found, Refusal):
+                wall, refusal = time, found
+            elif np.any(found.value < level):
+                b = found[0]
             else:
-                a = middle
+                a = found[0]
                 peak = np.maximum(peak, a.value)
                 level = np.where(a.value > 0, 0.0, level)
         return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
@@ -275,23 +260,22 @@ class Locator:
         ]
         return min(found, default=b.time)
 
-    def _between(self, at: Point, a: Sample, b: Sample, time: float) -> Sample | Refusal:
-        """The sample at a time between two others: on their cubic if it follows the motion, else integrated."""
+    def _between(self, at: Point, a: Sample, b: Sample, time: float) -> Samples | Refusal:
+        """The one sample at a time between two others: on their cubic if it follows the motion, else integrated."""
         found = self._interpolated(a, b, np.array([time]))
         if found:
-            return found[0]
+            return found
         leg = self.integrator.trial(a.at, np.array([a.time, time]), LOCATE.trial_steps)
-        return leg if isinstance(leg, Refusal) else self.sample(at, leg.end(at))
+        return leg if isinstance(leg, Refusal) else self._alone(at, leg.end(at))
 
 
-def _near(samples: list[Sample], level: np.ndarray) -> list[int]:
+def _near(sides: Sides, level: np.ndarray) -> list[int]:
     """Intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
 
     A convex function lies above its tangents: elsewhere it cannot change and change back.
     """
-    times = np.array([r.time for r in samples])[:, None]
-    value, rate = np.array([r.value for r in samples]) - level, np.array([r.rate for r in samples])
-    h, turns = np.diff(times, axis=0), (rate[:-1] < 0) & (rate[1:] > 0)
+    value, rate = sides.value - level, sides.rate
+    h, turns = np.diff(sides.times)[:, None], (rate[:-1] < 0) & (rate[1:] > 0)
     bend = np.where(turns, rate[1:] - rate[:-1], 1.0)
     tangents = (value[:-1] * rate[1:] - value[1:] * rate[:-1] + rate[:-1] * rate[1:] * h) / bend
     return np.flatnonzero(np.any(turns & (tangents < 0), axis=1)).tolist()

@@ -274,13 +274,20 @@ def _giving(compiled: CompiledModel) -> dict[int, int]:
 
 
 def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
-    try:
-        at = newton(problem, system, at, 1.0)
-    except InitializationError:
-        found = follow(problem, system, at)
-        if found is None:
-            raise
+    nx, nz = problem.nx, problem.nz
+    running = (
+        len(system.known) == nx and np.array_equal(system.rows, np.arange(nz)) and not _flag_matters(problem.compiled)
+    )
+    if running and (found := problem.solved(at, POLICY.newton.quick)):
         at = found
+    else:
+        try:
+            at = newton(problem, system, at, 1.0)
+        except InitializationError:
+            found = follow(problem, system, at)
+            if found is None:
+                raise
+            at = found
     if system.surplus.size:
         local = problem.local(at, 1.0)
         allowed = POLICY.newton.consistent * reach(local, at.y, problem.nominal)[problem.nx :]

@@ -180,7 +180,7 @@ class Root(Model):
 )
 def test_the_core_finds_what_the_damped_iteration_finds(scene):
     compiled = ac.compile(getattr(models, scene)())
-    problem = Problem(compiled, compiled.parameter_values(None))
+    problem = Problem(compiled, compiled.parameter_values(None), runs=True)
     at = start(problem, 0.0, 0.5, "guesses").point
     rng, accepted = np.random.default_rng(0), 0
     multipliers = compiled.constraints.multipliers
@@ -198,7 +198,7 @@ def test_the_core_finds_what_the_damped_iteration_finds(scene):
 @CORE
 def test_what_the_core_does_not_find_at_once_is_left_to_the_damped_iteration():
     compiled = ac.compile(Root(x=fixed(8.0)))
-    problem = Problem(compiled, compiled.parameter_values(None))
+    problem = Problem(compiled, compiled.parameter_values(None), runs=True)
     far = replace(start(problem, 0.0, 1.0, "guesses").point, z=np.array([-1e-3]))
     assert problem.solved(far, NEWTON.quick) is None
     assert algebraic(problem, far).z == pytest.approx([2.0])
