@@ -57,7 +57,8 @@ class Statistics(Mapping[str, Any]):
         the run before began in the same way, its beginning is taken, and its seconds count again.
     method, method_reason, method_steps, damped, max_order, order_reason, tolerance, fastest_rate, constraints
         What was chosen and why: the methods with their steps, whether vibrations that positions do not show were damped, the
-        order limit, the tolerance, the size of the fastest eigenvalue at the start in 1/s, and how loops stayed closed.
+        order limit, the tolerance, the size of the fastest eigenvalue at the start in 1/s, and how loops stayed closed. The
+        order limit and that size are found when they are first read.
     sizes : dict of str to float
         Least size of the states of each unit: below it the tolerance is absolute.
     break_times, event_times, loosened_at : list of float
@@ -65,7 +66,7 @@ class Statistics(Mapping[str, Any]):
     events : int
         Number of events.
     loops, independent_states
-        What the ranks of loops showed at the start.
+        What the ranks of loops showed at the start; found when they are first read.
     doubts : list of str
         What was used outside its range.
     stopped : str

@@ -207,6 +207,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled, begun = integrator.compiled, done.begun
+    settings, order, trials = integrator.settings, integrator.way.order, list(trace.orders)
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
@@ -223,15 +224,15 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         residual_evaluations=trace.residual_evaluations,
         calls=trace.calls,
         choices=trace.choices,
-        max_order=lambda: integrator.order,
-        order_reason=lambda: "; ".join([integrator.settings.limit[1], *trace.orders]),
-        tolerance=integrator.settings.tolerance,
-        sizes=absolute_sizes(compiled, integrator.settings.nominal),
+        max_order=lambda: order or settings.max_order,
+        order_reason=lambda: "; ".join([settings.limit[1], *trials]),
+        tolerance=settings.tolerance,
+        sizes=absolute_sizes(compiled, settings.nominal),
         method=" and ".join(steps) or "none",
         method_reason="; ".join([why_first(task.method, task.max_order), *trace.changes]),
         method_steps=dict(steps),
         damped=any(METHODS[name].damps for name in trace.methods),
-        fastest_rate=lambda: integrator.settings.spectrum.fastest,
+        fastest_rate=lambda: settings.spectrum.fastest,
         constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",
         loosened_at=trace.loosened,
         break_times=plan.breaks,
