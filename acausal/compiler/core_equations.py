@@ -114,8 +114,9 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
     column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)
     arguments = [r.p, r.constants, r.x, r.z, time.sx, nominal]
     acts = make_tape(ca.Function("acts", arguments, [ca.densify(column)], READABLE))
-    c = compiled.constraints
-    project = ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE) if c.size else None
+    c, project = compiled.constraints, None
+    if c.size:
+        project = make_tape(ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE))
     everything = tuple(range(compiled.nz))
     needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
     return Sampled(
@@ -128,7 +129,7 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
         is_switch=np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
         jump=np.array(jump, dtype=np.int32),
         to=np.array(to, dtype=np.int32),
-        project=make_tape(project) if project is not None else None,
+        project=project,
         coordinate=np.array(c.places, dtype=np.int32),
         multiplier=c.multipliers.astype(np.int32),
     )

@@ -207,7 +207,7 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
     integrator, trace = done.integrator, done.integrator.trace
     compiled, begun = integrator.compiled, done.begun
-    settings, order, trials = integrator.settings, integrator.way.order, list(trace.orders)
+    settings, way, trials = integrator.settings, integrator.way, list(trace.orders)
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n
@@ -224,7 +224,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         residual_evaluations=trace.residual_evaluations,
         calls=trace.calls,
         choices=trace.choices,
-        max_order=lambda: order or settings.max_order,
+        max_order=lambda: settings.order(way),
         order_reason=lambda: "; ".join([settings.limit[1], *trials]),
         tolerance=settings.tolerance,
         sizes=absolute_sizes(compiled, settings.nominal),
@@ -233,7 +233,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         method_steps=dict(steps),
         damped=any(METHODS[name].damps for name in trace.methods),
         fastest_rate=lambda: settings.spectrum.fastest,
-        constraints="none" if not integrator.loops else "projection" if integrator.way.moves else "states",
+        constraints="none" if not integrator.loops else "projection" if way.moves else "states",
         loosened_at=trace.loosened,
         break_times=plan.breaks,
         events=len(done.course.events),

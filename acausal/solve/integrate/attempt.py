@@ -60,7 +60,7 @@ class Integrator:
     @property
     def order(self) -> int:
         """Highest order of the multistep method in the way of now."""
-        return self.way.order or self.settings.max_order
+        return self.settings.order(self.way)
 
     @property
     def loops(self) -> bool:

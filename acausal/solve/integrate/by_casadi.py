@@ -91,7 +91,7 @@ def by_idas(request: Request) -> ByCasadi:
     options = {
         "reltol": way.tolerance,
         "abstolv": np.maximum(way.tolerance * nominal, request.floor).tolist(),
-        "max_multistep_order": way.order or request.settings.max_order,
+        "max_multistep_order": request.settings.order(way),
         "suppress_algebraic": True,
         "max_num_steps": way.max_steps,
         "disable_internal_warnings": True,

@@ -67,6 +67,10 @@ class Settings:
         """Limit of the order of the multistep method."""
         return self.limit[0]
 
+    def order(self, way: Way) -> int:
+        """Highest order of the multistep method in a way."""
+        return way.order or self.max_order
+
     @property
     def order_is_open(self) -> bool:
         """Whether a trial may decide on the highest order."""
@@ -107,7 +111,7 @@ class Settings:
     def first(self, way: Way, times: np.ndarray) -> Way:
         """Return a way with the patience of a first call."""
         ringing = None
-        if way.method == "following" != self.methods[-1]:
+        if way.method == "following":
             steps = max(RESCUE.fewest_following, int(RESCUE.following / np.sqrt(way.tolerance) / self.outputs))
             ringing = Ringing(steps, float(np.max(np.diff(times))))
         return replace(way, max_steps=self.patience(way, times), ringing=ringing)

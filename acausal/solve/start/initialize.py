@@ -274,20 +274,7 @@ def _giving(compiled: CompiledModel) -> dict[int, int]:
 
 
 def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
-    nx, nz = problem.nx, problem.nz
-    running = (
-        len(system.known) == nx and np.array_equal(system.rows, np.arange(nz)) and not _flag_matters(problem.compiled)
-    )
-    if running and (found := problem.solved(at, POLICY.newton.quick)):
-        at = found
-    else:
-        try:
-            at = newton(problem, system, at, 1.0)
-        except InitializationError:
-            found = follow(problem, system, at)
-            if found is None:
-                raise
-            at = found
+    at = _solution(problem, system, at)
     if system.surplus.size:
         local = problem.local(at, 1.0)
         allowed = POLICY.newton.consistent * reach(local, at.y, problem.nominal)[problem.nx :]
@@ -297,3 +284,17 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
             others = opponents(problem, system, at, wrong)
             raise InitializationError(contradiction_text(problem.compiled, value, wrong, others))
     return at
+
+
+def _solution(problem: Problem, system: InitialSystem, at: Point) -> Point:
+    """Solve the initial system; where all states are known and no equation is of the start alone, as in a run."""
+    known = len(system.known) == problem.nx and np.array_equal(system.rows, np.arange(problem.nz))
+    if known and not _flag_matters(problem.compiled) and (found := problem.solved(at, POLICY.newton.quick)):
+        return found
+    try:
+        return newton(problem, system, at, 1.0)
+    except InitializationError:
+        found = follow(problem, system, at)
+        if found is None:
+            raise
+        return found
