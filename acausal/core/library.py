@@ -7,6 +7,8 @@ import os
 from ctypes import POINTER, Structure, c_char_p, c_double, c_int32, c_int64, c_void_p
 from functools import cache
 
+import numpy as np
+
 from acausal.core.build.compiling import file_of, own_platform, version
 
 # What switches the library off: whatever it holds, unless it is empty.
@@ -127,6 +129,11 @@ def why_not() -> str:
     """Return why there is no library; empty where there is one."""
     found = _loaded()
     return found if isinstance(found, str) else ""
+
+
+def address(array: np.ndarray | None) -> int | None:
+    """Return where the numbers of an array stand, as the library takes it; in half the time of `array.ctypes.data`."""
+    return None if array is None else array.__array_interface__["data"][0]
 
 
 def loaded() -> ctypes.CDLL:

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.core.curve import Curve
-from acausal.core.library import EquationsData, Progress, RequestData, loaded
+from acausal.core.library import EquationsData, Progress, RequestData, address, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
 from acausal.locks import apart
@@ -107,10 +107,6 @@ def with_powers(equations: Equations, arguments: Sequence[ca.SX], powers: ca.SX)
 
 def _tape(name: str, arguments: Sequence[ca.SX], column: ca.SX) -> Tape:
     return make_tape(ca.Function(name, list(arguments), [dense(column)], READABLE), early=(3, 4))
-
-
-def _address(array: np.ndarray | None) -> int | None:
-    return None if array is None else array.ctypes.data
 
 
 @dataclass(frozen=True)
@@ -211,16 +207,16 @@ class Rodas:
         self._steps = *ends, np.empty((room, 3, e.nx + e.nz)) if curves else None
         self._last = times[0], np.concatenate([x, z])
         written = (None, None, None) if curves else (found.x, found.z, found.integral)
-        places = map(_address, (times, *written))
-        kept = map(_address, self._steps)
+        places = map(address, (times, *written))
+        kept = map(address, self._steps)
         request = RequestData(
-            *(tolerance, first_step, _address(size), _address(chosen), smooth, largest, most, n),
+            *(tolerance, first_step, address(size), address(chosen), smooth, largest, most, n),
             *(*places, room, *kept),
         )
         # The library keeps the addresses of these, too.
         self._request = (times, size, chosen, found)
         self.progress = Progress()
-        self._library.ac_rodas_begin(self._memory, byref(request), *map(_address, (x, z, p, c)))
+        self._library.ac_rodas_begin(self._memory, byref(request), *map(address, (x, z, p, c)))
         return found
 
     def go(self, steps: int, at_once: int = 2**62) -> End:
@@ -262,7 +258,7 @@ class Rodas:
 
     def move(self, x: np.ndarray, z: np.ndarray) -> None:
         """Go on from other states and algebraic unknowns, near those after the last step."""
-        self._library.ac_rodas_move(self._memory, *map(_address, (x, z)))
+        self._library.ac_rodas_move(self._memory, *map(address, (x, z)))
 
     def allow(self, most: int) -> None:
         """Take so many steps between two outputs at most from now on, as after `End.MANY`."""

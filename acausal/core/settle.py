@@ -10,7 +10,7 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
-from acausal.core.library import SquareData, loaded
+from acausal.core.library import SquareData, address, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
 from acausal.symbols import dense
@@ -111,6 +111,6 @@ class Settler:
         lengths, strides, addresses = parts
         self.evaluations += self._library.ac_settle_rows(
             *(self._memory, n, len(given), self.square.early, lengths, strides, addresses),
-            *(size.ctypes.data, enough, found.ctypes.data, settled.ctypes.data),
+            *(address(size), enough, address(found), address(settled)),
         )
         return found, settled > 0

@@ -6,13 +6,14 @@ import ctypes
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from math import copysign
 from typing import Any, TypeAlias
 
 import casadi as ca
 import numpy as np
 
-from acausal.core.library import TapeData, loaded
+from acausal.core.library import TapeData, address, loaded
 from acausal.garbage import uncollected
 from acausal.instructions import Instructions, read_instructions
 
@@ -98,10 +99,7 @@ class Tape:
         given, n, (lengths, strides, addresses) = self.parts(*arguments)
         found, work = np.empty((n, len(self.output))), np.empty(self.size)
         call = loaded().ac_tape_rows
-        call(
-            *(self.data, work.ctypes.data, n, len(given), lengths, strides, addresses),
-            found.ctypes.data,
-        )
+        call(self.data, address(work), n, len(given), lengths, strides, addresses, address(found))
         return found
 
     def parts(
@@ -121,9 +119,23 @@ class Tape:
             raise ValueError(
                 f"arguments of {self.sizes} numbers are expected, not of shapes {[a.shape for a in given]}"
             )
-        strides = self._numbers(*[a.shape[1] if a.ndim == 2 else 0 for a in given])
-        addresses = (ctypes.c_void_p * len(given))(*[a.ctypes.data for a in given])
+        strides = self._numbers(
+            *[a.shape[1] if used and a.ndim == 2 else 0 for a, used in zip(given, self._used, strict=True)]
+        )
+        addresses = self._addresses(*map(address, given))
         return given, counts.pop() if counts else 1, (self._lengths, strides, addresses)
+
+    @cached_property
+    def _used(self) -> list[bool]:
+        """Which arguments the operations and results take: the others need not be copied for each place."""
+        taken = np.zeros(self.size, dtype=bool)
+        taken[self.first] = taken[self.second] = taken[self.output] = True
+        starts = len(self.constants) + np.cumsum([0, *self.sizes])
+        return [bool(taken[first:last].any()) for first, last in pairwise(starts)]
+
+    @cached_property
+    def _addresses(self) -> type[ctypes.Array[ctypes.c_void_p]]:
+        return ctypes.c_void_p * len(self.sizes)
 
     @cached_property
     def _numbers(self) -> type[ctypes.Array[ctypes.c_int32]]:

@@ -58,7 +58,7 @@ class Problem:
     @property
     def rates(self) -> list[tuple[int, int]]:
         """Pairs (coordinate, rate) among the states."""
-        return _rates(self.compiled)
+        return rates_of(self.compiled)
 
     @cached_property
     def hoisted(self) -> np.ndarray:
@@ -169,7 +169,8 @@ class Problem:
 
 
 @once
-def _rates(compiled: CompiledModel) -> list[tuple[int, int]]:
+def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
+    """Return pairs (coordinate, rate) among the states."""
     plan = compiled.reduced.plan
     projected = {p.coordinate: p.state for p in plan.constrained.projections}
     place = {v: k for k, v in enumerate(plan.states)}

@@ -247,7 +247,8 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     integrator = done.integrator
     compiled, times = integrator.compiled, plan.times
     rows = integrator.trace.rows(done.first)
-    output = rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
+    whole = np.array_equal(rows.times, times)
+    output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])

@@ -92,7 +92,7 @@ void ac_tape_rows(const ac_tape *t, double *w, int32_t rows, int32_t parts, cons
     for (int32_t i = 0; i < rows; i++) {
         double *input = w + t->constants;
         for (int32_t j = 0; j < parts; j++) {
-            if (size[j]) memcpy(input, part[j] + (ptrdiff_t)i * stride[j], (size_t)size[j] * sizeof *w);
+            if (size[j] && (!i || stride[j])) memcpy(input, part[j] + (ptrdiff_t)i * stride[j], (size_t)size[j] * sizeof *w);
             input += size[j];
         }
         ac_tape_run(t, w, 0, t->runs);

@@ -97,7 +97,7 @@ def broken_promises(integrator: Integrator, outputs: Evaluator) -> list[str]:
 
 def _broken(look: _Look, rows: np.ndarray, values: np.ndarray, columns: slice, promise: Promise) -> str:
     """Say that a law jumps, "" if it does not."""
-    size = float(np.max(np.abs(np.nan_to_num(values[:, 1 + promise.step.numel() :])), initial=0.0))
+    size = _largest(values[:, 1 + promise.step.numel() :])
     side = promise.holds(values[:, 0])
     closer = 0
     for k in np.flatnonzero(side[1:] != side[:-1]):
@@ -149,7 +149,12 @@ def _step(a: _Point, b: _Point) -> float:
     """The step where the excess is 0, on the line through both sides; what has no value on one side counts as on the other."""
     one, two = (np.where(np.isfinite(p.step), p.step, q.step) for p, q in ((a, b), (b, a)))
     part = a.excess / (a.excess - b.excess) if a.excess != b.excess else 0.5
-    return float(np.max(np.abs(np.nan_to_num(one + part * (two - one))), initial=0.0))
+    return _largest(one + part * (two - one))
+
+
+def _largest(values: np.ndarray) -> float:
+    """Size of the largest of some values; what has none counts as 0."""
+    return float(np.fmax.reduce(np.abs(values), axis=None, initial=0.0))
 
 
 def _jump(a: _Point, b: _Point) -> float:

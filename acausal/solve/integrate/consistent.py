@@ -118,14 +118,13 @@ class Consistent:
         if not needed.unknowns.size or not len(rows):
             return rows, []
         found = rows.with_z(rows.z.copy())
-        left = np.arange(len(rows))
-        if library():
-            left = self._by_core(needed, self._sizes(rows), found, enough)
+        left = self._by_core(needed, self._sizes(rows), found, enough) if library() else np.arange(len(rows))
+        if not left.size:
+            return found, []
         doubtful: set[int] = set()
-        if left.size:
-            size = self._sizes(rows, self._terms(rows, needed))
-            for step in self.compiled.passes(needed.key):
-                doubtful |= self._settle(step, size[step.unknowns], found, left)
+        size = self._sizes(rows, self._terms(rows, needed))
+        for step in self.compiled.passes(needed.key):
+            doubtful |= self._settle(step, size[step.unknowns], found, left)
         rounding = POLICY.newton.terms * np.finfo(float).eps
         wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, needed.equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
@@ -139,9 +138,12 @@ class Consistent:
         """Whether algebraic equations, all if not given, hold in a row, relative to the sizes of their terms."""
         c, at = self.compiled, self.problem.point(rows, k)
         local = self.problem.local(at)
-        own = c.nx + (np.arange(c.nz) if equations is None else equations)
-        sizes = terms(local, at.y, c.nominal)[own]
-        return bool(np.all(np.abs(local.value[own]) <= tolerance * sizes))
+        own = slice(c.nx, c.nx + c.nz) if equations is None else c.nx + equations
+        left, y = np.abs(local.value[own]), at.y
+        # These terms are never more than those, which take longer.
+        if (left <= tolerance * local.magnitudes(np.abs(y))[own]).all():
+            return True
+        return bool((left <= tolerance * terms(local, y, c.nominal)[own]).all())
 
     def _terms(self, rows: Rows, needed: _Needed) -> np.ndarray:
         """Change of each unknown that changes an equation by as much as its terms, at some of the times."""
@@ -167,7 +169,8 @@ class Consistent:
         found, settled = settler(*given, size=size[unknowns], enough=enough)
         self.evaluations += settler.evaluations - before
         left = np.flatnonzero(~settled)
-        found[left] = rows.z[left][:, unknowns]
+        if left.size:
+            found[left] = rows.z[left][:, unknowns]
         rows.z[:, unknowns] = found
         return left
 

@@ -9,7 +9,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.problem import Problem
+from acausal.solve.problem import Problem, rates_of
 
 SIZES = POLICY.sizes
 
@@ -33,27 +33,33 @@ def smaller_sizes(
     tolerance, span : float
         Relative tolerance, and length of the run in s.
     """
-    sizes = problem.compiled.sizes
-    ends = np.array([end(x, axis=0) for x in rows if len(x) for end in (np.min, np.max)])
-    reach = np.max(np.abs(ends), axis=0, initial=0.0)
-    groups: dict[str, list[int]] = {}
-    for k, (unit, declared) in enumerate(sizes):
-        if not declared:
-            groups.setdefault(unit, []).append(k)
+    groups, rates = _undeclared(problem.compiled)
+    ends = [end for x in rows if len(x) for end in (x.max(axis=0), -x.min(axis=0))]
+    reach = np.maximum.reduce(ends)
     fitting = nominal.copy()
-    for members in groups.values():
-        most = float(np.max(reach[members]))
-        begins = float(np.max(np.abs(rows[0][0, members])))
-        lost = SIZES.lost * tolerance * float(np.max(nominal[members]))
-        if most > SIZES.rest * float(np.max(problem.nominal[members])) and (
-            most > lost or begins > SIZES.smaller * most
-        ):
+    for members in groups:
+        most = float(reach[members].max())
+        begins = float(np.abs(rows[0][0, members]).max())
+        lost = SIZES.lost * tolerance * float(nominal[members].max())
+        if most > SIZES.rest * float(problem.nominal[members].max()) and (most > lost or begins > SIZES.smaller * most):
             fitting[members] = np.minimum(nominal[members], most)
-    for coordinate, rate in problem.rates:
-        if not sizes[rate][1]:
-            fitting[rate] = min(nominal[rate], max(fitting[rate], fitting[coordinate] / span))
+    found, most_of = fitting.tolist(), nominal.tolist()
+    for coordinate, rate in rates:
+        found[rate] = min(most_of[rate], max(found[rate], found[coordinate] / span))
+    fitting = np.array(found)
     wrong = fitting < SIZES.smaller * nominal
     return np.where(wrong, fitting, nominal) if wrong.any() else None
+
+
+@once
+def _undeclared(compiled: CompiledModel) -> tuple[list[np.ndarray], list[tuple[int, int]]]:
+    """States without a declared nominal value: those of each unit, and pairs of a coordinate and such a rate."""
+    groups: dict[str, list[int]] = {}
+    for k, (unit, declared) in enumerate(compiled.sizes):
+        if not declared:
+            groups.setdefault(unit, []).append(k)
+    rates = [(k, rate) for k, rate in rates_of(compiled) if not compiled.sizes[rate][1]]
+    return [np.array(members) for members in groups.values()], rates
 
 
 def absolute_sizes(compiled: CompiledModel, nominal: np.ndarray) -> dict[str, float]:
