@@ -55,17 +55,14 @@ def read_instructions(function: ca.Function) -> Instructions:
     if function.sz_w() < len(nodes):
         inputs = _unslotted(function, ids, inputs)
     op, arguments = [ids[k] for k in nodes], [inputs[k] for k in nodes]
-    place, constant = dict[int, tuple[int, int]](), dict[int, float]()
-    for node, k in enumerate(nodes):
-        if op[node] == INPUT:
-            place[node], arguments[node] = (inputs[k][0], inputs[k][1]), ()
-        elif op[node] == CONSTANT:
-            constant[node] = function.instruction_constant(k)
+    place = {node: (some[0], some[1]) for node, (o, some) in enumerate(zip(op, arguments, strict=True)) if o == INPUT}
+    constant = {node: function.instruction_constant(nodes[node]) for node, o in enumerate(op) if o == CONSTANT}
+    for node in place:
+        arguments[node] = ()
     results = [[-1] * function.nnz_out(k) for k in range(function.n_out())]
-    for k in every:
-        if ids[k] == OUTPUT:
-            result, nonzero = function.instruction_output(k)
-            results[result][nonzero] = inputs[k][0]
+    for k in [k for k in every if ids[k] == OUTPUT]:
+        result, nonzero = function.instruction_output(k)
+        results[result][nonzero] = inputs[k][0]
     return Instructions(op, arguments, constant, place, results)
 
 

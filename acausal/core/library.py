@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.core.build.compiling import file_of, own_platform, version
 
-# What switches the library off: whatever it holds, unless it is empty.
+# What switches the library off for runs: whatever it holds, unless it is empty.
 WITHOUT = "ACAUSAL_WITHOUT_CORE"
 MEND = "with a C compiler or the package ziglang, `python -m acausal.core.build` makes it"
 
@@ -22,6 +22,21 @@ class TapeData(Structure):
     _fields_ = (
         *((name, c_int32) for name in ("constants", "inputs", "results", "runs", "early", "outputs")),
         *((name, c_void_p) for name in ("constant", "kind", "length", "first", "second", "output")),
+    )
+
+
+class OperationsData(Structure):
+    """What the library takes as the operations of a function, see `core.h`."""
+
+    _fields_ = (("n", c_int32), *((name, c_void_p) for name in ("kind", "first", "second", "late")))
+
+
+class ArrangedData(Structure):
+    """Where the library writes what becomes of them."""
+
+    _fields_ = (
+        *((name, c_int32) for name in ("results", "runs", "early")),
+        *((name, c_void_p) for name in ("same", "order", "run_kind", "run_length")),
     )
 
 
@@ -77,6 +92,7 @@ class Progress(Structure):
 # Result and arguments of each function; arrays are addresses.
 FUNCTIONS = {
     "ac_version": (c_char_p, ()),
+    "ac_arrange": (c_int32, (POINTER(OperationsData), POINTER(ArrangedData))),
     "ac_tape_run": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32)),
     "ac_tape_rows": (None, (POINTER(TapeData), c_void_p, c_int32, c_int32, c_void_p, c_void_p, c_void_p, c_void_p)),
     "ac_lu_make": (c_void_p, (c_int32, c_void_p, c_void_p)),
@@ -101,9 +117,13 @@ FUNCTIONS = {
 
 @cache
 def _loaded() -> ctypes.CDLL | str:
+    """The library, or why runs do without."""
+    return f"it is switched off by {WITHOUT}" if os.environ.get(WITHOUT) else _installed()
+
+
+@cache
+def _installed() -> ctypes.CDLL | str:
     """The library, or why there is none."""
-    if os.environ.get(WITHOUT):
-        return f"it is switched off by {WITHOUT}"
     path = file_of(platform := own_platform())
     if not path.exists():
         return f"it was not built for {platform}; {MEND}"
@@ -120,14 +140,14 @@ def _loaded() -> ctypes.CDLL | str:
 
 
 def library() -> ctypes.CDLL | None:
-    """Return the library, or None where there is none."""
+    """Return the library that runs take, or None where there is none."""
     found = _loaded()
     return None if isinstance(found, str) else found
 
 
-def why_not() -> str:
-    """Return why there is no library; empty where there is one."""
-    found = _loaded()
+def why_not(runs: bool = True) -> str:
+    """Return why there is no library, or why runs do without, as `loaded`; empty where there is one."""
+    found = _loaded() if runs else _installed()
     return found if isinstance(found, str) else ""
 
 
@@ -136,15 +156,20 @@ def address(array: np.ndarray | None) -> int | None:
     return None if array is None else array.__array_interface__["data"][0]
 
 
-def loaded() -> ctypes.CDLL:
+def loaded(runs: bool = True) -> ctypes.CDLL:
     """Return the library.
+
+    Parameters
+    ----------
+    runs : bool, optional
+        Whether it is to run something, for which it may be switched off; what is exported is made by it in any case.
 
     Raises
     ------
     RuntimeError
         If there is none.
     """
-    found = _loaded()
+    found = _loaded() if runs else _installed()
     if isinstance(found, str):
         raise RuntimeError(f"the core cannot be used: {found}")
     return found

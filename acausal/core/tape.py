@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Collection
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import copysign
@@ -13,9 +13,9 @@ from typing import Any, TypeAlias
 import casadi as ca
 import numpy as np
 
-from acausal.core.library import TapeData, address, loaded
+from acausal.core.library import ArrangedData, OperationsData, TapeData, address, loaded
 from acausal.garbage import uncollected
-from acausal.instructions import Instructions, read_instructions
+from acausal.instructions import CONSTANT, INPUT, Instructions, read_instructions
 
 Int32s: TypeAlias = "ctypes.Array[ctypes.c_int32]"
 
@@ -29,6 +29,8 @@ KINDS = (
     *(ca.OP_IF_ELSE_ZERO, ca.OP_ASSIGN),
 )
 KIND = {op: kind for kind, op in enumerate(KINDS)} | {ca.OP_CONSTPOW: KINDS.index(ca.OP_POW)}
+# What the library takes as the kinds of a function's operations, and of its leaves.
+_KINDS = KIND | {INPUT: -1, CONSTANT: -1}
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,91 +159,47 @@ def make_tape(function: ca.Function, early: Collection[int] = ()) -> Tape:
         Arguments that change rarely: what follows from them alone stands in front.
     """
     with uncollected():
-        return _made(_merged(read_instructions(function)), function, set(early))
+        return _made(read_instructions(function), function, set(early))
 
 
 def _made(read: Instructions, function: ca.Function, early: set[int]) -> Tape:
+    kinds, first, second, late = _operations(read, early)
+    same, order, run_kind, run_length = found = tuple(np.empty(len(kinds), dtype=np.int32) for _ in range(4))
+    arranged = ArrangedData(0, 0, 0, *map(address, found))
+    if loaded(runs=False).ac_arrange(OperationsData(len(kinds), *map(address, (kinds, first, second, late))), arranged):
+        raise MemoryError
+    order, runs = order[: arranged.results], arranged.runs
+
     sizes = tuple(function.nnz_in(k) for k in range(function.n_in()))
     starts = np.cumsum([0, *sizes])
-    constants = list(read.constant)
-    seats = np.full(len(read.op), -1, dtype=np.int32)
+    constants = [node for node in read.constant if same[node] == node]
+    seats = np.full(len(kinds), -1, dtype=np.int32)
     seats[constants] = np.arange(len(constants))
     for node, (argument, element) in read.place.items():
         seats[node] = len(constants) + starts[argument] + element
-    order, kinds, lengths, early_runs = _grouped(read, early)
     seats[order] = len(constants) + starts[-1] + np.arange(len(order))
-    first, second = (seats[[read.arguments[node][k] for node in order]] for k in (0, -1))
+    seats = seats[same]
     return Tape(
-        np.array(list(read.constant.values()), dtype=float),
+        np.array([read.constant[node] for node in constants], dtype=float),
         sizes,
-        np.array(kinds, dtype=np.int32),
-        np.array(lengths, dtype=np.int32),
-        first,
-        second,
-        early_runs,
+        run_kind[:runs].copy(),
+        run_length[:runs].copy(),
+        seats[first[order]],
+        seats[second[order]],
+        arranged.early,
         tuple(seats[nodes] for nodes in read.results),
     )
 
 
-def _merged(read: Instructions) -> Instructions:
-    """Return the operations without those that do the same to the same (value numbering)."""
-    place: list[int] = []
-    known: dict[Any, int] = {}
-    found = Instructions([], [], {}, {}, [])
-    for node, (op, arguments) in enumerate(zip(read.op, read.arguments, strict=True)):
-        if arguments:
-            own = [place[k] for k in arguments]
-            key = op, own[0], own[-1]
-        elif node in read.place:
-            own, key = (), read.place[node]
-        else:  # zeros of both signs are equal
-            own, key = (), (op, copysign(1.0, read.constant[node]), read.constant[node])
-        here = known.get(key)
-        if here is None:
-            known[key] = here = len(found.op)
-            found.op.append(op)
-            found.arguments.append(own)
-            if node in read.place:
-                found.place[here] = read.place[node]
-            elif not own:
-                found.constant[here] = read.constant[node]
-        place.append(here)
-    return replace(found, results=[[place[node] for node in nodes] for nodes in read.results])
-
-
-def _grouped(read: Instructions, early: set[int]) -> tuple[list[int], list[int], list[int], int]:
-    """Order of the operations, kind and length of each run, and the number of runs that need early arguments alone."""
-    late, users, waits = list[bool](), list[list[int]](), list[int]()
-    for node, arguments in enumerate(read.arguments):
-        users.append([])
-        waits.append(len(arguments))
-        for argument in arguments:
-            users[argument].append(node)
-        if arguments:
-            late.append(late[arguments[0]] or late[arguments[-1]])
-        else:
-            late.append(node in read.place and read.place[node][0] not in early)
-    kinds = [KIND.get(op, -1) for op in read.op]
-    order: list[int] = []
-    runs: list[tuple[int, int]] = []
-    ready: tuple[dict[int, list[int]], dict[int, list[int]]] = ({}, {})
-
-    def go(nodes: Iterable[int]) -> None:
-        """Let follow what waited for these alone; what becomes ready meanwhile may be among them."""
-        for node in nodes:
-            for user in users[node]:
-                waits[user] -= 1
-                if not waits[user]:
-                    ready[late[user]].setdefault(kinds[user], []).append(user)
-
-    go(node for node, arguments in enumerate(read.arguments) if not arguments)
-    ends = []
-    for stage in ready:
-        while any(stage.values()):
-            kind = max(stage, key=lambda kind: len(stage[kind]))
-            go(stage[kind])
-            runs.append((kind, len(stage[kind])))
-            order += stage[kind]
-            stage[kind] = []
-        ends.append(len(runs))
-    return order, [kind for kind, _ in runs], [length for _, length in runs], ends[0]
+def _operations(read: Instructions, early: set[int]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Kind, arguments, and whether it changes often, of each operation and leaf, as `core.h` has them."""
+    if unknown := set(read.op) - set(_KINDS):
+        raise ValueError(f"the core does not know CasADi's operations {unknown}")
+    kinds = np.array([_KINDS[op] for op in read.op], dtype=np.int32)
+    first, second = (np.array([some[k] if some else 0 for some in read.arguments], dtype=np.int32) for k in (0, -1))
+    late, leaves = np.zeros(len(kinds), dtype=np.int32), dict[Any, int]()
+    for node, place in read.place.items():
+        first[node], late[node] = leaves.setdefault(place, node), place[0] not in early
+    for node, value in read.constant.items():  # zeros of both signs are equal
+        first[node] = leaves.setdefault((copysign(1.0, value), value, None), node)
+    return kinds, first, second, late

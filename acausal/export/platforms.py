@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from acausal.core.build.compiling import file_of, own_platform, version
-from acausal.core.library import MEND
+from acausal.core.library import MEND, why_not
 from acausal.errors import ExportError
 from acausal.nearest import likeliest
 from acausal.result import shown_name
@@ -43,7 +43,8 @@ def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
     Raises
     ------
     ExportError
-        If there is no such version or platform, or a library that is not installed or is of other sources.
+        If there is no such version or platform, or a library, this platform's own included, that is not installed or is of
+        other sources.
     """
     if fmi_version not in FOLDERS:
         raise ExportError(f"there is no version {fmi_version!r} of FMI to export to: give 2 or 3.")
@@ -59,6 +60,8 @@ def chosen(fmi_version: int, platforms: Sequence[str]) -> dict[str, str]:
     if missing := [name for name in found.values() if not _is_installed(name)]:
         mend = MEND if missing == [own_platform()] else BUILD_ALL
         raise ExportError(f"the core is not installed for {', '.join(missing)}: {mend}.")
+    if why := why_not(runs=False):
+        raise ExportError(f"what is exported is made by the core of this platform, which is missing: {why}.")
     return found
 
 

@@ -46,6 +46,22 @@ AC_PUBLIC void ac_tape_run(const ac_tape *tape, double *w, int32_t from, int32_t
 AC_PUBLIC void ac_tape_rows(const ac_tape *tape, double *w, int32_t rows, int32_t parts, const int32_t *size,
                             const int32_t *stride, const double *const *part, double *found);
 
+/* Leaves and operations of a function, each after its arguments. */
+typedef struct {
+    int32_t n;
+    const int32_t *kind;           /* (n) -1 for a leaf */
+    const int32_t *first, *second; /* (n) arguments, twice the same where there is one; of a leaf, the first that is equal */
+    int32_t *late;                 /* (n) of a leaf, whether it changes often; of operations, it is found */
+} ac_operations;
+
+/* What a tape of them is: `order` names the operations that it holds, `same` the one that stands for each. */
+typedef struct {
+    int32_t results, runs, early;
+    int32_t *same, *order, *run_kind, *run_length; /* (n) */
+} ac_arranged;
+
+AC_PUBLIC int32_t ac_arrange(const ac_operations *function, ac_arranged *found);
+
 /* Factors of a sparse n x n matrix in columns: L U = P S A Q, S powers of 2 that bring each row near 1. */
 typedef struct ac_lu ac_lu;
 

@@ -63,6 +63,39 @@ def test_what_follows_from_early_arguments_stands_in_front():
     assert every.early == len(every.kinds) == 1
 
 
+def test_equal_operations_stand_once():
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    column = [result for _ in range(2) for result in (x * y + ca.sin(x * y), 2.5 * x, ca.sin(2.5 * x))]
+    tape = make_tape(ca.Function("f", [x, y], [ca.vertcat(*column)]))
+    assert (tape.constants.tolist(), len(tape.first), len(set(tape.output.tolist()))) == ([2.5], 5, 3)
+
+
+def test_an_operation_that_it_does_not_know():
+    x = ca.SX.sym("x")
+    with pytest.raises(ValueError, match=rf"operations \{{{ca.OP_ERFINV}\}}"):
+        make_tape(ca.Function("f", [x], [ca.erfinv(x)]))
+
+
+def test_runs_take_what_stands_before_them():
+    random = np.random.default_rng(4)
+    x = ca.SX.sym("x", 40)
+    nodes = list(ca.vertsplit(x))
+    for _ in range(3000):
+        a, b = (nodes[k] for k in random.integers(0, len(nodes), 2))
+        nodes.append([a + b, a * b, a - b, ca.sin(a), ca.fmin(a, b), ca.fabs(b)][random.integers(6)])
+    function = ca.Function("f", [x[:20], x[20:]], [ca.vertcat(*nodes[-60:])], READABLE)
+    tape = make_tape(function, early=[0])
+    own = len(tape.constants) + sum(tape.sizes)
+    assert np.all(np.maximum(tape.first, tape.second) < own + np.arange(len(tape.first)))
+    changing = set(range(own - 20, own))
+    for k, (a, b) in enumerate(zip(tape.first.tolist(), tape.second.tolist(), strict=True)):
+        if {a, b} & changing:
+            changing.add(own + k)
+    assert min(k for k in changing if k >= own) == own + tape.lengths[: tape.early].sum()
+    given = [random.standard_normal((5, 20)) for _ in range(2)]
+    same(tape.rows(*given), function, given)
+
+
 def test_nothing_and_constants():
     x = ca.SX.sym("x", 2)
     assert make_tape(ca.Function("f", [x], [ca.SX(0, 1)])).rows(np.zeros((3, 2))).shape == (3, 0)

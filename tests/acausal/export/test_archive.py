@@ -184,6 +184,12 @@ def test_a_platform_without_a_folder(built, tmp_path, monkeypatch):
         check_fmu(tmp_path / "a.fmu", 3, ["own"])
 
 
+def test_no_core_to_make_what_is_exported(built, tmp_path, monkeypatch):
+    monkeypatch.setattr(platforms, "why_not", lambda runs: "it was not built")
+    with pytest.raises(ExportError, match="by the core of this platform, which is missing: it was not built"):
+        check_fmu(tmp_path / "a.fmu", 3, ["macos-arm64"])
+
+
 def test_libraries_that_are_missing_or_old(tmp_path, monkeypatch):
     folder = tmp_path / "lib"
     folder.mkdir()

@@ -54,10 +54,12 @@ def why(monkeypatch, tmp_path):
     monkeypatch.delenv(LIBRARY.WITHOUT, raising=False)
 
     def why():
+        LIBRARY._installed.cache_clear()
         found = LIBRARY._loaded.__wrapped__()
         return found if isinstance(found, str) else ""
 
-    return path, why
+    yield path, why
+    LIBRARY._installed.cache_clear()
 
 
 def test_no_library(why):
