@@ -34,19 +34,27 @@ def once(function: Callable[..., R]) -> Callable[..., R]:
     return call
 
 
-def latest(function: Callable[..., R]) -> Callable[..., R]:
-    """Evaluate a function of a compiled model again only where its other arguments are not those of the last call.
+def latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:
+    """Evaluate a function of a compiled model again only where its other arguments are none of those of the last results.
 
     Parameters
     ----------
-    function : callable
-        Takes a compiled model first; its result follows from the arguments alone, and nobody changes it.
+    calls : int
+        How many results are kept. The function takes a compiled model first; its result follows from the arguments alone, and
+        nobody changes it.
     """
 
-    @wraps(function)
-    def call(compiled: Compiled, *key: Hashable) -> R:
-        if function not in compiled.kept or compiled.kept[function][0] != key:
-            compiled.kept[function] = key, function(compiled, *key)
-        return compiled.kept[function][1]
+    def decorate(function: Callable[..., R]) -> Callable[..., R]:
+        @wraps(function)
+        def call(compiled: Compiled, *key: Hashable) -> R:
+            known = compiled.kept.setdefault(function, {})
+            if key not in known:
+                result = function(compiled, *key)
+                if len(known) == calls:
+                    del known[next(iter(known))]
+                known[key] = result
+            return known[key]
 
-    return call
+        return call
+
+    return decorate

@@ -48,7 +48,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     return kept(problem.compiled, numbers.tobytes(), initial)
 
 
-@latest
+@latest(1)
 def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
     """Return the beginning of runs with the same feedback, start time, first instant and parameters, given as bytes."""
     (feedback, time, later), p = np.split(np.frombuffer(numbers), [3])

@@ -161,9 +161,9 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
         constraints=task.constraints,
         methods=chosen(task.method, task.max_order),
     )
-    counts = Trace()
+    counts, ends = Trace(), (task.start_time, task.stop_time)
     for _ in range(POLICY.sizes.passes):
-        integrator = Integrator(problem, settings, (task.start_time, task.stop_time), counts)
+        integrator = Integrator(problem, settings, ends, counts, beginning.start.point.constants)
         done = _Done(beginning.start, at, integrator, Course(integrator, plan.times, plan.ends, plan.breaks), None)
         try:
             done.course.go(at)

@@ -44,7 +44,7 @@ def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.nda
     return np.where(np.abs(near - found) <= span * RESTS.near, near, found).tolist()
 
 
-@latest
+@latest(8)  # segments of a run
 def _found(compiled: CompiledModel, moves: bool, parts: int, numbers: bytes) -> tuple[float, ...]:
     """Return the same for ends of a segment in so many parts, parameters and constants, given as bytes."""
     laws = laws_of_time(compiled, moves)

@@ -36,9 +36,19 @@ class Integrator:
         Start and stop time of the whole run, for the progress.
     before : Trace
         Of an earlier run whose counts continue.
+    fresh : Constants, optional
+        Those of the start, whose projection was chosen there.
     """
 
-    def __init__(self, problem: Problem, settings: Settings, span: tuple[float, float], before: Trace) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        settings: Settings,
+        span: tuple[float, float],
+        before: Trace,
+        fresh: Constants | None = None,
+    ) -> None:
+        self._fresh = fresh
         self.problem, self.compiled, self.settings, self.span = problem, problem.compiled, settings, span
         self.trace = before.emptied()
         self.consistent = Consistent(problem)
@@ -93,7 +103,7 @@ class Integrator:
 
     def _suited(self, at: Point, moves: bool) -> Point:
         """Return the point with a projection that suits it: its own, if that moves along."""
-        fits = suits(self.problem, at)
+        fits = (at.constants is self._fresh and at.time == self.span[0]) or suits(self.problem, at)
         if fits and moves:
             return at
         self.trace.choices += 1

@@ -219,7 +219,7 @@ def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
     return _chosen(problem.compiled, initial, order.tobytes())
 
 
-@latest
+@latest(1)
 def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSystem:
     """Choose conditions; `order` is that of the entries of the Jacobian, row by row."""
     nx, nz = compiled.nx, compiled.nz

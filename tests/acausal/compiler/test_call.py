@@ -69,14 +69,15 @@ def test_once_for_each_model_and_argument():
 def test_the_latest_of_each_model():
     counted = []
 
-    @latest
+    @latest(2)
     def twice(model, number):
         counted.append((model.name, number))
         return 2 * number
 
     a, b = SimpleNamespace(kept={}, name="a"), SimpleNamespace(kept={}, name="b")
-    assert [twice(m, k) for m, k in ((a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1))] == [2, 2, 2, 2, 4, 2]
-    assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 1)]
+    asked = [(a, 1), (b, 1), (a, 1), (b, 1), (a, 2), (a, 1), (a, 3), (a, 2), (a, 1)]
+    assert [twice(m, k) for m, k in asked] == [2, 2, 2, 2, 4, 2, 6, 4, 2]
+    assert counted == [("a", 1), ("b", 1), ("a", 2), ("a", 3), ("a", 1)]
 
 
 def test_places_have_the_same_values_once_a_tape_pays():

@@ -5,8 +5,8 @@
 One run on one machine: spin-up, pendulum and slider-crank at several tolerances, steps and formulations. Errors are the
 largest over 401 points against Exudyn with many elements and short steps, as a fraction of the range; how far our own
 converged solution is from it is printed too. Times are CPU times, best of several: of SolveDynamic, and of simulate() with
-a compiled model, which counts initialisation and choice of the order. Assembling and compiling are left out; neither
-writes files. Exudyn is optional: pip install ".[benchmark]".
+a compiled model, which counts initialisation and choice of the order; "again" where the run before had the same parameters,
+whose start is taken. Assembling and compiling are left out; neither writes files. Exudyn is optional: pip install ".[benchmark]".
 """
 
 from __future__ import annotations

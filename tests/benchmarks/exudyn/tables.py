@@ -31,7 +31,8 @@ def best_rows(compared: Compared) -> Iterable[list[str]]:
         for p in sorted((p for p in side if id(p) in kept), key=lambda p: p.seconds):
             errors = [f"{p.errors[output]:.1e}" for output in compared.scene.outputs]
             counts = [str(n) for n in (p.steps, p.factorisations, p.evaluations)]
-            yield [p.curve, p.setting, f"{1e3 * p.seconds:.1f}", *errors, *counts, p.method]
+            times = [f"{1e3 * s:.1f}" for s in (p.seconds, p.again)]
+            yield [p.curve, p.setting, *times, *errors, *counts, p.method]
 
 
 def equal_rows(compared: Compared) -> Iterable[list[str]]:
@@ -41,9 +42,10 @@ def equal_rows(compared: Compared) -> Iterable[list[str]]:
             ours, theirs = (quickest(side, output, error) for side in (compared.ours, compared.theirs))
             if not theirs and not ours:
                 continue
-            times = [f"{1e3 * p.seconds:.1f}" if p else "not reached" for p in (ours, theirs)]
-            ratio = f"{theirs.seconds / ours.seconds:.1f}" if ours and theirs else ""
-            yield [output, f"{error:g}", *times, ratio, f"{ours.curve}, {ours.setting}" if ours else ""]
+            seconds = ours and ours.seconds, ours and ours.again, theirs and theirs.seconds
+            times = [f"{1e3 * s:.1f}" if s else "not reached" for s in seconds]
+            ratios = [f"{theirs.seconds / s:.1f}" if s and theirs else "" for s in seconds[:2]]
+            yield [output, f"{error:g}", *times, *ratios, f"{ours.curve}, {ours.setting}" if ours else ""]
 
 
 def show(compared: Compared, markdown: bool) -> None:
@@ -52,8 +54,17 @@ def show(compared: Compared, markdown: bool) -> None:
     apart = ", ".join(f"{name} {value:.1e}" for name, value in compared.apart.items())
     title = f"{scene.name}: the two references are apart by {apart} of the range"
     errors = [f"error of {name}" for name in scene.outputs]
-    points = ["", "tolerance or step", "ms", *errors, "steps", "factorisations", "evaluations", "method"]
-    equal = ["output", "error", "ms, ours", "ms, Exudyn", f"Exudyn / ours (goal {scene.goal:g})", "ours"]
+    points = ["", "tolerance or step", "ms", "again", *errors, "steps", "factorisations", "evaluations", "method"]
+    equal = [
+        "output",
+        "error",
+        "ms, ours",
+        "again",
+        "ms, Exudyn",
+        f"Exudyn / ours (goal {scene.goal:g})",
+        "again",
+        "ours",
+    ]
     console = Console(width=180)
     console.print(title + "\n", highlight=False, markup=False)
     for columns, rows in ((points, list(best_rows(compared))), (equal, list(equal_rows(compared)))):
