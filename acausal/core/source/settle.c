@@ -107,7 +107,9 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
         if (!tries) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
-        } else {
+        }
+        /* One step alone is enough for what the factors lose, at most. */
+        if (tries || enough * enough >= LOST) {
             widen(s);
             if (is_last(s, s->wide, enough, made)) {
                 memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */

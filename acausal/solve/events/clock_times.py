@@ -40,9 +40,10 @@ def clock_times(compiled: CompiledModel, p: np.ndarray, start: float, stop: floa
                 f"{origin}: the condition changes too often to find every instant; one that changes and changes back "
                 f"within {missed:.3g} s may be missed. Simulate a shorter time, or compare a variable."
             )
-    if found:
-        found.append(_without_value(compiled, p, start, stop))
-    return np.unique(np.concatenate([[], *found])).tolist()
+    if not found:
+        return []
+    found.append(_without_value(compiled, p, start, stop))
+    return np.unique(np.concatenate(found)).tolist()
 
 
 def _without_value(compiled: CompiledModel, p: np.ndarray, start: float, stop: float) -> np.ndarray:
