@@ -108,7 +108,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
         }
-        /* One step alone is enough for what the factors lose, at most. */
+        /* Where more may be left than the factors lose in one step, that is no reason for another one. */
         if (tries || enough * enough >= LOST) {
             widen(s);
             if (is_last(s, s->wide, enough, made)) {
