@@ -166,3 +166,6 @@ class Switches:
     rounds: int = 20
     # Change of a discrete variable, over its value, that is none.
     same: float = 1e-9
+    # Excess of a condition, over its scale, that may be rounding: at dead centre the pistons of a V6 engine move at 2e-16 m/s,
+    # this way or the other.
+    rounding: float = 1e-14

@@ -46,14 +46,18 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     guards, p = problem.compiled.guards, problem.p
     head = problem.compiled.guards.estimate(p, later)[0].copy()
     previous = older = head
-    for _ in range(POLICY.switches.rounds):
+    for count in range(POLICY.switches.rounds):
         begun = _begun(problem, time, head, initial)
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
         new, by_clock = found.copy(), [k for k in guards.timed if k < guards.n_switches]
         new[by_clock] = head[by_clock]
-        if np.all((new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))):
-            return replace(begun, point=replace(at, truth=_first_truth(problem, at)))
+        same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
+        # Rounding would turn what is in doubt over again and again.
+        doubtful = _doubtful(problem, at) if count and not np.all(same) else np.empty(0, dtype=int)
+        same[doubtful] = True
+        if np.all(same):
+            return replace(begun, point=replace(at, truth=_first_truth(problem, at, doubtful, head)))
         older, previous, head = previous, head, new
     wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
     if len(places := set(places_text(problem.compiled, wrong).splitlines())) == 1 and np.array_equal(older, head):
@@ -80,8 +84,23 @@ def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Sta
     return begun
 
 
-def _first_truth(problem: Problem, at: Point) -> np.ndarray:
-    """Which watched conditions hold at the start; those that act at the start do not hold before."""
+def _doubtful(problem: Problem, at: Point) -> np.ndarray:
+    """Switches whose condition is but a rounding error away from where it changes."""
+    guards: Any = problem.compiled.guards
+    watched = np.array(guards.watched, dtype=int)
+    if not watched.size:
+        return watched
+    here = at.x, at.z, problem.p, at.time, at.constants.vector
+    scale = np.nan_to_num(guards.scale(*here, problem.nominal)[0])
+    near = np.abs(problem.watched(Rows.of(at))[0][0]) <= POLICY.switches.rounding * np.where(scale > 0, scale, 1.0)
+    return watched[near & (watched < guards.n_switches)]
+
+
+def _first_truth(problem: Problem, at: Point, doubtful: np.ndarray, head: np.ndarray) -> np.ndarray:
+    """Which watched conditions hold at the start; those that act at the start do not hold before.
+
+    Switches that are in doubt are as they are in `head`.
+    """
     guards: Any = problem.compiled.guards
     if not guards.watched:
         return np.zeros(0, dtype=bool)
@@ -91,7 +110,10 @@ def _first_truth(problem: Problem, at: Point) -> np.ndarray:
     own = [guards.guards[k] for k in guards.watched]
     inclusive = np.array([g.inclusive for g in own])
     acts = np.array([g.at_start for g in own])
-    return ((value < 0) | ((value == 0) & inclusive)) & ~acts
+    found = ((value < 0) | ((value == 0) & inclusive)) & ~acts
+    for guard in doubtful.tolist():
+        found[guards.watched.index(guard)] = head[guard] > 0
+    return found
 
 
 def go_on(problem: Problem, start: Start) -> Point:

@@ -10,7 +10,22 @@ import pytest
 from scipy.optimize import brentq
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, cos, der, fixed, guess, input, output, variable
+from acausal import (
+    Model,
+    Scalar,
+    chain,
+    connect,
+    cos,
+    der,
+    fixed,
+    guess,
+    input,
+    output,
+    piecewise,
+    structural,
+    time,
+    variable,
+)
 from components import (
     Body,
     BodyBox,
@@ -224,3 +239,21 @@ def test_cosine_law_that_cannot_rest_is_told() -> None:
 
     with pytest.raises(ac.InitializationError, match=r"der\(x\) = 0: off by"):
         ac.simulate(Restless(), stop_time=1, initial="steady")
+
+
+class Turned(Model):
+    """A variable whose sign changes it, by little or much, against itself."""
+
+    size: float = structural("half of the change")
+    x: Scalar = variable("its integral", start=0.0, fixed=True)
+    y: Scalar = variable("time, but for what its own sign adds")
+
+    def equations(self):
+        yield der(self.x) == self.y
+        yield self.y == time + piecewise((self.size, self.y < 0), -self.size)
+
+
+def test_a_condition_that_rounding_turns_over():
+    assert ac.simulate(Turned(size=5e-17), stop_time=1.0)["x"][-1] == pytest.approx(0.5, abs=1e-6)
+    with pytest.raises(ac.InitializationError, match="contradicts its own consequence"):
+        ac.simulate(Turned(size=5e-3), stop_time=1.0)
