@@ -37,7 +37,8 @@ class Newton:
 class Ranks:
     """Ranks of Jacobians whose columns count in nominal values and whose rows have length 1."""
 
-    # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions.
+    # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions. So is the length of a row,
+    # over that of the longest of its equation: an axis that is off by rounding would lock a four-bar.
     rank: float = 1e-9
     # Rows up to which matrices are small: they are dense, all in one; rounding of the singular values of others is no more.
     small: int = 100

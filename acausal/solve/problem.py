@@ -82,8 +82,14 @@ class Problem:
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
     def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
-        """Return the Jacobian of the constraints by the states over their nominal values."""
-        return by_columns(self.constraints(at)[1], self.nominal[: self.nx])
+        """Return the Jacobian of the constraints by the states over their nominal values.
+
+        Rows that are nearly 0 beside others of their equation are 0.
+        """
+        J = by_columns(self.constraints(at)[1], self.nominal[: self.nx])
+        length = lengths(J)
+        J.data[(length <= POLICY.ranks.rank * self._largest_alike(length))[J.indices]] = 0.0
+        return J
 
     def gaps(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that nominal values of the states make in them.
@@ -101,11 +107,15 @@ class Problem:
             away = np.random.default_rng(0).standard_normal(self.nx) * self.nominal[: self.nx]
             beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
             own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
-        kinds = c.kinds
+        sizes = self._largest_alike(own)
+        return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
+
+    def _largest_alike(self, own: np.ndarray) -> np.ndarray:
+        """Largest of the values of the constraints' residuals, among those of the same equation, for each residual."""
+        kinds = self.compiled.constraints.kinds
         most = np.zeros(len(kinds))
         np.maximum.at(most, kinds, own)
-        sizes = most[kinds]
-        return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
+        return most[kinds]
 
     def projected(self, at: Point) -> Point:
         """Return the point with every coordinate where the constraints have it, multipliers 0."""

@@ -35,6 +35,27 @@ class TwoCouplers(four_bar.FourBar):
         return m * [1, 2, 1], I * [1, 2, 1]
 
 
+class Askew(FourBar):
+    """Axes that are off by as much as rounding, or data of ten digits, leaves."""
+
+    off: float = structural("largest component of an axis in the plane")
+    j2 = Revolute(n=(0.3 * off, -0.7 * off, 1.0))
+    j3 = Revolute(n=(-1.0 * off, 0.4 * off, 1.0))
+    j4 = Revolute(n=(0.6 * off, 0.9 * off, 1.0))
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+@pytest.mark.parametrize("off", [1e-17, 1e-13, 1e-10])
+def test_axes_that_are_not_quite_parallel(off, method):
+    """A constraint out of the plane that is nearly 0 = 0 neither holds the crank nor bears a load of its own."""
+    how = {"stop_time": 1.5, "tolerance": 1e-7, "intervals": 30, "method": method}
+    exact, found = ac.simulate(FourBar(), **how), ac.simulate(Askew(off=off), **how)
+    assert found.stats.loops[0]["redundant"] == 3
+    within("crank, rad", np.abs(found["j1_phi"] - exact["j1_phi"]).max(), 1e-5)
+    force, expected = found["j3.frame_b.f"], exact["j3.frame_b.f"]
+    within("force on j3, relative", np.abs(force - expected).max() / np.abs(expected).max(), 1e-4)
+
+
 class Parallel(FourBar):
     """A second, identical coupler, 0.2 m away along z: the loop is closed twice."""
 
