@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import acausal as ac
-from acausal import Component, Model, chain, connect, fixed, guess, port, structural
+from acausal import Component, Model, chain, connect, fixed, guess, port, structural, time
 from components import BodyBox, BodyRod, Fixed, FixedTranslation, Frame, Revolute, World
-from components.rotational import Damper
+from components.rotational import Damper, Position
 from models import FourBar
 from tests.hard.measure import within
 from tests.reference import four_bar
@@ -54,6 +54,29 @@ def test_axes_that_are_not_quite_parallel(off, method):
     within("crank, rad", np.abs(found["j1_phi"] - exact["j1_phi"]).max(), 1e-5)
     force, expected = found["j3.frame_b.f"], exact["j3.frame_b.f"]
     within("force on j3, relative", np.abs(force - expected).max() / np.abs(expected).max(), 1e-4)
+
+
+@pytest.mark.parametrize("off", [1e-7, 1e-4])
+def test_a_loop_that_hardly_locks_is_named(off):
+    with pytest.warns(ac.AcausalWarning, match=r"through j2, j1, j3, j4 .* lets nothing move, but only just"):
+        result = ac.simulate(Askew(off=off), stop_time=0.5)
+    assert np.abs(result["j1_phi"]).max() < 1e-9
+
+
+class Driven(Askew):
+    """What has no freedom, as its crank is driven, moves all the same."""
+
+    turn = Position(phi_ref=time**2)
+
+    def connections(self):
+        yield super().connections()
+        yield connect(self.turn.flange, self.j1.axis)
+
+
+@pytest.mark.filterwarnings("error::acausal.AcausalWarning")
+def test_a_crank_that_is_driven():
+    j1 = Revolute(use_axis_flange=True)
+    assert ac.simulate(Driven(off=1e-12, j1=j1), stop_time=1.0)["j1_phi"][-1] == pytest.approx(1.0)
 
 
 class Parallel(FourBar):

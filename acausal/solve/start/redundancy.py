@@ -32,8 +32,8 @@ class Redundancy:
 
 def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     """Compare the rank of the constraint Jacobian at a consistent position and after a small motion."""
-    lowest, apart = _lowest(problem.compiled)
-    entries = problem.gradients(at).data[lowest.entries]
+    held, apart = lowest(problem.compiled)
+    entries = problem.gradients(at).data[held.entries]
     doubtful = [part for part in apart if not is_regular(part.sparse(entries), RANKS.nearly)]
     if not doubtful:
         return Redundancy()
@@ -43,7 +43,7 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         moved = _moved(problem, at, doubtful, here, seed)
         if moved is None:
             continue
-        entries = problem.gradients(moved).data[lowest.entries]
+        entries = problem.gradients(moved).data[held.entries]
         for k, part in enumerate(doubtful):
             there = scaled(part.dense(entries))
             if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
@@ -54,8 +54,8 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
 
 
 @once
-def _lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
-    """Constraints at their lowest levels, and the parts of these that share no coordinates."""
+def lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
+    """Return the constraints at their lowest levels, and the parts of these that share no coordinates."""
     c = compiled.constraints
     found = part_of(c.pattern, c.lowest, np.arange(compiled.nx))
     return found, parts(found.places[0], found.places[1], (len(c.lowest), compiled.nx))
