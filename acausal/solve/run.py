@@ -33,6 +33,7 @@ from acausal.solve.integrate.trace import Trace
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
+from acausal.solve.start.locked import locked
 
 PLAIN = 10  # numbers of each output beside its values
 SHOWN = 5  # times in a message
@@ -251,6 +252,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
+    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.dropped)
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:

@@ -13,7 +13,6 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.locked import warn_of_locked
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import InitialSystem
@@ -36,7 +35,6 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     if not mismatch <= LOOPS.closed:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)
-    warn_of_locked(problem, closed, redundancy.dropped)
     counts = np.array([k not in redundancy.dropped for k in problem.compiled.constraints.closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy

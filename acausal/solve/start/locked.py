@@ -7,7 +7,6 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
-from acausal.errors import caution
 from acausal.language.functions import time
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -17,8 +16,8 @@ from acausal.solve.start.redundancy import lowest
 RANKS = POLICY.ranks
 
 
-def warn_of_locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> None:
-    """Warn of loops in which nothing can move, if that hangs on a constraint that nearly follows from the others.
+def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
+    """Name loops in which nothing can move, if that hangs on a constraint that nearly follows from the others.
 
     Parameters
     ----------
@@ -30,7 +29,10 @@ def warn_of_locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> Non
         Constraints that follow from others.
     """
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
+    if not c.size:
+        return []
     held, apart = lowest(problem.compiled)
+    found = list[str]()
     for part in apart:
         kept = np.setdiff1d(part.rows, dropped)
         # What time drives moves although nothing is free.
@@ -43,11 +45,12 @@ def warn_of_locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> Non
         if RANKS.rank < least <= RANKS.locked and loop is not None:
             cut = flat.loops.cuts[loop]
             through = f" through {', '.join(cut.parts)}" if cut.parts else ""
-            caution(
+            found.append(
                 f"the loop{through} that {cut.a} and {cut.b} close ({cut.where}) lets nothing move, but only just: one of its "
                 f"constraints follows from the others up to {least:.1g}. Give axes that are meant to be parallel, and lengths "
                 "that are meant to be equal, with all digits, or compute them from one another."
             )
+    return found
 
 
 @once
