@@ -11,8 +11,10 @@ struct ac_lu {
     double *scale, *inverse, *work;        /* inverse of each pivot */
     int32_t *step;                         /* of each entry of the matrix, the step that takes its row, */
     double *factor;                        /* and the scale of that */
-    int32_t *l_start, *l_row, *u_start, *u_row;
-    double *l, *u;
+    int32_t *l_start, *l_row, *u_start, *u_row; /* both factors in columns: what eliminates runs through them, */
+    int32_t *l_in, *l_column, *u_in, *u_column; /* and in rows, where each begins, those of U from its last column on: what solves */
+    int32_t *l_place, *u_place;                 /* of each entry of a column, its place in rows */
+    double *l, *l_rows, *u_rows;
     int32_t l_room, u_room;
     int64_t chosen, factored, flops;
 };

@@ -204,23 +204,35 @@ static int take(choice *c, int32_t j, int32_t at, const int32_t *step_of_column)
     return 1;
 }
 
+/* Where the rows of a factor begin, columns of their entries from the first or the last on, and places of those of columns. */
+static void by_rows(int32_t n, const int32_t *start, const int32_t *row, int32_t way, int32_t *in, int32_t *column, int32_t *place) {
+    memset(in, 0, ((size_t)n + 1) * sizeof *in);
+    for (int32_t e = 0; e < start[n]; e++) in[row[e]]++;
+    for (int32_t k = 0; k < n; k++) in[k + 1] += in[k]; /* ends, which go back to the beginnings */
+    for (int32_t j = way > 0 ? n - 1 : 0; j >= 0 && j < n; j -= way) {
+        for (int32_t e = start[j]; e < start[j + 1]; e++) column[place[e] = --in[row[e]]] = j;
+    }
+}
+
 /* Keep the pattern that the choice has left. */
 static int keep(ac_lu *lu, const choice *c) {
     const lists *m = &c->columns;
     int32_t l = 0, u = 0;
     for (int32_t j = 0; j < lu->n; j++) u += c->taken[j] - 1, l += left(c, j);
     if (l > lu->l_room || u > lu->u_room) {
-        free(lu->l), free(lu->u), free(lu->l_row), free(lu->u_row);
+        const size_t below = (size_t)l + 1, above = (size_t)u + 1;
+        free(lu->l), free(lu->l_row);
         lu->l_room = l, lu->u_room = u;
-        lu->l = malloc(((size_t)l + 1) * sizeof *lu->l), lu->u = malloc(((size_t)u + 1) * sizeof *lu->u);
-        lu->l_row = malloc(((size_t)l + 1) * sizeof *lu->l_row), lu->u_row = malloc(((size_t)u + 1) * sizeof *lu->u_row);
-        if (!lu->l || !lu->u || !lu->l_row || !lu->u_row) return lu->l_room = lu->u_room = 0;
+        lu->l = malloc((2 * below + above) * sizeof *lu->l), lu->l_row = malloc(3 * (below + above) * sizeof *lu->l_row);
+        if (!lu->l || !lu->l_row) return lu->l_room = lu->u_room = 0;
+        lu->l_rows = lu->l + below, lu->u_rows = lu->l_rows + below;
+        lu->l_column = lu->l_row + below, lu->l_place = lu->l_column + below;
+        lu->u_row = lu->l_place + below, lu->u_column = lu->u_row + above, lu->u_place = lu->u_column + above;
     }
     for (int32_t e = 0; e < lu->start[lu->n]; e++) lu->step[e] = lu->step_of[lu->row[e]], lu->factor[e] = lu->scale[lu->row[e]];
-    l = u = 0, lu->flops = 0;
+    lu->l_start[0] = lu->u_start[0] = l = u = 0, lu->flops = 0;
     for (int32_t k = 0; k < lu->n; k++) {
         const int32_t j = lu->column_of[k], *index = m->index + m->place[j];
-        lu->l_start[k] = l, lu->u_start[k] = u;
         for (int32_t e = 0; e < c->taken[j] - 1; e++) { /* rows were taken in ascending order of steps */
             lu->u_row[u++] = lu->step_of[index[e]];
         }
@@ -231,6 +243,8 @@ static int keep(ac_lu *lu, const choice *c) {
         lu->flops += l - lu->l_start[k];
         lu->l_start[k + 1] = l, lu->u_start[k + 1] = u;
     }
+    by_rows(lu->n, lu->l_start, lu->l_row, 1, lu->l_in, lu->l_column, lu->l_place);
+    by_rows(lu->n, lu->u_start, lu->u_row, -1, lu->u_in, lu->u_column, lu->u_place);
     return 1;
 }
 
