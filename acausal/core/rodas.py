@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.core.curve import Curve
-from acausal.core.library import EquationsData, Progress, RequestData, address, loaded
+from acausal.core.library import EquationsData, Pool, Progress, RequestData, address, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
 from acausal.locks import apart
@@ -69,6 +69,11 @@ class Equations:
             *(None if tape is None else pointer(tape) for tape in tapes),
             *(array.ctypes.data for array in (self.start, self.row, self.diagonal)),
         )
+
+    @cached_property
+    def pool(self) -> Pool:
+        """Memory of the method for these equations."""
+        return Pool("rodas", self.data)
 
 
 def make_equations(x: ca.SX, z: ca.SX, t: ca.SX, p: ca.SX, c: ca.SX, ode: ca.SX, alg: ca.SX) -> Equations:
@@ -140,16 +145,14 @@ class Rodas:
 
     def __init__(self, equations: Equations) -> None:
         self._library, self.equations = loaded(), equations
-        self._memory = self._library.ac_rodas_make(byref(equations.data))
-        if not self._memory:
-            raise MemoryError
+        self._memory = equations.pool.take()
         self.progress = Progress()
         self._request: tuple[object, ...] = ()
         self._steps = np.empty(0), np.empty((0, 0)), None
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
-            self._library.ac_rodas_free(self._memory)
+            self.equations.pool.give(self._memory)
 
     def begin(
         self,

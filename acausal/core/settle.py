@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from ctypes import byref, pointer
+from ctypes import pointer
 from dataclasses import dataclass
 from functools import cached_property
 
 import casadi as ca
 import numpy as np
 
-from acausal.core.library import SquareData, address, loaded
+from acausal.core.library import Pool, SquareData, address, loaded
 from acausal.core.tape import Tape, make_tape
 from acausal.instructions import READABLE
 from acausal.symbols import dense
@@ -43,6 +43,11 @@ class Square:
         """What the library takes; it holds addresses of the arrays of these equations."""
         arrays = (array.ctypes.data for array in (self.start, self.row, self.unknowns))
         return SquareData(len(self.unknowns), pointer(self.tape.data), *arrays)
+
+    @cached_property
+    def pool(self) -> Pool:
+        """Memory for solving them."""
+        return Pool("settler", self.data)
 
 
 def make_square(arguments: Sequence[ca.SX], early: int, residuals: ca.SX, argument: int, places: np.ndarray) -> Square:
@@ -84,13 +89,11 @@ class Settler:
 
     def __init__(self, square: Square) -> None:
         self._library, self.square, self.evaluations = loaded(), square, 0
-        self._memory = self._library.ac_settler_make(byref(square.data))
-        if not self._memory:
-            raise MemoryError
+        self._memory = square.pool.take()
 
     def __del__(self) -> None:
         if getattr(self, "_memory", None):
-            self._library.ac_settler_free(self._memory)
+            self.square.pool.give(self._memory)
 
     def __call__(self, *arguments: np.ndarray, size: np.ndarray, enough: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the unknowns at n places, shape (n, unknowns), and whether they are those of the equations.

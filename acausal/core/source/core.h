@@ -85,6 +85,7 @@ AC_PUBLIC ac_settler *ac_settler_make(const ac_square *square);
 AC_PUBLIC int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early, const int32_t *length,
                                  const int32_t *stride, const double *const *part, const double *size, double enough,
                                  double *found, int32_t *settled);
+AC_PUBLIC void ac_settler_renew(ac_settler *s);
 AC_PUBLIC void ac_settler_free(ac_settler *s);
 
 /* Equations x' = f, 0 = g of states x and algebraic unknowns z at times t, for parameters p and constants c of a segment.
@@ -132,6 +133,7 @@ AC_PUBLIC void ac_rodas_begin(ac_rodas *r, const ac_request *request, const doub
 AC_PUBLIC void ac_rodas_move(ac_rodas *r, const double *x, const double *z);
 AC_PUBLIC void ac_rodas_allow(ac_rodas *r, int64_t most);
 AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress);
+AC_PUBLIC void ac_rodas_renew(ac_rodas *r);
 AC_PUBLIC void ac_rodas_free(ac_rodas *r);
 
 /* Conditions that are watched, and variables that jump at instants which they plan, such as those of a sampled controller.

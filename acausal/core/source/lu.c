@@ -51,7 +51,7 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
     const size_t size = (size_t)n + 1, entries = (size_t)start[n] + 1;
     lu->n = n;
     lu->start = malloc((8 * size + 2 * entries) * sizeof *lu->start);
-    lu->scale = calloc(3 * size + entries, sizeof *lu->scale);
+    lu->scale = calloc(3 * size + 2 * entries, sizeof *lu->scale);
     if (!lu->start || !lu->scale) {
         ac_lu_free(lu);
         return NULL;
@@ -61,6 +61,7 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
     lu->l_in = lu->u_start + size, lu->u_in = lu->l_in + size, lu->row = lu->u_in + size;
     lu->step = lu->row + entries;
     lu->inverse = lu->scale + size, lu->work = lu->inverse + size, lu->factor = lu->work + size;
+    lu->given = lu->factor + entries;
     memcpy(lu->start, start, size * sizeof *start);
     memcpy(lu->row, row, (size_t)start[n] * sizeof *row);
     return lu;
@@ -72,9 +73,21 @@ int32_t ac_lu_factor(ac_lu *lu, const double *value) {
     if (lu->ready && refactor(lu, value)) return 0;
     lu->chosen++;
     lu->ready = 0;
-    const int32_t failed = ac_lu_choose(lu, value);
-    if (failed) return failed;
+    const size_t bytes = (size_t)lu->start[lu->n] * sizeof *value;
+    if (!lu->known || memcmp(lu->given, value, bytes)) {
+        lu->known = 0;
+        const int32_t failed = ac_lu_choose(lu, value);
+        if (failed) return failed;
+        memcpy(lu->given, value, bytes);
+        lu->known = 1;
+    }
     return (lu->ready = refactor(lu, value)) ? 0 : 1;
+}
+
+/* Choose pivots anew for the next matrix. They follow from its values alone, so that those chosen last do for the same ones. */
+void ac_lu_renew(ac_lu *lu) {
+    lu->ready = 0;
+    lu->chosen = lu->factored = 0;
 }
 
 /* Solve A x = b in place: by rows, as a sum is quicker than entries that are changed one after the other. */

@@ -19,7 +19,7 @@ void ac_lu_order(const ac_lu *lu, double *order) {
 /* Go on with such pivots; 0 where that is not possible. What is found with them is the same bit by bit. */
 int ac_lu_reorder(ac_lu *lu, const double *order) {
     const int32_t n = lu->n;
-    lu->ready = 0;
+    lu->ready = lu->known = 0;
     if (!*order++) return 1;
     int32_t *place = calloc(4 * (size_t)n + 1, sizeof *place);
     double *ones = malloc(((size_t)lu->start[n] + 1) * sizeof *ones);

@@ -1,4 +1,5 @@
 /* Algebraic unknowns on their equations, at many places, by Newton's method. */
+#include "lu.h"
 #include "settle.h"
 
 #include <math.h>
@@ -38,6 +39,9 @@ ac_settler *ac_settler_make(const ac_square *square) {
     memcpy(s->w, tape->constant, (size_t)tape->constants * sizeof *s->w);
     return s;
 }
+
+/* Forget what was solved: what is found from here on does not depend on it. */
+void ac_settler_renew(ac_settler *s) { ac_lu_renew(s->lu); }
 
 void ac_settler_free(ac_settler *s) {
     if (!s) return;
