@@ -43,6 +43,8 @@ class Constants:
 
     def switched(self, places: np.ndarray | list[int], on: np.ndarray | list[bool]) -> Constants:
         """Return the constants with some switches on or off."""
+        if not len(places):
+            return self
         switches = self.switches.copy()
         switches[places] = on
         return replace(self, switches=switches)

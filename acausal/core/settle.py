@@ -44,6 +44,26 @@ class Square:
         arrays = (array.ctypes.data for array in (self.start, self.row, self.unknowns))
         return SquareData(len(self.unknowns), pointer(self.tape.data), *arrays)
 
+    def hold(self, *arguments: np.ndarray, tolerance: float) -> bool:
+        """Whether the residuals at one place are no more than a part of the sizes of their terms in the unknowns.
+
+        Parameters
+        ----------
+        *arguments : arrays
+            Arguments of the equations, of which those that differ from place to place have one row.
+        tolerance : float
+            That part.
+        """
+        found, n = self.tape.rows(*arguments)[0], len(self.unknowns)
+        y = np.concatenate([a.ravel() for a in arguments])[self._columns]
+        terms = np.bincount(self.row, np.abs(found[n:] * y), minlength=n)
+        return bool((np.abs(found[:n]) <= tolerance * terms).all())
+
+    @cached_property
+    def _columns(self) -> np.ndarray:
+        """Place among the arguments of the unknown of each entry."""
+        return np.repeat(self.unknowns, np.diff(self.start))
+
     @cached_property
     def pool(self) -> Pool:
         """Memory for solving them."""

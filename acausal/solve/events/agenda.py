@@ -34,12 +34,14 @@ class Agenda:
 
     def on(self, time: float, near: float = 0.0) -> np.ndarray:
         """Which timed guards hold at a time; comparisons that would be 0 within the span `near` are 0."""
-        return self.guards.holds_at(self.p, time, near)[0] > 0.5
+        return self._holds(time, near) > 0.5
 
     def undecided(self, time: float) -> list[int]:
         """Timed guards whose conditions have no value at a time."""
-        held = self.guards.holds_at(self.p, time, 0.0)[0]
-        return [k for k, h in zip(self.guards.timed, held, strict=True) if np.isnan(h)]
+        return [k for k, h in zip(self.guards.timed, self._holds(time, 0.0), strict=True) if np.isnan(h)]
+
+    def _holds(self, time: float, near: float) -> np.ndarray:
+        return self.guards.holds_at(self.p, time, near)[0] if self.guards.timed else np.empty(0)
 
     def between(self, begin: float, end: float) -> np.ndarray:
         """Which timed guards hold between two breaks."""

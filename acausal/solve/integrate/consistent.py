@@ -14,7 +14,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.compiler.passes import Pass
-from acausal.core import Settler, library
+from acausal.core import Settler, Square, library
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.looks import spread
@@ -137,6 +137,10 @@ class Consistent:
     def holds(self, rows: Rows, k: int, tolerance: float, equations: np.ndarray | None = None) -> bool:
         """Whether algebraic equations, all if not given, hold in a row, relative to the sizes of their terms."""
         c, at = self.compiled, self.problem.point(rows, k)
+        # Terms in algebraic unknowns alone are less than all of them, which take longer.
+        by_core = equations is None and c.nz and library()
+        if by_core and self._square(range(c.nz)).hold(*self._given(rows[[k]]), tolerance=tolerance):
+            return True
         local = self.problem.local(at)
         own = slice(c.nx, c.nx + c.nz) if equations is None else c.nx + equations
         left, y = np.abs(local.value[own]), at.y
@@ -162,17 +166,23 @@ class Consistent:
     def _by_core(self, needed: _Needed, size: np.ndarray, rows: Rows, enough: float) -> np.ndarray:
         """Solve for unknowns in place, all at once; return the rows where that does not converge, which are as they were."""
         if needed not in self._settlers:
-            self._settlers[needed] = Settler(core_square(self.compiled, needed.key))
+            self._settlers[needed] = Settler(self._square(needed.key))
         unknowns, settler = needed.unknowns, self._settlers[needed]
         before = settler.evaluations
-        given = self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
-        found, settled = settler(*given, size=size[unknowns], enough=enough)
+        found, settled = settler(*self._given(rows), size=size[unknowns], enough=enough)
         self.evaluations += settler.evaluations - before
         left = np.flatnonzero(~settled)
         if left.size:
             found[left] = rows.z[left][:, unknowns]
         rows.z[:, unknowns] = found
         return left
+
+    def _square(self, unknowns: Iterable[int]) -> Square:
+        return core_square(self.compiled, tuple(unknowns))
+
+    def _given(self, rows: Rows) -> tuple[np.ndarray, ...]:
+        """Arguments of such equations."""
+        return self.problem.p, rows.constants, rows.x, rows.z, rows.times[:, None]
 
     def _settle(self, step: Pass, size: np.ndarray, rows: Rows, some: np.ndarray) -> set[int]:
         """Repeat a pass in place in some rows until nothing changes; return those where it did not get there."""

@@ -91,3 +91,22 @@ def test_places_without_a_solution_leave_the_others_alone() -> None:
 def test_arguments_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ValueError, match="arguments of"):
         settler()(np.zeros(2), np.zeros((3, 1)), np.zeros((3, 2)), np.zeros((3, 4)), size=np.ones(2), enough=1e-7)
+
+
+def test_whether_equations_hold_is_told_by_the_sizes_of_their_terms() -> None:
+    p, c, x = np.array([0.7, -1.0]), np.array([[2.0]]), np.array([[1.5]])
+    z = np.zeros((1, 4))
+    z[:, [1, 3]] = known(p, c, x)
+    square = settler().square
+    assert square.hold(p, c, x, z, tolerance=1e-14)
+    for k, off in ((1, 1e-6), (3, 1e-6), (3, np.nan)):
+        there = z.copy()
+        there[0, k] *= 1 + off
+        assert not square.hold(p, c, x, there, tolerance=1e-7)
+        assert square.hold(p, c, x, there, tolerance=1e-5) == np.isfinite(off)
+    # Of z3 = c z1^2 + p2 = 0 nothing is left but a residual.
+    p[1] = -c[0, 0] * z[0, 1] ** 2
+    z[0, 3] = 0.0
+    assert square.hold(p, c, x, z, tolerance=1e-14)
+    z[0, 3] = 1e-9
+    assert square.hold(p, c, x, z, tolerance=1e-8)
