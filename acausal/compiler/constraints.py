@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from acausal.compiler.call import Call
+from acausal.compiler.local import with_entries
 from acausal.compiler.rowwise import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
@@ -97,8 +98,7 @@ class Constraints:
     ) -> tuple[np.ndarray, scipy.sparse.csc_matrix]:
         """Return residuals, shape (size,), and their Jacobian by the states, shape (size, nx)."""
         value, entries = self.values(x, p, t, constants)
-        J = self.pattern
-        return value, scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape)
+        return value, with_entries(self.pattern, entries)
 
     def values(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return residuals, and the entries of their Jacobian as `pattern` has them."""

@@ -34,6 +34,7 @@ class Settable:
     def __init__(self, flat: FlatModel) -> None:
         self.own, self.tree = flat.parameters, flat.tree
         self.requirements = Requirements(flat.tree, flat.parameters.symbols)
+        self._accepted: bytes | None = None  # the values that were accepted last
 
     def values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes.
@@ -47,8 +48,10 @@ class Settable:
         values = self.own.values.copy()
         for path, value in (changes or {}).items():
             self._set(values, path, value)
-        self._check_limits(values)
-        self.requirements.check(values)
+        if (numbers := values.tobytes()) != self._accepted:
+            self._check_limits(values)
+            self.requirements.check(values)
+            self._accepted = numbers
         return values
 
     def value(self, path: str) -> Any:

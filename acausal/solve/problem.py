@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_motion, core_square
-from acausal.compiler.local import Local
+from acausal.compiler.local import Local, with_entries
 from acausal.compiler.once import once
 from acausal.compiler.rowwise import Rowwise
 from acausal.compiler.whole import whole
@@ -192,8 +192,7 @@ def rates_of(compiled: CompiledModel) -> list[tuple[int, int]]:
 
 def by_columns(J: scipy.sparse.csc_matrix, factors: np.ndarray) -> scipy.sparse.csc_matrix:
     """Return a matrix with every column times a factor."""
-    entries = J.data * np.repeat(factors, np.diff(J.indptr))
-    return scipy.sparse.csc_matrix((entries, J.indices, J.indptr), shape=J.shape)
+    return with_entries(J, J.data * np.repeat(factors, np.diff(J.indptr)))
 
 
 def lengths(rows: scipy.sparse.csc_matrix) -> np.ndarray:

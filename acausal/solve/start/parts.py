@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 import scipy
 
+from acausal.compiler.local import with_entries
+
 Places = np.ndarray | list[int]
 
 
@@ -37,9 +39,10 @@ class Part:
         return cls(rows, columns, entries[order], places[:, order].astype(np.int32, order="C"))
 
     @cached_property
-    def _starts(self) -> np.ndarray:
-        """Where the entries of each column begin."""
-        return np.searchsorted(self.places[1], np.arange(len(self.columns) + 1)).astype(np.int32)
+    def _pattern(self) -> scipy.sparse.csc_matrix:
+        starts = np.searchsorted(self.places[1], np.arange(len(self.columns) + 1)).astype(np.int32)
+        shape = len(self.rows), len(self.columns)
+        return scipy.sparse.csc_matrix((np.zeros(len(self.entries)), self.places[0], starts), shape=shape)
 
     def dense(self, values: np.ndarray) -> np.ndarray:
         """Return the part, shape (..., m, n), from the entries of the whole, shape (..., k)."""
@@ -49,8 +52,7 @@ class Part:
 
     def sparse(self, values: np.ndarray) -> scipy.sparse.csc_matrix:
         """Return the part from the entries of the whole, shape (k,)."""
-        shape = len(self.rows), len(self.columns)
-        return scipy.sparse.csc_matrix((values[self.entries], self.places[0], self._starts), shape=shape)
+        return with_entries(self._pattern, values[self.entries])
 
 
 def part_of(J: scipy.sparse.csc_matrix, rows: Places, columns: Places) -> Part:
