@@ -38,16 +38,22 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
     if not doubtful:
         return Redundancy()
     here = [scaled(part.dense(entries)) for part in doubtful]
-    best, singular = list(here), False
+    best, singular, stuck = list(here), False, False
     for seed in range(RANKS.motions):
-        moved = _moved(problem, at, doubtful, here, seed)
-        if moved is None:
-            continue
-        entries = problem.gradients(moved).data[held.entries]
-        for k, part in enumerate(doubtful):
-            there = scaled(part.dense(entries))
-            if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
-                best[k], singular = there, True
+        aside = _aside(problem, at, doubtful, here, seed)
+        if aside is None:
+            break
+        moved, mismatch = close(problem, aside, np.empty(0, int), positions=True)
+        stuck = stuck or not mismatch < RANKS.moved
+        if mismatch < RANKS.moved:
+            entries = problem.gradients(moved).data[held.entries]
+            for k, part in enumerate(doubtful):
+                there = scaled(part.dense(entries))
+                if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
+                    best[k], singular = there, True
+    if stuck and not singular:
+        # What seems to be free is held by what the Jacobian does not show, such as the length of a straight inextensible beam.
+        return Redundancy((), True)
     weight = _weight(problem.compiled)
     dropped = [row for part, rows in zip(doubtful, best, strict=True) for row in _surplus(part, rows, weight)]
     return Redundancy(tuple(sorted(dropped)), singular)
@@ -87,17 +93,12 @@ def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
     return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
 
 
-def _moved(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndarray], seed: int) -> Point | None:
-    """Return another consistent position near by, along what the constraints leave free in each of some parts."""
+def _aside(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndarray], seed: int) -> Point | None:
+    """Return a point near by, along what the Jacobian leaves free in each of some parts; None where that is nothing."""
     x, random = at.x.copy(), np.random.default_rng(seed)
     for part, J in zip(doubtful, here, strict=True):
-        free = np.linalg.norm(J, axis=0) > 0
-        null = null_space(J[:, free])
+        null = null_space(J)
         if len(null):
             direction = null.T @ random.standard_normal(len(null))
-            columns = part.columns[free]
-            x[columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[columns]
-    if np.array_equal(x, at.x):
-        return None
-    moved, mismatch = close(problem, replace(at, x=x), np.empty(0, int), positions=True)
-    return moved if mismatch < RANKS.moved else None
+            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[part.columns]
+    return None if np.array_equal(x, at.x) else replace(at, x=x)
