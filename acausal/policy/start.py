@@ -93,6 +93,11 @@ class Loops:
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05
+    # What coordinates of one unit change in constraints, over what others do, that their sizes follow: a machine of 1e6 mm.
+    slight: float = 1e-7
+    # Places around the guesses at which they do, and how far away in nominal values: joints turn that far.
+    looks: int = 16
+    around: float = 1.0
     # The former in a large mechanism, over the best of a choice among n states; how well cosines of large ones are known.
     fit: float = 0.5
     angles: float = 1e-3

@@ -11,8 +11,8 @@ from acausal.solve.hermite import cubic
 from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.loop_states import levels_of
 from acausal.solve.start.parts import Part
+from acausal.solve.start.reach import levels_of, reaches
 from acausal.solve.start.regular import least_singular_value
 
 LOOPS = POLICY.loops
@@ -84,9 +84,9 @@ def _alarms(least: np.ndarray) -> np.ndarray:
 
 def _least(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
     """Smallest singular values of the parts of the constraints at n points, shape (m, n)."""
-    c, nominal = problem.compiled.constraints, problem.nominal
+    c = problem.compiled.constraints
     counts = c.counting(constants.closures) & c.is_lowest
-    held = c.held(x, problem.p, times, constants.vector) * nominal[c.entries[1]]
+    held = c.held(x, problem.p, times, constants.vector) * reaches(problem)[c.entries[1]]
     held = held / _sizes(c, held)
     parts = [(part, counts[part.rows]) for part in levels_of(problem.compiled)]
     found = [_smallest(part, held, on) for part, on in parts if on.any()]

@@ -14,8 +14,9 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part, parts
+from acausal.solve.start.parts import Part
 from acausal.solve.start.rank import columns_by_pivots, pivots
+from acausal.solve.start.reach import levels_of, reaches
 from acausal.solve.start.tangent import Elimination
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
@@ -46,24 +47,24 @@ def choose_projection(problem: Problem, at: Point, spare: bool = True, moves: bo
 def chosen(problem: Problem, at: Point) -> Constants:
     """Return the constants with which some coordinates follow from the others, at a point whose projection moves."""
     c = problem.compiled.constraints
-    J, nominal = _held(problem, Rows.of(at), at.constants)
-    D = J[0] * at.constants.D / nominal**2
+    J, sizes = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / sizes**2
     selection = _select(levels_of(problem.compiled), D, c.counting(at.constants.closures))
-    return replace(at.constants, moves=False, D=selection * nominal)
+    return replace(at.constants, moves=False, D=selection * sizes)
 
 
 def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
     c = problem.compiled.constraints
     rows, columns = c.entries
     on = c.counting(at.constants.closures)
-    # States count in nominal values: the least change of them, J' over their squares, is the way to the constraints.
-    J, nominal = _held(problem, Rows.of(at), at.constants)
+    # States count in their sizes: the least change of them, J' over their squares, is the way to the constraints.
+    J, sizes = _held(problem, Rows.of(at), at.constants)
     J = J[0] * on[rows]
     stiffness = _stiffness(problem, at) if spare else np.zeros(problem.nx)
     weights = _spared(levels_of(problem.compiled), J, stiffness[columns], problem.feedback)
-    size = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
-    size = np.where(size > 0, size, 1.0)[rows]
-    return replace(at.constants, moves=True, D=on[rows] * weights * nominal**2 / size)
+    length = np.sqrt(np.bincount(rows, (J * weights) ** 2, minlength=c.size))
+    length = np.where(length > 0, length, 1.0)[rows]
+    return replace(at.constants, moves=True, D=on[rows] * weights * sizes**2 / length)
 
 
 @np.errstate(all="ignore")
@@ -71,13 +72,6 @@ def independent(problem: Problem, at: Point) -> tuple[str, ...]:
     """Names of the states that do not follow from others, at a point with the projection that moves."""
     follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())
     return tuple(name for k, name in enumerate(problem.compiled.states) if k not in follows)
-
-
-@once
-def levels_of(compiled: CompiledModel) -> list[Part]:
-    """Constraints of one level that share coordinates, with the entries of D."""
-    c = compiled.constraints
-    return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
 def _stiffness(problem: Problem, at: Point) -> np.ndarray:
@@ -216,24 +210,24 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     constants : Constants
         Those of the segment.
     """
-    J, nominal = _held(problem, rows, constants)
-    return _transversality(levels_of(problem.compiled), J, constants.D / nominal)
+    J, sizes = _held(problem, rows, constants)
+    return _transversality(levels_of(problem.compiled), J, constants.D / sizes)
 
 
 def suits(problem: Problem, at: Point) -> bool:
     """Whether the projection of a point is one that moves, and suits the point."""
     if not at.constants.moves:
         return False
-    J, nominal = _held(problem, Rows.of(at), at.constants)
-    D = J[0] * at.constants.D / nominal**2
+    J, sizes = _held(problem, Rows.of(at), at.constants)
+    D = J[0] * at.constants.D / sizes**2
     return bool(_transversality(levels_of(problem.compiled), J, D)[0] >= least_cosine(problem))
 
 
 def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
-    """Constraint Jacobians for states in nominal values, and these, as `Constraints.entries` has them."""
+    """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
     c = problem.compiled.constraints
-    nominal = problem.nominal[c.entries[1]]
-    return c.held(rows.x, problem.p, rows.times, constants.vector) * nominal, nominal
+    sizes = reaches(problem)[c.entries[1]]
+    return c.held(rows.x, problem.p, rows.times, constants.vector) * sizes, sizes
 
 
 def least_cosine(problem: Problem) -> float:
