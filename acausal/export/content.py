@@ -18,9 +18,10 @@ from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
 from acausal.solve.start.loops import levels
+from acausal.solve.start.reach import reaches
 from acausal.symbols import dense, picked, scalars, stacked
 
-VERSION = 3
+VERSION = 4
 
 
 def watched(compiled: CompiledModel, given: Given) -> list[int]:
@@ -99,7 +100,7 @@ class Content:
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.nominal]),
+            "nominal": floats([self.span, self.tolerance, *self.nominal, *reaches(self.problem)]),
             "natural": floats(self.nominal[self.compiled.nx :]),
         }
 

@@ -1,4 +1,4 @@
-/* Close loops after a jump: the least change of the states, over their nominal values, for which the constraints hold. */
+/* Close loops after a jump: the least change of the states, over their sizes, for which the constraints hold. */
 #include "instance.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 #include <string.h>
 
 #define TRIES 30        /* Gauss-Newton steps of a level */
-#define CLOSED 1e-9     /* of what nominal values of the states change in a constraint, as in Python */
+#define CLOSED 1e-9     /* of what sizes of the states change in a constraint, as in Python */
 #define INDEPENDENT 1e-7 /* of a row: less is left where it follows from the others */
 
-/* One level: matrix A of rows by states over nominal values, residuals, and the rows that count. */
+/* One level: matrix A of rows by states over their sizes, residuals, and the rows that count. */
 typedef struct {
     int32_t m, n;
     int32_t *row, *column;
@@ -27,7 +27,7 @@ int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row) {
     return m;
 }
 
-/* Derivatives of m rows by n states over nominal values, at the present; returns the values of the tape. */
+/* Derivatives of m rows by n states over their sizes, at the present; returns the values of the tape. */
 const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A) {
     const ac_unit *u = i->of;
     const double *w = ac_run(i, AC_CLOSING);
@@ -37,7 +37,7 @@ const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, cons
         const int32_t j = column[b];
         for (int32_t k = u->close_start[j]; k < u->close_start[j + 1]; k++) {
             for (int32_t a = 0; a < m; a++) {
-                if (row[a] == u->close_row[k]) A[a * n + b] = w[output[u->constraints + k]] * u->nominal[j];
+                if (row[a] == u->close_row[k]) A[a * n + b] = w[output[u->constraints + k]] * u->reach[j];
             }
         }
     }
@@ -82,7 +82,7 @@ static void least(closing *c, double *step) {
     }
 }
 
-/* Largest residual over what nominal values of the states change in it. */
+/* Largest residual over what sizes of the states change in it. */
 static double mismatch(const closing *c) {
     double most = 0, size = 0;
     for (int32_t a = 0; a < c->m; a++) size = fmax(size, sqrt(dot(c->A + a * c->n, c->A + a * c->n, c->n)));
@@ -98,7 +98,7 @@ static int32_t close_level(ac_instance *i, closing *c, double *step) {
         if (!(now < before) || now == 0) break;
         before = now;
         least(c, step);
-        for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] += step[k] * i->of->nominal[c->column[k]];
+        for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] += step[k] * i->of->reach[c->column[k]];
     }
     fill(i, c);
     return mismatch(c) <= CLOSED ? AC_OK : ac_fail(i, AC_FAILED, "closed loops do not close after a jump.");

@@ -51,7 +51,7 @@ struct ac_unit {
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
-    const double *nominal, *size;           /* (nx + nz); (nz) below which changes are rounding, see `settle.c` */
+    const double *nominal, *reach, *size;   /* (nx + nz); (nx) where they close loops, see `reach.py`; (nz) below which changes are rounding, see `settle.c` */
     const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
     const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
     double span, tolerance;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 3
+#define VERSION 4
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
@@ -148,11 +148,12 @@ static int read_numbers(const ac_section *found, ac_unit *u) {
     u->damped = ac_take(&damped, e->nx, sizeof *u->damped);
     const double *span = ac_take(&nominal, 2, sizeof *span);
     u->nominal = ac_take(&nominal, (int64_t)e->nx + e->nz, sizeof *u->nominal);
+    u->reach = ac_take(&nominal, e->nx, sizeof *u->reach);
     u->size = ac_take(&natural, e->nz, sizeof *u->size);
-    if (!u->damped || !span || !u->nominal || !u->size || damped.left || nominal.left || natural.left) return 0;
+    if (!u->damped || !span || !u->nominal || !u->reach || !u->size || damped.left || nominal.left || natural.left) return 0;
     u->span = span[0], u->tolerance = span[1], u->token = (const char *)token.at;
-    return positive(span, 2) && positive(u->damped, e->nx) && positive(u->nominal, e->nx + e->nz) && positive(u->size, e->nz)
-        && token.at && token.left && !token.at[token.left - 1];
+    return positive(span, 2) && positive(u->damped, e->nx) && positive(u->nominal, e->nx + e->nz) && positive(u->reach, e->nx)
+        && positive(u->size, e->nz) && token.at && token.left && !token.at[token.left - 1];
 }
 
 static int read_all(const ac_section *found, ac_unit *u) {

@@ -24,8 +24,8 @@ def reaches(problem: Problem) -> np.ndarray:
     """Return the sizes of the states where they close loops, shape (nx,): nominal values, or more.
 
     Coordinates of one unit without a declared nominal value that share constraints have one size, with which they change
-    these as much as those with declared ones do, else as much as those that change them most; the most that each does around
-    the guesses counts, as a crank does nothing at its dead centre.
+    these as much as those with declared ones do, else as much as those that change them most; what each does around the
+    guesses counts, as a crank does nothing at its dead centre.
 
     Parameters
     ----------
@@ -47,25 +47,32 @@ def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     x = compiled.start(values, 0.0)[0][:nx] + nominal * around
     constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0)[0], 1.0)
     J = np.abs(c.held(x, values, np.zeros(len(x)), constants.vector) * nominal[c.entries[1]])
+    J = np.nanmedian(J, axis=0)
     found = np.ones(nx)
     for declared, groups in _groups(compiled):
-        most = np.array([np.nanmax(J[:, own], initial=0.0) for own in groups])
-        to = most[0] if declared and most[0] > 0 else np.max(most)
-        for k in range(declared, len(groups)):
-            if LOOPS.slight * to < most[k] < np.inf and to < np.inf:
-                found[c.entries[1][groups[k]]] = to / most[k]
+        most = [float(np.max(J[shared])) for _, shared in groups]
+        to = most[0] if declared and most[0] > 0 else max(most)
+        for (states, _), own in list(zip(groups, most, strict=True))[declared:]:
+            if LOOPS.slight * to < own < np.inf and to < np.inf:
+                found[states] = to / own
     return found
 
 
 @once
-def _groups(compiled: CompiledModel) -> list[tuple[bool, list[np.ndarray]]]:
-    """Entries of each part whose coordinates have different units: those whose size is known first, if any are."""
-    unknown, found = set(compiled.reduced.flat.unknowns.names), []
+def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
+    """States of each part by their units, with their entries in equations that several units share.
+
+    First, and told, those whose size is known, if any are.
+    """
+    c, unknown, found = compiled.constraints, set(compiled.reduced.flat.unknowns.names), []
     known = [declared or unit in unknown for unit, declared in compiled.sizes]
+    labels = np.array(["" if known[k] else f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes)])
     for part in levels_of(compiled):
-        columns = part.columns[part.places[1]].tolist()
-        units = np.array(["" if known[k] else f"of {compiled.sizes[k][0]}" for k in columns])
-        names = sorted(set(units.tolist()))
-        if len(names) > 1:
-            found.append((names[0] == "", [part.entries[units == name] for name in names]))
+        own, kinds = labels[c.entries[1][part.entries]], c.kinds[c.entries[0][part.entries]]
+        shared = np.array([len(set(own[kinds == kind].tolist())) > 1 for kind in kinds], dtype=bool)
+        names = sorted(set(own[shared].tolist()))
+        if names:
+            entries = [part.entries[shared & (own == name)] for name in names]
+            states = [part.columns[labels[part.columns] == name] for name in names]
+            found.append((names[0] == "", list(zip(states, entries, strict=True))))
     return found
