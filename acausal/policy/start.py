@@ -135,6 +135,8 @@ class Rest:
     relaxation: int = 400
     # Largest change of a state in a step, in nominal values: a joint that turns by no more stays on its branch.
     far: float = 0.3
+    # Change of a coordinate beyond which an equilibrium may not be the one that is near: a quarter of a turn, and some.
+    turn: float = 1.6
     # Steps of the relaxation over the time of the feedback: the first, their growth, the last, and the shortest.
     first: float = 1e-3
     growth: float = 1.5

@@ -69,7 +69,11 @@ class Equilibrium:
         InitializationError
             If there is no equilibrium, none is found, or the initial conditions do not hold in it.
         """
-        found = self._tried(first) or self._newton(self.guess)
+        found = self._tried(first)
+        if found is None or self._far(self._apart(found)) > REST.turn:
+            # What Newton's steps of any length lead to may be turns away.
+            near = [here for here in (self._newton(self.guess), found) if here]
+            found = min(near, key=self._distance, default=None)
         rate, push = (0.0, np.zeros(self.nx)) if found is None else self._growing(found)
         at = relaxed = self.guess
         growth, attempts = REST.growth, REST.attempts
