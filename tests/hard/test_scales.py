@@ -236,3 +236,10 @@ def test_mass_of_zero_that_must_move_is_refused():
 
     with pytest.raises(ac.AcausalError, match=r"hinge|body"):
         ac.simulate(Empty(), stop_time=1.0)
+
+
+@pytest.mark.parametrize("stop_time", [1e-300, 1e-150, 1e-9])
+def test_the_shortest_runs_of_a_loop(stop_time):
+    result = ac.simulate(FourBar(), stop_time=stop_time, intervals=10)
+    assert np.all(np.isfinite(result["j1_phi"]))
+    assert abs(result["j1_phi"][-1] - result["j1_phi"][0]) <= 1e-8

@@ -144,7 +144,7 @@ def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: 
     """
     known: Spaces = {}
     for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
-        weights = 1 / (1 + stiffness / (10.0**decade * feedback**2))
+        weights = 1 / (1 + stiffness / (10.0**decade * np.square(feedback)))
         if _transversality(levels, J[None], J * weights, known)[0] >= LOOPS.spared:
             return weights
     return np.ones(len(stiffness))

@@ -130,6 +130,8 @@ def _pendulum() -> Scene:
     stiff = {f"beam.{key}": value for key, value in STIFFENED.items()}
     frame, stretchless = {"elements": 10}, stiff | {"beam.axial": "none"}
     volumes = {"formulation": "substructured", "volumes": 5, "elements_per_volume": 2}
+    # Ten elements end at 1e-3 for the middle's deflection.
+    finer = {"formulation": "substructured", "volumes": 4, "elements_per_volume": 3}
     fine = {"formulation": "substructured", "volumes": 20, "elements_per_volume": 1}
     return Scene(
         "pendulum",
@@ -139,6 +141,7 @@ def _pendulum() -> Scene:
             Curve("5 volumes of 2 elements", volumes, tolerances),
             Curve("5 volumes of 2 elements, one-step", volumes, tolerances, {}, "rosenbrock"),
             Curve("5 volumes of 2 elements, stiffened, one-step", volumes, tolerances, stiff, "rosenbrock"),
+            Curve("4 volumes of 3 elements, stiffened, one-step", finer, (1e-5, 3e-6, 1e-6), stiff, "rosenbrock"),
             Curve("one frame", frame, tolerances),
             Curve("one frame, stiffened", frame, tolerances, stiff),
             Curve("one frame, stiffened, no stretch", frame, tolerances, stretchless),
