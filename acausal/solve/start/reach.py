@@ -47,7 +47,7 @@ def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     x = compiled.start(values, 0.0)[0][:nx] + nominal * around
     constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0)[0], 1.0)
     J = np.abs(c.held(x, values, np.zeros(len(x)), constants.vector) * nominal[c.entries[1]])
-    J = np.nanmedian(J, axis=0)
+    J = np.median(np.nan_to_num(J, nan=0.0), axis=0)
     found = np.ones(nx)
     for declared, groups in _groups(compiled):
         most = [float(np.max(J[shared])) for _, shared in groups]
