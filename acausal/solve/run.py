@@ -17,6 +17,7 @@ from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.meeting import first_meeting
+from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
 from acausal.solve.events.chattering import Chattering
@@ -252,7 +253,9 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.dropped)
+    dropped = done.begun.redundancy.dropped
+    found += locked(integrator.problem, done.begun.point, dropped)
+    found += opened(integrator.problem, integrator.problem.point(rows[-1:], 0), dropped)
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:

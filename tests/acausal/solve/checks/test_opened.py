@@ -1,0 +1,25 @@
+"""A loop whose constraint was dropped wrongly does not pass without a word."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.solve.start import complete
+from acausal.solve.start.redundancy import Redundancy
+from models import Bricard, FourBar
+
+
+def test_a_loop_that_opens_is_named(monkeypatch):
+    monkeypatch.setattr(complete, "find_redundancy", lambda problem, at: Redundancy((0,)))
+    with pytest.warns(ac.AcausalWarning, match=r"j4\.frame_a close .*four_bar\.py.* is open by"):
+        result = ac.simulate(FourBar(), stop_time=0.5, tolerance=1e-4, intervals=50)
+    apart = np.abs(result["b2.frame_b.r_0"][-1] - result["j4.frame_a.r_0"][-1]).max()
+    assert apart > 1e-3
+
+
+@pytest.mark.filterwarnings("error::acausal.AcausalWarning")
+def test_redundant_constraints_hold():
+    result = ac.simulate(Bricard(), stop_time=5.0, tolerance=1e-5)
+    assert not result.stats["doubts"]
