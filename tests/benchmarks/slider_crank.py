@@ -21,6 +21,7 @@ from rich.table import Table
 import acausal as ac
 from models import SliderCrank
 from tests.benchmarks import loop_closing, slider_crank_sizes
+from tests.benchmarks.anew import run_anew
 from tests.benchmarks.exudyn.cable import has_exudyn
 from tests.benchmarks.exudyn.compare import exudyn_reference, own_reference
 from tests.benchmarks.exudyn.scenes import SLIDER_CRANK
@@ -86,7 +87,7 @@ def compiled_costs(
     model, costs = ac.compile(SliderCrank(**options)), []
     how: dict[str, Any] = {"stop_time": STOP, "intervals": INTERVALS}
     for tolerance in tolerances:
-        runs = [ac.simulate(model, tolerance=tolerance, **how) for _ in range(repeats)]
+        runs = [run_anew(model, tolerance=tolerance, **how) for _ in range(repeats)]
         stats = min((r.stats for r in runs), key=lambda s: s["solve_seconds"])
         energy = ac.simulate(model, tolerance=tolerance, energy=True, **how).stats
         curves = curves_of(runs[0])
