@@ -180,7 +180,7 @@ def loaded(runs: bool = True) -> ctypes.CDLL:
 class Pool:
     """Memory of the library for some equations: what nothing uses any more is kept for what needs some next.
 
-    In runs of a few milliseconds making it, and choosing pivots that were chosen for the same values before, takes a tenth.
+    In runs of a few milliseconds making it, and choosing pivots that were chosen for the same values before, takes some per cent.
 
     Parameters
     ----------
