@@ -96,7 +96,7 @@ def typical(found: list[Run], tolerance: float) -> Run:
     failed = [run for run in found if np.isnan(run.error)]
     middle = sorted(found, key=lambda run: run.error)[len(found) // 2]
     seconds = float(np.median([run.seconds for run in found]))
-    return failed[0] if failed else replace(middle, tolerance=tolerance, seconds=seconds)
+    return replace(failed[0] if failed else middle, tolerance=tolerance, seconds=seconds)
 
 
 def runs(scene: str, tolerances: list[float], around: int) -> Iterator[list[Run]]:
