@@ -5,26 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.policy import POLICY
-from acausal.solve.points import Point
+from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 
 
-def opened(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
-    """Name loops that are open although what closes them seemed to follow from other constraints.
+def opened(problem: Problem, rows: Rows, dropped: tuple[int, ...]) -> list[str]:
+    """Name loops that are open at the end of a run although what closes them seemed to follow from other constraints.
 
     Parameters
     ----------
     problem : Problem
         The model.
-    at : Point
-        A position, with algebraic unknowns that satisfy their equations.
+    rows : Rows
+        Of the run; the algebraic unknowns of the last one satisfy their equations.
     dropped : tuple of int
         Constraints that follow from others, as their ranks told at the start.
     """
     if not dropped:
         return []
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
-    at = problem.projected(at)
+    at = problem.projected(problem.point(rows[-1:], 0))
     gap, apart = np.abs(problem.gaps(at)), np.abs(problem.constraints(at)[0])
     wide: dict[int, float] = {}
     for k in dropped:

@@ -12,7 +12,7 @@ from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part
-from acausal.solve.start.reach import levels_of, reaches
+from acausal.solve.start.reach import held_in_sizes, levels_of
 from acausal.solve.start.regular import least_singular_value
 
 LOOPS = POLICY.loops
@@ -86,7 +86,7 @@ def _least(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Consta
     """Smallest singular values of the parts of the constraints at n points, shape (m, n)."""
     c = problem.compiled.constraints
     counts = c.counting(constants.closures) & c.is_lowest
-    held = c.held(x, problem.p, times, constants.vector) * reaches(problem)[c.entries[1]]
+    held, _ = held_in_sizes(problem, x, times, constants.vector)
     held = held / _sizes(c, held)
     parts = [(part, counts[part.rows]) for part in levels_of(problem.compiled)]
     found = [_smallest(part, held, on) for part, on in parts if on.any()]

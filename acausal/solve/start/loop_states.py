@@ -16,7 +16,7 @@ from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part
 from acausal.solve.start.rank import columns_by_pivots, pivots
-from acausal.solve.start.reach import levels_of, reaches
+from acausal.solve.start.reach import held_in_sizes, levels_of
 from acausal.solve.start.tangent import Elimination
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
@@ -225,9 +225,7 @@ def suits(problem: Problem, at: Point) -> bool:
 
 def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
     """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
-    c = problem.compiled.constraints
-    sizes = reaches(problem)[c.entries[1]]
-    return c.held(rows.x, problem.p, rows.times, constants.vector) * sizes, sizes
+    return held_in_sizes(problem, rows.x, rows.times, constants.vector)
 
 
 def least_cosine(problem: Problem) -> float:

@@ -47,15 +47,41 @@ def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     x = compiled.start(values, 0.0)[0][:nx] + nominal * around
     constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0)[0], 1.0)
     J = np.abs(c.held(x, values, np.zeros(len(x)), constants.vector) * nominal[c.entries[1]])
-    J = np.median(np.nan_to_num(J, nan=0.0), axis=0)
+    J = np.median(np.where(np.isfinite(J), J, 0.0), axis=0)
     found = np.ones(nx)
     for declared, groups in _groups(compiled):
         most = [float(np.max(J[shared])) for _, shared in groups]
         to = most[0] if declared and most[0] > 0 else max(most)
-        for (states, _), own in list(zip(groups, most, strict=True))[declared:]:
-            if LOOPS.slight * to < own < np.inf and to < np.inf:
+        free = slice(int(declared), None)  # of those that are declared nothing changes
+        for (states, _), own in zip(groups[free], most[free], strict=True):
+            if own > LOOPS.slight * to:
                 found[states] = to / own
     return found
+
+
+def held_in_sizes(
+    problem: Problem, x: np.ndarray, times: np.ndarray, constants: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return Jacobians of the constraints for states in these sizes, at n points, and the sizes.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    x, times : arrays, shapes (n, nx), (n,)
+        States, and times in s.
+    constants : array
+        Those of the segment, or of each point.
+
+    Returns
+    -------
+    J : array, shape (n, entries)
+        As `Constraints.entries` has them.
+    sizes : array, shape (entries,)
+    """
+    c = problem.compiled.constraints
+    sizes = reaches(problem)[c.entries[1]]
+    return c.held(x, problem.p, times, constants) * sizes, sizes
 
 
 @once

@@ -44,13 +44,14 @@ def find_redundancy(problem: Problem, at: Point) -> Redundancy:
         if aside is None:
             break
         moved, mismatch = close(problem, aside, np.empty(0, int), positions=True)
-        stuck = stuck or not mismatch < RANKS.moved
-        if mismatch < RANKS.moved:
-            entries = problem.gradients(moved).data[held.entries]
-            for k, part in enumerate(doubtful):
-                there = scaled(part.dense(entries))
-                if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
-                    best[k], singular = there, True
+        if not mismatch < RANKS.moved:
+            stuck = True
+            continue
+        entries = problem.gradients(moved).data[held.entries]
+        for k, part in enumerate(doubtful):
+            there = scaled(part.dense(entries))
+            if rank(there, RANKS.nearly) > rank(best[k], RANKS.nearly):
+                best[k], singular = there, True
     if stuck and not singular:
         # What seems to be free is held by what the Jacobian does not show, such as the length of a straight inextensible beam.
         return Redundancy((), True)
