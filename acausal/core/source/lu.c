@@ -1,6 +1,7 @@
 /* Sparse LU whose pivots are kept while the factors stay small: every factorisation runs through one pattern. */
 #include "lu.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,14 +35,14 @@ static int refactor(ac_lu *lu, const double *value) {
         for (int32_t i = lu->l_start[k]; i < lu->l_start[k + 1]; i++) {
             lu->l_rows[lu->l_place[i]] = lu->l[i] = w[lu->l_row[i]] * inverse;
             w[lu->l_row[i]] = 0;
-            good &= fabs(lu->l[i]) <= GROWN;
+            good &= fabs(lu->l[i]) <= lu->most;
         }
         if (!good) {
             memset(w, 0, (size_t)lu->n * sizeof *w);
             return 0;
         }
     }
-    return grown <= GROWN * given;
+    return grown <= lu->most * given;
 }
 
 /* Take memory for matrices of a pattern, given in columns; NULL where there is none. */
@@ -49,7 +50,7 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
     ac_lu *lu = calloc(1, sizeof *lu);
     if (!lu) return NULL;
     const size_t size = (size_t)n + 1, entries = (size_t)start[n] + 1;
-    lu->n = n;
+    lu->n = n, lu->most = GROWN;
     lu->start = malloc((8 * size + 2 * entries) * sizeof *lu->start);
     lu->scale = calloc(3 * size + 2 * entries, sizeof *lu->scale);
     if (!lu->start || !lu->scale) {
@@ -66,6 +67,9 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
     memcpy(lu->row, row, (size_t)start[n] * sizeof *row);
     return lu;
 }
+
+/* Keep pivots as long as no more than a part is lost, rounding times the growth of both factors, but no less than else. */
+void ac_lu_lose(ac_lu *lu, double part) { lu->most = fmax(GROWN, sqrt(part / DBL_EPSILON)); }
 
 /* Factorise; takes memory only where pivots are chosen. 0, 1 where the matrix is singular, -1 where there is no memory. */
 int32_t ac_lu_factor(ac_lu *lu, const double *value) {

@@ -12,6 +12,7 @@ struct ac_lu {
     int32_t *step;                         /* of each entry of the matrix, the step that takes its row, */
     double *factor;                        /* and the scale of that */
     double *given;                         /* the values for which pivots were chosen */
+    double most;                           /* growth of the factors at which they are chosen anew */
     int32_t *l_start, *l_row, *u_start, *u_row; /* both factors in columns: what eliminates runs through them, */
     int32_t *l_in, *l_column, *u_in, *u_column; /* and in rows, where each begins, those of U from its last column on: what solves */
     int32_t *l_place, *u_place;                 /* of each entry of a column, its place in rows */
@@ -22,6 +23,7 @@ struct ac_lu {
 
 int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int32_t *column);
 void ac_lu_renew(ac_lu *lu);
+void ac_lu_lose(ac_lu *lu, double part);
 int32_t ac_lu_choose(ac_lu *lu, const double *value);
 size_t ac_lu_order_size(const ac_lu *lu);
 void ac_lu_order(const ac_lu *lu, double *order);

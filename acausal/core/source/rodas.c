@@ -4,6 +4,7 @@
 #include "rodas5p.h"
 
 #include "file.h"
+#include "lu.h"
 #include "rodas.h"
 
 #include <float.h>
@@ -18,6 +19,7 @@
 #define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
+#define LOST 0.01 /* of the tolerance, which the factors lose at most */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
@@ -38,6 +40,7 @@ void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const 
 /* Where an integration begins; nothing is computed yet. */
 void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p, const double *c) {
     r->request = *request;
+    ac_lu_lose(r->lu, LOST * request->tolerance);
     memset(&r->progress, 0, sizeof r->progress);
     if (r->of.nx) memcpy(r->y, x, (size_t)r->of.nx * sizeof *x);
     if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
