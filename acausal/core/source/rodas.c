@@ -19,7 +19,7 @@
 #define SHORTENED 0.1         /* change of a first step that resolves too little, and how often it is shortened */
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
-#define LOST 0.01 /* of the tolerance, which the factors lose at most */
+#define LOST 1e-4             /* of the tolerance, which the factors lose at most */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
