@@ -79,13 +79,14 @@ class RequestData(Structure):
 
 
 class Progress(Structure):
-    """Counts of an integration, written outputs, kept steps, and the time that was reached."""
+    """Counts of an integration, written outputs, kept steps, the time that was reached, and what equations left, see `core.h`."""
 
     _fields_ = (
         *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
         ("written", c_int32),
         ("kept", c_int32),
         ("time", c_double),
+        ("left", c_double),
     )
 
 

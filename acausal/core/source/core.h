@@ -122,7 +122,8 @@ enum { AC_DONE, AC_MORE, AC_MANY, AC_SHORT, AC_UNSOLVED, AC_MEMORY };
 typedef struct {
     int64_t steps, refused, slopes, values, pivots;
     int32_t written, kept; /* outputs and steps */
-    double time;     /* reached */
+    double time;           /* reached */
+    double left;           /* of algebraic equations between steps, the largest residual over the largest sum of its terms */
 } ac_progress;
 
 typedef struct ac_rodas ac_rodas;

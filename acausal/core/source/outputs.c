@@ -1,4 +1,4 @@
-/* What is found between two steps: values at outputs, and integrals. */
+/* What is found between two steps: values at outputs, integrals, and what the algebraic equations leave. */
 #include "rodas.h"
 
 #include <math.h>
@@ -71,4 +71,33 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
         ++*written;
     }
     if (r->of.powers && from < 1) gather(r, from, 1, h);
+}
+
+/* Look at the residuals of the algebraic equations where a step begins; their values and slopes there are known. The error of the
+   states alone is controlled: where these equations have no solution the method goes on. */
+void ac_rodas_look(ac_rodas *r) {
+    const int32_t nx = r->of.nx, *slope = r->of.slopes->output, *value = r->of.values->output;
+    double *terms = r->stage;
+    memset(terms, 0, (size_t)r->n * sizeof *terms);
+    for (int32_t j = 0; j < r->n; j++) {
+        const double y = fabs(r->y[j]);
+        for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->slopes[slope[e]]) * y;
+    }
+    for (int32_t k = 0; k < r->of.nz; k++) {
+        const double residual = fabs(r->values[value[nx + k]]);
+        if (!(residual <= r->left[k])) r->left[k] = residual;
+        if (terms[nx + k] > r->terms[k]) r->terms[k] = terms[nx + k];
+    }
+    r->look = 0;
+}
+
+/* The most of these residuals, over the most of the terms of its equation. */
+double ac_rodas_left(const ac_rodas *r) {
+    double most = 0;
+    for (int32_t k = 0; k < r->of.nz; k++) {
+        const double part = r->left[k] == 0 ? 0 : r->left[k] / r->terms[k];
+        if (!isfinite(part)) return INFINITY;
+        if (part > most) most = part;
+    }
+    return most;
 }

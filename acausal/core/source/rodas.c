@@ -20,6 +20,8 @@
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define LOST 1e-4             /* of the tolerance, which the factors lose at most */
+#define LOOKS 4                /* steps from one look at residuals to the next, but for the first ones */
+#define FIRST_LOOKS 16
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
@@ -50,10 +52,12 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
     r->gathered[0] = r->gathered[1] = 0;
-    r->begun = r->refused = r->unsolved = 0;
+    r->begun = r->refused = r->unsolved = r->look = 0;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;
+    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    memset(r->terms, 0, (size_t)r->of.nz * sizeof *r->terms);
 }
 
 /* Go on from other values at the time that was reached, near those that were. */
@@ -187,6 +191,7 @@ static void stages(ac_rodas *r, double h) {
             for (int32_t k = 0; k < n; k++) u[k] += h * GAMMAS[i] * r->slopes[slope[k]];
         }
         ac_lu_solve(r->lu, u);
+        if (!i && r->look) ac_rodas_look(r);
     }
     /* The last stage starts from y + sum a_8j u_j: the solution is that and u_8, which is the error estimate. */
     const double *last = r->u + (size_t)(STAGES - 1) * (size_t)n;
@@ -255,12 +260,14 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->refused = 0;
         r->progress.steps++;
         r->stale = 1;
+        r->look = r->progress.steps < FIRST_LOOKS || r->progress.steps % LOOKS == 0;
         keep(r);
     }
     int64_t counts[4];
     ac_lu_counts(r->lu, counts);
     r->progress.pivots = counts[0];
     r->progress.time = r->t;
+    r->progress.left = ac_rodas_left(r);
     *progress = r->progress;
     return found;
 }

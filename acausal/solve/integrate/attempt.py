@@ -154,9 +154,9 @@ class Integrator:
             self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
-            return self.settled(found.every(parts), way)
+            return self.settled(found.every(parts), way, integration.left)
         rows = self._reached(integration, parts) if keep else None
-        settled = rows and self.settled(rows, way)
+        settled = rows and self.settled(rows, way, integration.left)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
     def _outcome(self, integration: Integration) -> Leg | Refusal:
@@ -198,14 +198,17 @@ class Integrator:
             return None
         return found.every(parts)
 
-    def settled(self, leg: Leg, way: Way) -> Leg | Refusal:
+    def settled(self, leg: Leg, way: Way, left: float) -> Leg | Refusal:
         """Let the last row of a leg, whose arrays are its own, satisfy the equations, as the next call starts from it.
 
         The other rows are solved when they are read.
-        Without a Newton iteration an integration may go on where the equations have no solution: some rows tell.
+        Without a Newton iteration an integration may go on where the equations have no solution: what they left between
+        steps tells, or else some rows do.
         """
         iterates = METHODS[way.method].multistep
-        given = leg.rows[-1:] if iterates else leg.rows[spread(len(leg.rows), POLICY.calls.settled)]
+        tolerances, most = POLICY.calls.left
+        sure = iterates or left <= min(tolerances * way.tolerance, most)
+        given = leg.rows[-1:] if sure else leg.rows[spread(len(leg.rows), POLICY.calls.settled)]
         found, lost = self.consistent(given)
         last = found[-1:]
         end = self.problem.point(last, 0)

@@ -60,6 +60,11 @@ class ByCore(Integration):
         done = self._rodas.progress
         return done.steps, done.steps + done.refused, done.values
 
+    @property
+    def left(self) -> float:
+        """What algebraic equations left between steps at most, over the most of their terms."""
+        return self._rodas.progress.left
+
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
         refusal = None

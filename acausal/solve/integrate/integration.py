@@ -70,10 +70,17 @@ class Integration(ABC):
         What it was asked for.
     flat : float or None
         Time in s of the first flat position of loops that it passed where it may have left the motion, if it looks for them.
+    left : float
+        What algebraic equations left between steps at most, over the most of their terms, if it looks at that.
     """
 
     request: Request
     flat: float | None = None
+
+    @property
+    def left(self) -> float:
+        """See above."""
+        return np.inf
 
     @property
     @abstractmethod
