@@ -72,7 +72,7 @@ class RequestData(Structure):
         ("largest", c_int32),
         ("most", c_int64),
         ("outputs", c_int32),
-        *((name, c_void_p) for name in ("time", "x", "z", "integral")),
+        *((name, c_void_p) for name in ("time", "x", "z", "integral", "taken")),
         ("room", c_int32),
         *((name, c_void_p) for name in ("step_time", "step_y", "step_dense")),
     )

@@ -122,11 +122,14 @@ class Outputs:
     ----------
     x, z, integral : arrays, shapes (n, nx), (n, nz), (n, 2)
         States, algebraic unknowns as they are interpolated, integrals of the powers.
+    taken : array, shape (n,)
+        Steps up to each output, with the part of the one in which it lies.
     """
 
     x: np.ndarray
     z: np.ndarray
     integral: np.ndarray
+    taken: np.ndarray
 
 
 class Rodas:
@@ -201,7 +204,7 @@ class Rodas:
         """
         e, n = self.equations, len(times) - 1
         rows = 0 if curves else n
-        found = Outputs(*(np.full((rows, columns), np.nan) for columns in (e.nx, e.nz, 2)))
+        found = Outputs(*(np.full((rows, columns), np.nan) for columns in (e.nx, e.nz, 2)), np.full(rows, np.nan))
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")
@@ -209,7 +212,7 @@ class Rodas:
         ends = np.empty(room), np.empty((room, e.nx + e.nz))
         self._steps = *ends, np.empty((room, 3, e.nx + e.nz)) if curves else None
         self._last = times[0], np.concatenate([x, z])
-        written = (None, None, None) if curves else (found.x, found.z, found.integral)
+        written = (None,) * 4 if curves else (found.x, found.z, found.integral, found.taken)
         places = map(address, (times, *written))
         kept = map(address, self._steps)
         request = RequestData(

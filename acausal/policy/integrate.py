@@ -148,6 +148,8 @@ class Energy:
     fewest: int = 48
     rows: int = 192
     most: int = 2**17
+    # Intervals between rows that make a stretch at least: splines of order 5 need 6 nodes, every second row too.
+    least: int = 10
     # Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).
     resolved: int = 8
     # Of the error by halving the intervals, 2^6 for smooth powers, with some caution.
@@ -156,6 +158,8 @@ class Energy:
     # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
     probes: int = 24
     alike: float = 1e-2
+    # Of the tolerance: how far the rates of splines through rows may be off that tell the motion where steps are known.
+    told: float = 10.0
     # Rows at which the stored energy is evaluated, and what of it counts as exchanged even if it rests: powers that cancel
     # leave rounding, which no spline follows.
     looks: int = 9

@@ -110,6 +110,7 @@ typedef struct {
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */
     double *x, *z, *integral;      /* (outputs, ...) what is found; NULL: nothing is written */
+    double *taken;                 /* (outputs) steps up to each, with the part of its own; NULL: not written */
     int32_t room;                  /* for steps that are kept: the first ones since one was told to go on */
     double *step_time, *step_y;    /* (room), (room, nx + nz) their ends */
     double *step_dense;            /* (room, 3, nx + nz) coefficients of their interpolants, see `outputs.c`; NULL: none */

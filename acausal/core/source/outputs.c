@@ -62,6 +62,7 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
         const double s = fmin((q->time[*written + 1] - r->t) / h, 1);
         if (r->of.powers) gather(r, from, s, h);
         from = s;
+        if (q->taken) q->taken[*written] = (double)r->progress.steps + s;
         if (q->x) {
             interpolate(r, s, r->stage);
             if (nx) memcpy(q->x + (size_t)*written * nx, r->stage, nx * sizeof(double));

@@ -173,10 +173,13 @@ class Integrator:
         if self.is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)
         trace.flat += [integration.flat] if integration.flat is not None else []
-        few = POLICY.energy.resolved if METHODS[way.method].multistep and self.order <= 2 else 1
-        if request.works and not self.compiled.powers.is_zero() and steps < n * few:
-            given = np.vstack([np.zeros((1, 2)), found.energy])
-            work, known = refined(self.consistent, found.since(at), given, way.tolerance, steps < n)
+        taken, few = (
+            integration.taken,
+            POLICY.energy.resolved if METHODS[way.method].multistep and self.order <= 2 else 1,
+        )
+        if request.works and not self.compiled.powers.is_zero() and (taken is not None or steps < n * few):
+            given, smooth = np.vstack([np.zeros((1, 2)), found.energy]), taken is not None or steps < n
+            work, known = refined(self.consistent, found.since(at), given, way.tolerance, taken, smooth)
             found, trace.rough = replace(found, energy=work[1:]), trace.rough or not known
         return found
 

@@ -65,6 +65,11 @@ class ByCore(Integration):
         """What algebraic equations left between steps at most, over the most of their terms."""
         return self._rodas.progress.left
 
+    @property
+    def taken(self) -> np.ndarray | None:
+        """Steps up to the start and each output, with parts of steps."""
+        return np.append(0.0, self._found.taken)
+
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
         refusal = None

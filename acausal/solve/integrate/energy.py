@@ -2,7 +2,8 @@
 
 An integrator chooses its steps for the states alone: where these are longer than the intervals between rows, its own
 quadrature may be far off. The powers at the rows are then smooth from one to the next, and splines through them are
-right, which fewer nodes tell; elsewhere the integrator's steps are the better points.
+right, which fewer nodes tell; elsewhere the integrator's steps are the better points. A run has stretches of both kinds: what
+settles does so in a small part of it.
 """
 
 from __future__ import annotations
@@ -52,11 +53,13 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def refined(
-    solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float, smooth: bool
+    solver: Consistent, rows: Rows, given: np.ndarray, tolerance: float, taken: np.ndarray | None, smooth: bool
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row, and whether it is known to the tolerance.
 
-    It comes from splines through some rows, or all, or points between them; or from the integrator where it agrees.
+    It comes from the integrator where its steps are no longer than the intervals between rows, and these do not tell the
+    motion. In other stretches it comes from splines through some rows, or all, or points between them; or from the integrator
+    where it agrees.
 
     Parameters
     ----------
@@ -68,15 +71,69 @@ def refined(
         What the integrator found, in J.
     tolerance : float
         Relative to the work between two nodes of a spline, taken positive and on average, or to what is stored meanwhile.
+    taken : array, shape (n,), or None
+        Steps up to each row, with parts of steps; not known if None.
     smooth : bool
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
-    t, last = rows.times, len(rows) - 1
-    count = min(ENERGY.fewest, last)
-    exchanged = _exchanged(solver, rows)
-    least = tolerance * exchanged
+    known, work = True, np.diff(given, axis=0)
+    apart = np.zeros(len(work), dtype=bool) if taken is None else np.diff(taken) < 1
+    apart = (
+        apart
+        if apart.all()
+        else apart | _told(solver, rows, ENERGY.alike if taken is None else ENERGY.told * tolerance)
+    )
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], apart, [False]])))
+    stretches = [(first, last) for first, last in ends.reshape(-1, 2).tolist() if last - first >= ENERGY.least]
+    exchanged = _exchanged(solver, rows) if stretches else 0.0
+    for first, last in stretches:
+        some = slice(first, last + 1)
+        steps = None if taken is None else taken[some]
+        found, sure = _by_splines(solver, rows[some], given[some], tolerance, exchanged, steps, smooth)
+        work[first:last], known = np.diff(found, axis=0), known and sure
+    return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), known
+
+
+def _told(solver: Consistent, rows: Rows, within: float) -> np.ndarray:
+    """Whether the rows at both ends of an interval tell the motion: splines through all have the rates of the states.
+
+    `within` is how far off they may be, in what the states change in the run and over the interval.
+    """
+    if len(rows) < ENERGY.least:
+        return np.ones(len(rows) - 1, dtype=bool)
+    off = np.abs(_slopes(solver, rows) - solver.rates(solver(rows)[0]))
+    h, scale = (
+        np.diff(rows.times)[:, None],
+        np.ptp(rows.x, axis=0) + ENERGY.rounding * solver.compiled.nominal[: off.shape[1]],
+    )
+    return np.all(np.maximum(off[1:], off[:-1]) * h <= within * scale, axis=1)
+
+
+def _nodes(times: np.ndarray, taken: np.ndarray | None, count: int) -> np.ndarray:
+    """Some rows: evenly spread over time, and over the steps that led there, if these are known."""
+    last = len(times) - 1
+    even = np.linspace(0, last, count + 1).round().astype(int)
+    if taken is None:
+        return np.unique(even)
+    along = np.searchsorted(taken, np.linspace(taken[0], taken[-1], count + 1))
+    return np.unique(np.concatenate([even, np.minimum(along, last)]))
+
+
+def _by_splines(
+    solver: Consistent,
+    rows: Rows,
+    given: np.ndarray,
+    tolerance: float,
+    exchanged: float,
+    taken: np.ndarray | None,
+    smooth: bool,
+) -> tuple[np.ndarray, bool]:
+    """The same for one stretch, in which the stored energy varies by `exchanged` J."""
+    t, last, least = rows.times, len(rows) - 1, tolerance * exchanged
+    # Two nodes for each step: no motion that the integrator followed lies between them.
+    count = min(max(ENERGY.fewest, last if taken is None else 2 * int(np.ceil(taken[-1] - taken[0]))), last)
     while True:
-        some = np.unique(np.linspace(0, last, count + 1).round().astype(int))
+        some = _nodes(t, taken, count)
         power = powers(solver, rows[some])
         if not np.all(np.isfinite(power)):
             return given, False

@@ -72,6 +72,8 @@ class Integration(ABC):
         Time in s of the first flat position of loops that it passed where it may have left the motion, if it looks for them.
     left : float
         What algebraic equations left between steps at most, over the most of their terms, if it looks at that.
+    taken : array, shape (n + 1,), or None
+        Steps up to the start and each output, with parts of steps, if it counts them.
     """
 
     request: Request
@@ -81,6 +83,11 @@ class Integration(ABC):
     def left(self) -> float:
         """See above."""
         return np.inf
+
+    @property
+    def taken(self) -> np.ndarray | None:
+        """See above."""
+        return None
 
     @property
     @abstractmethod
