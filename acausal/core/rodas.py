@@ -204,7 +204,7 @@ class Rodas:
         """
         e, n = self.equations, len(times) - 1
         rows = 0 if curves else n
-        found = Outputs(*(np.full((rows, columns), np.nan) for columns in (e.nx, e.nz, 2)), np.full(rows, np.nan))
+        found = Outputs(*(np.full((rows, *shape), np.nan) for shape in ((e.nx,), (e.nz,), (2,), ())))
         times, x, z, p, c, size = (np.ascontiguousarray(a, dtype=float) for a in (times, x, z, p, c, size))
         if (len(x), len(z), len(p), len(c), len(size)) != (e.nx, e.nz, e.np, e.nc, e.nx):
             raise ValueError("the arguments do not fit the equations")

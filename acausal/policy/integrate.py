@@ -158,8 +158,9 @@ class Energy:
     # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
     probes: int = 24
     alike: float = 1e-2
-    # Of the tolerance: how far the rates of splines through rows may be off that tell the motion where steps are known.
-    told: float = 10.0
+    # How far the rates of splines through rows that tell the motion may be off, of the change over the interval: over the
+    # tolerance where steps are known; and where they are not: quadratures of IDAS are right to a few thousandths.
+    told: tuple[float, float] = (10.0, 1e-3)
     # Rows at which the stored energy is evaluated, and what of it counts as exchanged even if it rests: powers that cancel
     # leave rounding, which no spline follows.
     looks: int = 9

@@ -78,11 +78,9 @@ def refined(
     """
     known, work = True, np.diff(given, axis=0)
     apart = np.zeros(len(work), dtype=bool) if taken is None else np.diff(taken) < 1
-    apart = (
-        apart
-        if apart.all()
-        else apart | _told(solver, rows, ENERGY.alike if taken is None else ENERGY.told * tolerance)
-    )
+    tolerances, within = ENERGY.told
+    if not apart.all():
+        apart = apart | _told(solver, rows, within if taken is None else tolerances * tolerance)
     ends = np.flatnonzero(np.diff(np.concatenate([[False], apart, [False]])))
     stretches = [(first, last) for first, last in ends.reshape(-1, 2).tolist() if last - first >= ENERGY.least]
     exchanged = _exchanged(solver, rows) if stretches else 0.0

@@ -7,7 +7,23 @@ import pytest
 from scipy.integrate import quad, simpson
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, cos, der, exp, fixed, quantity, reinit, sin, time, variable, when
+from acausal import (
+    Model,
+    Scalar,
+    chain,
+    connect,
+    cos,
+    der,
+    exp,
+    fixed,
+    piecewise,
+    quantity,
+    reinit,
+    sin,
+    time,
+    variable,
+    when,
+)
 from acausal.solve.integrate import energy
 from components import rotational
 from models import SCENES
@@ -64,6 +80,54 @@ def test_work_of_many_turns(tolerance, stop, intervals, method):
     # Each turn lifts and lowers this much.
     gross = 1e3 / 2 * (1.25**2 - 0.6**2) * 30 * stop / np.pi
     assert abs(stats["energy_supplied"] - exact) < 10 * tolerance * gross
+
+
+class Released(Model):
+    """A rotor on a spring with a strong damper: all of it is over in a few seconds, most in a tenth of one."""
+
+    rotor = rotational.Inertia(J=1.0, phi=fixed(1.0), w=fixed(0.0))
+    spring = rotational.SpringDamper(c=100.0, d=60.0)
+    wall = rotational.Fixed()
+
+    def connections(self):
+        yield chain(self.wall.flange, self.spring, self.rotor)
+
+
+@pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
+@pytest.mark.parametrize("intervals", [1, 40, 400, 4000])
+@pytest.mark.parametrize("stop", [10.0, 20.0, 100.0, 1000.0])
+def test_heat_of_a_short_part_of_a_run(stop, intervals, method):
+    stats = ac.simulate(compiled(Released), stop_time=stop, intervals=intervals, method=method, energy=True).stats
+    assert stats["energy_dissipated"] == pytest.approx(50.0, rel=1e-4 if method == "idas" else 1e-5)
+
+
+class Positioning(Model):
+    """A controlled rotor goes to three positions, each in a second: what is supplied is dissipated."""
+
+    wall, damper = rotational.Fixed(), rotational.Damper(d=0.3)
+    rotor, motor = rotational.Inertia(J=0.5, phi=fixed(0), w=fixed(0)), rotational.Torque()
+
+    def connections(self):
+        yield chain(self.wall.flange, self.damper, self.rotor)
+        yield connect(self.motor.flange, self.rotor.flange_b)
+
+    def equations(self):
+        wanted = piecewise((1.0, time < 20), (2.0, time < 40), -1.0)
+        gain, rate = quantity(200.0, "N.m/rad"), quantity(20.0, "N.m.s/rad")
+        yield self.motor.tau == gain * (wanted - self.rotor.phi) - rate * self.rotor.w
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+@pytest.mark.parametrize("intervals", [100, 400, 2000])
+def test_work_of_positioning(intervals, method):
+    stats = ac.simulate(compiled(Positioning), stop_time=60.0, intervals=intervals, method=method, energy=True).stats
+    root = np.sqrt(20.3**2 - 4 * 0.5 * 200)
+    fast, slow = (20.3 + root) / (2 * 0.5), (20.3 - root) / (2 * 0.5)
+    # w = 400 s (exp(-slow t) - exp(-fast t)) / (fast - slow)
+    squares = (400 / (fast - slow)) ** 2 * (1 / (2 * slow) + 1 / (2 * fast) - 2 / (slow + fast))
+    heat = 0.3 * squares * (1 + 1 + 9)
+    for name in ("energy_supplied", "energy_dissipated"):
+        assert stats[name] == pytest.approx(heat, rel=3e-3 if method == "idas" else 3e-5)
 
 
 class Slipping(Model):
