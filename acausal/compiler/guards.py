@@ -119,6 +119,13 @@ class Guards:
         """Function of parameters and constants: instants of comparisons of time with discrete variables, until these change."""
         return Call(ca.Function("planned", [self.reduced.p, self.reduced.constants], [self._planned[1]]))
 
+    @cached_property
+    def smooth(self) -> Call:
+        """Function of parameters and constants: instants of comparisons, linear in time, of laws that are declared smooth."""
+        r = self.reduced
+        compared = r.running.resolve(stacked(promise.compared for promise in r.flat.discontinuities.promises))
+        return Call(ca.Function("smooth", [r.p, r.constants], [planned_times(r, compared)[1]]))
+
     @property
     def plans(self) -> list[tuple[int, bool]]:
         """For each entry of `planned` the guard that holds the comparison, and whether this holds where it is 0."""

@@ -19,7 +19,7 @@ from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import PENDING, Pending
-from acausal.symbols import dense, scalars, vec
+from acausal.symbols import dense, scalars, stacked, vec
 
 Resolve = Callable[[list[ca.SX]], list[ca.SX]]
 
@@ -82,12 +82,14 @@ class Guard:
 class Promise:
     """A law that is declared smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
 
-    A case holds where the excess is negative, where it is 0 only if `inclusive`.
+    A case holds where the excess is negative, where it is 0 only if `inclusive`. `compared` are the excesses of the comparisons
+    that it is made of.
     """
 
     excess: ca.SX
     step: ca.SX
     value: ca.SX
+    compared: ca.SX
     inclusive: bool
     origin: Origin
 
@@ -122,9 +124,11 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
 
 def promises(pending: Pending, resolve: Resolve) -> tuple[Promise, ...]:
     """Put together what the equations promise of smooth laws; for the arguments see `guards`."""
-    sx = iter(resolve([sx for condition, *law in pending.promises for sx in (condition.excess.sx, *law)]))
+    compared = [stacked(part.excess.sx for part in condition.comparisons) for condition, *_ in pending.promises]
+    parts = zip(pending.promises, compared, strict=True)
+    sx = iter(resolve([sx for (condition, *law), own in parts for sx in (condition.excess.sx, *law, own)]))
     return tuple(
-        Promise(next(sx), next(sx), next(sx), condition.kind == "<=", origin)
+        Promise(next(sx), next(sx), next(sx), next(sx), condition.kind == "<=", origin)
         for (condition, *_), origin in zip(pending.promises, pending.promised, strict=False)
     )
 

@@ -43,6 +43,9 @@ class Rests:
     left: float = 0.5
     # Of the segment: an output so near is at the same place.
     near: float = 1e-9
+    # Of a run: a case of a law that is declared smooth which lasts no longer is ended by a step. Its first step may take a
+    # hundredth of what is ahead, and the law may begin at rest.
+    short: float = 0.01
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Where laws of time act for a short time after a rest: steps that have grown meanwhile could pass over all that they do."""
+"""Where laws of time act for a short time, after a rest or in a case of their own: long steps could pass over that."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from acausal.policy import POLICY
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 
 RESTS = POLICY.rests
 
 
 def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.ndarray) -> list[float]:
-    """Return times in a segment at which laws of time end a rest for a short time, ascending.
-
-    None for the multistep method, whose steps grow slowly, and without the core.
+    """Return times in a segment at which laws of time end a rest for a short time, or begin or end a short case, ascending.
 
     Parameters
     ----------
@@ -32,16 +31,32 @@ def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.nda
     outputs : array
         Output times of the run in s.
     """
-    way, problem, span = integrator.way, integrator.problem, end - at.time
-    if not library() or METHODS[way.method].multistep or not problem.nx:
+    compiled, span, run = integrator.compiled, end - at.time, float(outputs[-1] - outputs[0])
+    if not compiled.nx:
         return []
-    parts = int(np.ceil(RESTS.parts * span / (outputs[-1] - outputs[0])))
-    if parts <= RESTS.least:
-        return []
-    numbers = np.concatenate([[at.time, end], problem.p, at.constants.vector])
-    found = np.array(_found(problem.compiled, way.moves, parts, numbers.tobytes()))
+    found = np.union1d(_after_rests(integrator, at, end, run), _short_cases(integrator.problem, at, end, run))
     near = outputs[np.clip(np.searchsorted(outputs, found - span * RESTS.near), 0, len(outputs) - 1)]
     return np.where(np.abs(near - found) <= span * RESTS.near, near, found).tolist()
+
+
+def _after_rests(integrator: Integrator, at: Point, end: float, run: float) -> tuple[float, ...]:
+    """None for the multistep method, whose steps grow slowly, and without the core."""
+    way, problem = integrator.way, integrator.problem
+    if not library() or METHODS[way.method].multistep:
+        return ()
+    parts = int(np.ceil(RESTS.parts * (end - at.time) / run))
+    if parts <= RESTS.least:
+        return ()
+    numbers = np.concatenate([[at.time, end], problem.p, at.constants.vector])
+    return _found(problem.compiled, way.moves, parts, numbers.tobytes())
+
+
+def _short_cases(problem: Problem, at: Point, end: float, run: float) -> np.ndarray:
+    """Instants around the short cases of laws that are declared smooth."""
+    instants, apart = problem.compiled.guards.smooth(problem.p, at.constants.vector)[0], RESTS.near * (end - at.time)
+    inside = np.unique(instants[(instants > at.time + apart) & (instants < end - apart)])
+    short = np.diff([at.time, *inside, np.inf]) <= RESTS.short * run
+    return inside[short[:-1] | short[1:]]
 
 
 @latest(8)  # segments of a run

@@ -90,3 +90,32 @@ def test_steps_that_stay_cost_no_call() -> None:
     found = ac.simulate(Pushed(), stop_time=10.0, tolerance=1e-6)
     assert found.stats.calls == 1
     assert found["x"][-1] == pytest.approx(2 * (1 - np.exp(-5)), abs=1e-4)
+
+
+class Kicked(Model):
+    """A mass of 1 kg on a spring of 1 N/m, kicked by 1 N.s in a short time that a law without a jump names."""
+
+    at: Scalar = parameter("when", unit="s", default=0)
+    width: Scalar = parameter("for how long", unit="s", default=0.01)
+    x: Scalar = variable("x", start=0, fixed=True)
+    v: Scalar = variable("v", start=0, fixed=True)
+
+    def equations(self):
+        since = time - self.at
+        law = (1 - ac.cos(2 * np.pi * since / self.width)) / self.width
+        yield der(self.x) == self.v
+        yield der(self.v) == piecewise((law, (since > 0) & (since < self.width)), 0, smooth=True) - self.x
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+def test_a_short_case_of_a_smooth_law(method, tolerance) -> None:
+    """x = sin(t - at - width / 2) after it, but for width^2."""
+    for at in (0.0, 7.0):
+        compiled = ac.compile(Kicked(at=at))
+        for width in (0.1, 1e-2, 1e-4, 1e-6):
+            given = {"width": width}
+            found = ac.simulate(compiled, stop_time=20.0, parameters=given, tolerance=tolerance, method=method)
+            expected = np.sin(20.0 - at - width / 2)
+            assert found["x"][-1] == pytest.approx(expected, abs=100 * tolerance + width**2)
+            assert not found.stats.event_times
