@@ -71,12 +71,14 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
 /* Keep pivots as long as no more than a part is lost, rounding times the growth of both factors, but no less than else. */
 void ac_lu_lose(ac_lu *lu, double part) { lu->most = fmax(GROWN, sqrt(part / DBL_EPSILON)); }
 
+/* Factorise with the pivots that were chosen; 0 where there are none, or where they are no longer good. */
+int ac_lu_again(ac_lu *lu, const double *value) { return lu->ready = lu->ready && refactor(lu, value); }
+
 /* Factorise; takes memory only where pivots are chosen. 0, 1 where the matrix is singular, -1 where there is no memory. */
 int32_t ac_lu_factor(ac_lu *lu, const double *value) {
     lu->factored++;
-    if (lu->ready && refactor(lu, value)) return 0;
+    if (ac_lu_again(lu, value)) return 0;
     lu->chosen++;
-    lu->ready = 0;
     const size_t bytes = (size_t)lu->start[lu->n] * sizeof *value;
     if (!lu->known || memcmp(lu->given, value, bytes)) {
         lu->known = 0;

@@ -15,7 +15,7 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     const size_t values = ac_tape_length(e->values), slopes = ac_tape_length(e->slopes);
     const size_t powers = e->powers ? ac_tape_length(e->powers) : 0;
     r->timely = e->slopes->outputs > e->start[r->n];
-    r->lu = ac_lu_make(r->n, e->start, e->row);
+    r->lu = r->kept[0] = ac_lu_make(r->n, e->start, e->row);
     r->block = calloc(values + slopes + powers + (STAGES + 9) * n + entries, sizeof(double));
     if (!r->lu || !r->block) {
         ac_rodas_free(r);
@@ -34,11 +34,14 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
 }
 
 /* Forget what was integrated: what is found from here on does not depend on it. */
-void ac_rodas_renew(ac_rodas *r) { ac_lu_renew(r->lu); }
+void ac_rodas_renew(ac_rodas *r) {
+    r->lu = r->kept[r->turn = 0];
+    ac_lu_renew(r->lu);
+}
 
 void ac_rodas_free(ac_rodas *r) {
     if (!r) return;
-    ac_lu_free(r->lu);
+    for (int k = 0; k < KEPT; k++) ac_lu_free(r->kept[k]);
     free(r->block);
     free(r);
 }

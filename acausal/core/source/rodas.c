@@ -42,7 +42,6 @@ void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const 
 /* Where an integration begins; nothing is computed yet. */
 void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p, const double *c) {
     r->request = *request;
-    ac_lu_lose(r->lu, LOST * request->tolerance);
     memset(&r->progress, 0, sizeof r->progress);
     if (r->of.nx) memcpy(r->y, x, (size_t)r->of.nx * sizeof *x);
     if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
@@ -104,6 +103,22 @@ static double measured(double h) {
     return ldexp(floor(part * GRID) / GRID, exponent);
 }
 
+/* Factors of the matrix, with pivots that are chosen where those of now are no longer good: these are kept, as a run like this
+   one comes to them again. */
+static int32_t factors(ac_rodas *r) {
+    ac_lu_lose(r->lu, LOST * r->request.tolerance);
+    if (ac_lu_again(r->lu, r->matrix)) return 0;
+    if (r->progress.pivots++) {
+        ac_lu **next = &r->kept[r->turn = (r->turn + 1) % KEPT];
+        if (!*next) *next = ac_lu_make(r->n, r->of.start, r->of.row);
+        if (!*next) return -1;
+        r->lu = *next;
+        ac_lu_renew(r->lu);
+        ac_lu_lose(r->lu, LOST * r->request.tolerance);
+    }
+    return ac_lu_factor(r->lu, r->matrix);
+}
+
 /* Factors of M/(h gamma) - J here. */
 static int32_t factorise(ac_rodas *r, double h) {
     const ac_tape *tape = r->of.slopes;
@@ -118,7 +133,7 @@ static int32_t factorise(ac_rodas *r, double h) {
     r->factored = 0;
     for (int32_t k = 0; k < entries; k++) r->matrix[k] = -r->slopes[tape->output[k]];
     for (int32_t k = 0; k < r->of.nx; k++) r->matrix[r->of.diagonal[k]] += 1 / (h * GAMMA);
-    const int32_t failed = ac_lu_factor(r->lu, r->matrix);
+    const int32_t failed = factors(r);
     if (!failed) r->factored = h;
     return failed;
 }
@@ -263,9 +278,6 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->look = r->progress.steps < FIRST_LOOKS || r->progress.steps % LOOKS == 0;
         keep(r);
     }
-    int64_t counts[4];
-    ac_lu_counts(r->lu, counts);
-    r->progress.pivots = counts[0];
     r->progress.time = r->t;
     r->progress.left = ac_rodas_left(r);
     *progress = r->progress;

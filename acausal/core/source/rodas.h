@@ -5,10 +5,13 @@
 #include "core.h"
 #include "rodas5p.h"
 
+#define KEPT 3 /* choices of pivots: most runs take no more, and a run like it takes the same ones */
+
 struct ac_rodas {
     ac_equations of;
     int32_t n, timely; /* unknowns; whether the equations depend on time */
-    ac_lu *lu;
+    ac_lu *lu, *kept[KEPT];                     /* the factors, one of those whose pivots were chosen last */
+    int32_t turn;                               /* which one */
     double *block;                              /* all the memory */
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */

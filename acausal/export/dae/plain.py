@@ -50,7 +50,7 @@ FIELDS: dict[type, str] = {
     FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
     Guard: "condition origin jumps at_start",
     Jump: "target value discrete",
-    Promise: "excess step value inclusive origin",
+    Promise: "excess step value compared inclusive origin",
     Plan: "system differentiated created states blocks algebraic residuals assigned observed constrained",
     System: "rows explicit derivative declared defines preference monic closures",
     Block: "equations variables",
