@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from pathlib import Path
 
@@ -31,6 +32,9 @@ class Bounces(ac.Model):
         yield self.y == 2 * self.h
         yield ac.when(self.h < 0, ac.reinit(self.v, -0.8 * self.v), ac.reinit(self.n, self.n + 1))
 
+    def validity(self):
+        yield ac.expect(self.h, 1.0, 2.0, "what is looked at after a run")
+
 
 def interrupted(at: int | None, **how):
     """Simulate, interrupted at one line of many that Python runs in the solver; the lines and the interrupt."""
@@ -43,7 +47,7 @@ def interrupted(at: int | None, **how):
         if event == "line":
             count += 1
             if count == at:
-                raise KeyboardInterrupt
+                signal.raise_signal(signal.SIGINT)
         return trace
 
     before = sys.gettrace()
@@ -71,6 +75,7 @@ def test_interrupted_anywhere(energy, method):
         if interrupt is None or (result := getattr(interrupt, "result", None)) is None:
             continue
         assert np.array_equal(result.time, whole.time[: len(result.time)])
+        assert result.stats.steps <= whole.stats.steps
         kept += len(result.time) > 1
         for name in ("y", "n"):
             # The last row may be at an event that has not happened yet.
