@@ -163,10 +163,8 @@ class Integrator:
         """Integrate; return the rows, unless that failed or left the solution."""
         request, trace = integration.request, self.trace
         way, at, n = request.way, request.at, len(request.times) - 1
-        started = clock.perf_counter()
-        refusal = integration.go()
-        trace.seconds += clock.perf_counter() - started
-        steps = trace.count(way.method, *integration.counts)
+        with trace.counting(way.method, lambda: integration.counts):
+            refusal = integration.go()
         if refusal:
             return refusal
         found = integration.leg()
@@ -174,9 +172,9 @@ class Integrator:
             return Refusal(Kind.WORN, at.time)
         trace.flat += [integration.flat] if integration.flat is not None else []
         few = POLICY.energy.resolved if METHODS[way.method].multistep and self.order <= 2 else 1
-        if request.works and not self.compiled.powers.is_zero() and steps < n * few:
+        if request.works and not self.compiled.powers.is_zero() and found.steps < n * few:
             given = np.vstack([np.zeros((1, 2)), found.energy])
-            work, known = refined(self.consistent, found.since(at), given, way.tolerance, steps < n)
+            work, known = refined(self.consistent, found.since(at), given, way.tolerance, found.steps < n)
             found, trace.rough = replace(found, energy=work[1:]), trace.rough or not known
         return found
 

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.core import library
 from acausal.solve import run as module
+from acausal.solve.integrate.by_core import ByCore
 
 SOLVER = Path(module.__file__).parent
 FILES = ("events/course.py", "integrate/attempt.py", "integrate/interrupted.py", "integrate/trace.py")
@@ -82,3 +84,21 @@ def test_interrupted_anywhere(energy, method):
             rows = slice(0, len(result.time) - 1)
             np.testing.assert_allclose(result[name][rows], whole[name][rows], atol=1e-5)
     assert kept > PLACES / 2
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+def test_steps_of_a_look_ahead_are_counted(monkeypatch):
+    go = ByCore.advance
+
+    def cut(self, steps):
+        go(self, steps)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ByCore, "advance", cut)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(Bounces(), stop_time=2.5, method="rosenbrock")
+    stats = caught.value.result.stats
+    assert stats.calls == 1
+    assert stats.method_steps == {"rosenbrock": stats.steps}
+    assert 0 < stats.steps < stats.residual_evaluations
+    assert stats.integration_seconds > 0
