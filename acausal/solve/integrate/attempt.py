@@ -147,7 +147,8 @@ class Integrator:
         except RuntimeError:
             # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
             return Refusal(Kind.UNSOLVABLE, at.time)
-        self.trace.building += clock.perf_counter() - started
+        finally:
+            self.trace.building += clock.perf_counter() - started
         try:
             found = self._outcome(integration)
         except KeyboardInterrupt:

@@ -38,6 +38,15 @@ class Bounces(ac.Model):
         yield ac.expect(self.h, 1.0, 2.0, "what is looked at after a run")
 
 
+class Falls(ac.Model):
+    """A speed."""
+
+    v: ac.Scalar = ac.variable("speed", start=0.0, fixed=True)
+
+    def equations(self):
+        yield ac.der(self.v) == -9.81
+
+
 def interrupted(at: int | None, **how):
     """Simulate, interrupted at one line of many that Python runs in the solver; the lines and the interrupt."""
     count = 0
@@ -102,3 +111,17 @@ def test_steps_of_a_look_ahead_are_counted(monkeypatch):
     assert stats.method_steps == {"rosenbrock": stats.steps}
     assert 0 < stats.steps < stats.residual_evaluations
     assert stats.integration_seconds > 0
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+def test_what_an_integrator_took_to_build_is_counted(monkeypatch):
+    def cut(*_, **__):
+        raise KeyboardInterrupt
+
+    compiled = ac.compile(Falls())
+    monkeypatch.setattr(ByCore, "__init__", cut)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(compiled, stop_time=2.5, method="rosenbrock")
+    stats = caught.value.result.stats
+    assert stats.calls == 0
+    assert stats.compile_seconds > sum(compiled.seconds.values())
