@@ -25,6 +25,7 @@ class Signals:
     def __init__(self) -> None:
         self._before: dict[int, Any] = {}
         self._caught: BaseException | None = None
+        self._lost: BaseException | None = None  # the same, until it is known to be heard
 
     def __enter__(self) -> Signals:
         try:
@@ -51,7 +52,7 @@ class Signals:
         try:
             self._before[number](number, frame)
         except BaseException as error:
-            self._caught = error
+            self._caught = self._lost = error
             if not self._wait:
                 raise
 
@@ -66,12 +67,22 @@ class Signals:
     def raise_lost(cls) -> None:
         """Raise what a handler raised since the outermost block began: for use before work that takes long.
 
-        What is being handled is not lost.
+        What is being handled is not lost, nor what was `heard`.
         """
-        for block in cls._open if current_thread() is main_thread() else ():
-            if block._caught is not None and not _is_handled(block._caught):
-                lost, block._caught = block._caught, None
-                raise lost
+        for block in cls._own():
+            if block._lost is not None and not _is_handled(block._lost):
+                raise block._lost
+
+    @classmethod
+    def heard(cls) -> None:
+        """Count nothing that a handler raised so far as lost: for who caught it and works on; blocks end with it all the same."""
+        for block in cls._own():
+            block._lost = None
+
+    @classmethod
+    def _own(cls) -> list[Signals]:
+        """Open blocks of this thread."""
+        return cls._open if current_thread() is main_thread() else []
 
     @classmethod
     def forget(cls) -> None:

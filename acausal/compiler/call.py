@@ -53,6 +53,7 @@ class Call:
         self.outputs = [np.zeros(function.nnz_out(i)) for i in range(function.n_out())]
         pair: Any = function.buffer()
         self.buffer, self.evaluate = pair
+        self._ran = False
         for i, array in enumerate(self.inputs):
             self.buffer.set_arg(i, memoryview(array))
         for i, array in enumerate(self.outputs):
@@ -67,11 +68,13 @@ class Call:
 
     def clear(self) -> None:
         """Make all outputs NaN: those that an evaluation does not reach, because of a failure or an interrupt, remain NaN."""
+        self._ran = False
         for array in self.outputs:
             array.fill(np.nan)
 
     def succeeds(self) -> bool:
         """Evaluate in place, and return whether that worked."""
+        self._ran = True
         try:
             self.evaluate()
         except RuntimeError:
@@ -88,6 +91,6 @@ class Call:
     def stats(self) -> dict:
         """Return the statistics of the last evaluation, none where it was interrupted before it began."""
         try:
-            return self.buffer.stats()
+            return self.buffer.stats() if self._ran else {}
         except RuntimeError:
             return {}

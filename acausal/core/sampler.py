@@ -81,6 +81,11 @@ class SampledState(Structure):
         ("rows", c_int32),
     )
 
+    @property
+    def counts(self) -> tuple[int, int, int, int]:
+        """Steps, factorisations, evaluations of the equations, and instants."""
+        return self.steps, self.steps + self.refused, self.values, self.instants
+
 
 @dataclass(frozen=True, eq=False)
 class Sampled:
@@ -246,14 +251,13 @@ class Sampler:
 
     def go(
         self,
-        time: float,
+        state: SampledState,
         x: np.ndarray,
         z: np.ndarray,
         c: np.ndarray,
         truth: np.ndarray,
         *,
         end: float,
-        step: float,
         steps: int,
         density: int,
     ) -> Samples:
@@ -261,20 +265,20 @@ class Sampler:
 
         Parameters
         ----------
-        time, x, z, c : float and arrays
+        state : SampledState
+            Time, and first step, chosen if 0; it is changed, even if an interrupt follows.
+        x, z, c : arrays
             Where it is, consistent.
         truth : array of bool
             Which conditions hold there.
         end : float
             Of the segment in s.
-        step : float
-            First step in s, chosen if 0.
         steps : int
             After how many, refused ones among them, it comes back at an instant.
         density : int
             Pairs of looks between two outputs at least.
         """
-        e, state, request = self.sampled.equations, SampledState(time=time, step=step), self._request
+        e, request = self.sampled.equations, self._request
         x, z, c = (np.array(a, dtype=float) for a in (x, z, c))
         truth = np.array(truth, dtype=np.int32)
         if (len(x), len(z), len(c), len(truth)) != (e.nx, e.nz, e.nc, len(self._peak)):

@@ -274,7 +274,7 @@ def _operation(row: Row, there: _There) -> tuple[str, Any]:
         parts = [node.dep(k) for k in range(node.n_dep())]
         function = Call(ca.Function("node", there.whole.arguments, [ca.densify(ca.vertcat(node, *parts))]))
         value, *inner = function(*there.arguments)[0].tolist()
-        if np.isfinite(value) or not np.all(np.isfinite(inner)):
+        if np.isfinite(value) or not parts or not np.all(np.isfinite(inner)):
             continue
         divides = node.op() in (ca.OP_DIV, ca.OP_INV)
         operand = parts[-1 if divides else 0]

@@ -58,6 +58,8 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
     head = f"the run {'cannot start' if begins else 'stopped'} at t = {failure.time:.6g} s:"
     if failure.kind is None:
         return f"{head} {failure.reason.removesuffix('.')}."
+    if long := _too_long(problem, begun, integrator.span[1]):
+        return f"{head} {failure.reason}.\n{long}"
     near = approached(integrator, at, failure.time)
     if met := meeting_ahead(problem, near, failure.time):
         return met
@@ -99,10 +101,27 @@ LIMITS = (
 )
 
 
+def _too_long(problem: Problem, begun: Point, stop: float) -> str:
+    """Say that times at the end of a run are further apart than values take to change at its start; "" if they are not."""
+    rates, apart = _rates(problem, begun), float(np.spacing(abs(stop)))
+    fastest = float(np.max(rates, where=np.isfinite(rates), initial=0.0))
+    if fastest * apart <= 1:
+        return ""
+    return (
+        f"stop_time={stop:g} is too large: computed times near it are {apart:.2g} s apart, but values change within "
+        f"{1 / fastest:.2g} s at the start. Let the run end earlier, stop_time=...."
+    )
+
+
+def _rates(problem: Problem, at: Point) -> np.ndarray:
+    """How fast the states change at a point, in their sizes over s."""
+    return np.abs(problem.values(at)[: problem.nx] / problem.compiled.nominal[: problem.nx])
+
+
 def _fastest(problem: Problem, at: Point) -> str:
     """The states that change fastest at a point, and the equations that say so."""
     compiled = problem.compiled
-    rates = np.abs(problem.values(at)[: compiled.nx] / compiled.nominal[: compiled.nx])
+    rates = _rates(problem, at)
     order = np.argsort(-np.nan_to_num(rates, nan=np.inf))[:MOST]
     moving = [int(k) for k in order if rates[k] > 0 or not np.isfinite(rates[k])]
     lines = [f"  `{compiled.states[k]}` = {at.x[k]:.4g}{_where(problem, k)}" for k in moving]

@@ -15,6 +15,7 @@ from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
 from acausal.result.statistics import Statistics
+from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
 from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.opened import opened
@@ -170,6 +171,7 @@ def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning)
         try:
             done.course.go(at)
         except KeyboardInterrupt as interrupt:
+            Signals.heard()
             return replace(done, failure=interrupt)
         except (Failure, Chattering) as failure:
             done = replace(done, failure=failure)

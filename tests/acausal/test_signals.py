@@ -121,3 +121,54 @@ def test_what_is_handled_is_not_raised_again() -> None:
 def test_what_was_swallowed_is_raised_at_the_end() -> None:
     with pytest.raises(KeyboardInterrupt), Signals(), contextlib.suppress(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)
+
+
+def hearing(kept: list[str]) -> None:
+    with Signals():
+        try:
+            with Signals(), quiet():
+                signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            Signals.heard()
+        with quiet():
+            kept.append("what was computed")
+
+
+def deaf_after_a_while() -> None:
+    with Signals():
+        for _ in range(2):
+            Signals.heard()
+            with contextlib.suppress(KeyboardInterrupt):
+                signal.raise_signal(signal.SIGINT)
+        Signals.raise_lost()
+        pytest.fail("the interrupt is lost")
+
+
+def deaf(raised: list[int]) -> None:
+    with Signals(), Signals():
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        for place in range(3):
+            try:
+                Signals.raise_lost()
+            except KeyboardInterrupt:
+                raised.append(place)
+
+
+def test_what_was_heard_is_raised_again_at_the_end_alone() -> None:
+    kept: list[str] = []
+    with pytest.raises(KeyboardInterrupt):
+        hearing(kept)
+    assert kept
+
+
+def test_what_is_swallowed_after_another_one_was_heard_is_lost() -> None:
+    with pytest.raises(KeyboardInterrupt):
+        deaf_after_a_while()
+
+
+def test_what_is_swallowed_again_is_still_lost() -> None:
+    raised: list[int] = []
+    with pytest.raises(KeyboardInterrupt):
+        deaf(raised)
+    assert raised == [0, 1, 2]

@@ -7,8 +7,12 @@ import pytest
 from typer.testing import CliRunner
 
 import acausal as ac
-from acausal import Model, Scalar, der, output, variable
+from acausal import Model, Scalar, der, output, time, variable
 from acausal.cli import app
+from acausal.solve.causes import without_value
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from models import SimplePendulum, SliderCrank
 
 FILE = """
 from acausal import Model, Scalar, der, fixed, output, variable
@@ -36,6 +40,13 @@ class Explosion(Model):
         yield self.x == self.y
 
 
+class Aging(Model):
+    y: Scalar = variable("y", start=1, fixed=True)
+
+    def equations(self):
+        yield der(self.y) == -time * self.y
+
+
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "own.py"
@@ -50,6 +61,29 @@ def test_what_was_computed_is_kept(capfd):
     assert 0.98 < part.time[-1] < 1
     np.testing.assert_allclose(part["x"], 1 / (1 - part.time), rtol=1e-2)
     assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize(("scene", "stop_time"), [(SimplePendulum, 1e160), (SliderCrank, 1e200), (SliderCrank, 1e300)])
+def test_a_stop_time_that_is_too_large(scene, stop_time):
+    with pytest.raises((ac.SimulationError, ac.InitializationError)) as caught:
+        ac.simulate(scene(), stop_time=stop_time)
+    text = str(caught.value)
+    assert f"stop_time={stop_time:g} is too large" in text
+    assert "Let the run end earlier" in text
+    assert "equations above" not in text
+
+
+def test_an_explosion_in_a_long_run_is_not_put_down_to_its_stop_time():
+    with pytest.raises(ac.SimulationError, match=r"stopped at t = (0\.99\d+|1) s[\s\S]*`[xy]`"):
+        ac.simulate(Explosion(), stop_time=1e9)
+
+
+def test_a_number_that_is_not_finite_by_itself_is_told():
+    """Here the time itself; no operation is to blame."""
+    compiled = ac.compile(Aging())
+    problem = Problem(compiled, compiled.parameter_values(None))
+    at = Point(np.nan, np.ones(1), np.empty(0), compiled.layout.begin(np.empty(0), 1.0))
+    assert "holds a number that is not finite" in without_value(problem, at)
 
 
 def test_before_the_explosion_all_is_well():

@@ -6,13 +6,12 @@ conditions stay clear of their changes, and what becomes true at an instant lets
 
 from __future__ import annotations
 
-import time as clock
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.compiler.core_equations import core_equations, core_sampled
-from acausal.core import Back, Sampler, library
+from acausal.core import Back, SampledState, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
@@ -63,17 +62,14 @@ class Sampling:
         integrator = self.integrator
         trace, way = integrator.trace, integrator.way
         at = integrator.restarted(at, way.moves)
-        started = clock.perf_counter()
-        found = sampler.go(
-            *(at.time, at.x, at.z, at.constants.vector, at.truth),
-            end=end,
-            step=self.ahead.step,
-            steps=at_once(sampler.sampled.equations),
-            density=self.ahead.stride.density,
-        )
-        trace.seconds += clock.perf_counter() - started
-        state = found.state
-        trace.count(way.method, state.steps, state.steps + state.refused, state.values, calls=state.instants)
+        state = SampledState(time=at.time, step=self.ahead.step)
+        with trace.counting(way.method, lambda: state.counts):
+            found = sampler.go(
+                *(state, at.x, at.z, at.constants.vector, at.truth),
+                end=end,
+                steps=at_once(sampler.sampled.equations),
+                density=self.ahead.stride.density,
+            )
         integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
         instants = np.isfinite(found.events)

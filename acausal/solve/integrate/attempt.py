@@ -147,7 +147,8 @@ class Integrator:
         except RuntimeError:
             # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
             return Refusal(Kind.UNSOLVABLE, at.time)
-        self.trace.building += clock.perf_counter() - started
+        finally:
+            self.trace.building += clock.perf_counter() - started
         try:
             found = self._outcome(integration)
         except KeyboardInterrupt:
@@ -163,22 +164,20 @@ class Integrator:
         """Integrate; return the rows, unless that failed or left the solution."""
         request, trace = integration.request, self.trace
         way, at, n = request.way, request.at, len(request.times) - 1
-        started = clock.perf_counter()
-        refusal = integration.go()
-        trace.seconds += clock.perf_counter() - started
-        steps = trace.count(way.method, *integration.counts)
+        with trace.counting(way.method, lambda: integration.counts):
+            refusal = integration.go()
         if refusal:
             return refusal
         found = integration.leg()
         if self.is_worn(found.rows, at.constants):
             return Refusal(Kind.WORN, at.time)
         trace.flat += [integration.flat] if integration.flat is not None else []
-        taken, few = (
-            integration.taken,
+        few, taken = (
             POLICY.energy.resolved if METHODS[way.method].multistep and self.order <= 2 else 1,
+            integration.taken,
         )
-        if request.works and not self.compiled.powers.is_zero() and (taken is not None or steps < n * few):
-            given, smooth = np.vstack([np.zeros((1, 2)), found.energy]), taken is not None or steps < n
+        if request.works and not self.compiled.powers.is_zero() and (taken is not None or found.steps < n * few):
+            given, smooth = np.vstack([np.zeros((1, 2)), found.energy]), taken is not None or found.steps < n
             work, known = refined(self.consistent, found.since(at), given, way.tolerance, taken, smooth)
             found, trace.rough = replace(found, energy=work[1:]), trace.rough or not known
         return found

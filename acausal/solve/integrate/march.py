@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time as clock
 from dataclasses import replace
 
 import numpy as np
@@ -45,7 +44,7 @@ class March:
 
     def __init__(self, integrator: Integrator, at: Point, outputs: np.ndarray, first_step: float) -> None:
         self.integrator, self._outputs, self._start, self._at = integrator, outputs, at, at
-        way, self._steps, self._calls = integrator.way, LOOKS.steps, 1
+        way, self._steps = integrator.way, LOOKS.steps
         self._pieces = len(integrator.trace.pieces)
         self.refusal: Refusal | None = None
         self.step = first_step
@@ -56,7 +55,7 @@ class March:
             *(integrator.rounding(start), first_step, True),
         )
         self._integration = ByCore(request, METHODS[way.method].damps)
-        self._counted = np.zeros(3, dtype=int)
+        self._counted = np.zeros(4, dtype=int)
 
     def goes_on(self, at: Point, end: float) -> bool:
         """Whether it has come to a point, on its way to an end."""
@@ -72,14 +71,15 @@ class March:
         return leg
 
     def _advance(self) -> None:
-        trace, started = self.integrator.trace, clock.perf_counter()
-        self.refusal = self._integration.advance(self._steps)
-        trace.seconds += clock.perf_counter() - started
-        counts = np.array(self._integration.counts)
-        trace.count(self._way.method, *(counts - self._counted).tolist(), calls=self._calls)
-        self._counted, self._calls = counts, 0
+        with self.integrator.trace.counting(self._way.method, self._more):
+            self.refusal = self._integration.advance(self._steps)
         self._steps = min(2 * self._steps, POLICY.calls.steps)
         self._curve = self._integration.curve
+
+    def _more(self) -> list[int]:
+        """What was counted since the last time, all of it in one call."""
+        before, self._counted = self._counted, np.array([*self._integration.counts, 1])
+        return (self._counted - before).tolist()
 
     def leg(self, density: int) -> Leg | None:
         """Return the last steps, with so many pairs of looks in each, and between two outputs; None if there are no steps."""

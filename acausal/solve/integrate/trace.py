@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import time as clock
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -62,14 +64,23 @@ class Trace:
         ends = [np.searchsorted(piece.rows.times, time) for piece in self.pieces]
         self.pieces = [Piece(rows[:n], energy[:n]) for (rows, energy), n in zip(self.pieces, ends, strict=True) if n]
 
-    def count(self, method: str, steps: int, factorisations: int, evaluations: int, calls: int = 1) -> int:
-        """Add the counts of a call, or of a part of one, and return its steps."""
+    def count(self, method: str, steps: int, factorisations: int, evaluations: int, calls: int = 1) -> None:
+        """Add the counts of a call, or of a part of one."""
         self.calls += calls
         self.steps += steps
         self.factorisations += factorisations
         self.residual_evaluations += evaluations
         self.methods[method] = self.methods.get(method, 0) + steps
-        return steps
+
+    @contextmanager
+    def counting(self, method: str, counts: Callable[[], Sequence[int]]) -> Iterator[None]:
+        """Add the time that the block takes, and the arguments of `count` that are known after it, even if it is interrupted."""
+        started = clock.perf_counter()
+        try:
+            yield
+        finally:
+            self.count(method, *counts())
+            self.seconds += clock.perf_counter() - started
 
     def add(self, leg: Leg) -> None:
         """Append rows; integrals of power continue from the last one."""

@@ -38,6 +38,9 @@ def test_a_failure_leaves_what_was_not_reached_undefined():
     call.inputs[0][:] = 2.1
     assert call.attempt()[0]
     np.testing.assert_allclose(call.outputs[0], 2.0)
+    assert call.stats["success"]
+    call.clear()
+    assert call.stats == {}
 
 
 @pytest.mark.parametrize("n", [1, 2, AT_ONCE, AT_ONCE + 1, 3 * AT_ONCE - 1])

@@ -10,7 +10,7 @@ import pytest
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, reinit, time, variable, when
 from acausal.compiler.core_equations import core_sampled
-from acausal.core import Back, Sampled, Sampler, library
+from acausal.core import Back, Sampled, SampledState, Sampler, library
 from acausal.core.sampler import THRESHOLDS
 
 pytestmark = pytest.mark.skipif(library() is None, reason="needs the core")
@@ -53,8 +53,8 @@ def sampler(room: int = 100) -> Sampler:
 
 def start(**changes: Any) -> tuple[tuple[Any, ...], dict[str, Any]]:
     """Arguments from the start: discrete variables u, due, n, then the feedback."""
-    given = {"time": 0.0, "x": np.ones(1), "z": np.zeros(0), "c": np.array([0.0, 0.1, 0.0, 1.0])} | changes
-    return (*given.values(), np.zeros(2, dtype=bool)), {"end": 10.0, "step": 0.0, "steps": 10_000, "density": 1}
+    given = {"state": SampledState(), "x": np.ones(1), "z": np.zeros(0), "c": np.array([0.0, 0.1, 0.0, 1.0])} | changes
+    return (*given.values(), np.zeros(2, dtype=bool)), {"end": 10.0, "steps": 10_000, "density": 1}
 
 
 def test_up_to_where_something_else_happens() -> None:
@@ -91,12 +91,12 @@ def test_as_far_as_there_is_room(room: int, instants: int) -> None:
 def test_in_parts_as_at_once() -> None:
     at, how = start()
     whole = sampler().go(*at, **how)
-    parts = []
+    parts, (at, how) = [], start()
     one = sampler(2)
     for _ in range(3):
         parts.append(found := one.go(*at, **how))
-        at = (found.state.time, found.x[-1], found.z[-1], found.c[-1], found.truth)
-        how["step"] = found.state.step
+        state = SampledState(time=found.state.time, step=found.state.step)
+        at = (state, found.x[-1], found.z[-1], found.c[-1], found.truth)
     n = sum(len(part.times) for part in parts)
     np.testing.assert_array_equal(np.concatenate([part.x for part in parts]), whole.x[:n])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from pathlib import Path
 
@@ -9,7 +10,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.core import library
 from acausal.solve import run as module
+from acausal.solve.integrate.by_core import ByCore
 
 SOLVER = Path(module.__file__).parent
 FILES = ("events/course.py", "integrate/attempt.py", "integrate/interrupted.py", "integrate/trace.py")
@@ -31,6 +34,18 @@ class Bounces(ac.Model):
         yield self.y == 2 * self.h
         yield ac.when(self.h < 0, ac.reinit(self.v, -0.8 * self.v), ac.reinit(self.n, self.n + 1))
 
+    def validity(self):
+        yield ac.expect(self.h, 1.0, 2.0, "what is looked at after a run")
+
+
+class Falls(ac.Model):
+    """A speed."""
+
+    v: ac.Scalar = ac.variable("speed", start=0.0, fixed=True)
+
+    def equations(self):
+        yield ac.der(self.v) == -9.81
+
 
 def interrupted(at: int | None, **how):
     """Simulate, interrupted at one line of many that Python runs in the solver; the lines and the interrupt."""
@@ -43,7 +58,7 @@ def interrupted(at: int | None, **how):
         if event == "line":
             count += 1
             if count == at:
-                raise KeyboardInterrupt
+                signal.raise_signal(signal.SIGINT)
         return trace
 
     before = sys.gettrace()
@@ -71,9 +86,42 @@ def test_interrupted_anywhere(energy, method):
         if interrupt is None or (result := getattr(interrupt, "result", None)) is None:
             continue
         assert np.array_equal(result.time, whole.time[: len(result.time)])
+        assert result.stats.steps <= whole.stats.steps
         kept += len(result.time) > 1
         for name in ("y", "n"):
             # The last row may be at an event that has not happened yet.
             rows = slice(0, len(result.time) - 1)
             np.testing.assert_allclose(result[name][rows], whole[name][rows], atol=1e-5)
     assert kept > PLACES / 2
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+def test_steps_of_a_look_ahead_are_counted(monkeypatch):
+    go = ByCore.advance
+
+    def cut(self, steps):
+        go(self, steps)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ByCore, "advance", cut)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(Bounces(), stop_time=2.5, method="rosenbrock")
+    stats = caught.value.result.stats
+    assert stats.calls == 1
+    assert stats.method_steps == {"rosenbrock": stats.steps}
+    assert 0 < stats.steps < stats.residual_evaluations
+    assert stats.integration_seconds > 0
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+def test_what_an_integrator_took_to_build_is_counted(monkeypatch):
+    def cut(*_, **__):
+        raise KeyboardInterrupt
+
+    compiled = ac.compile(Falls())
+    monkeypatch.setattr(ByCore, "__init__", cut)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(compiled, stop_time=2.5, method="rosenbrock")
+    stats = caught.value.result.stats
+    assert stats.calls == 0
+    assert stats.compile_seconds > sum(compiled.seconds.values())

@@ -26,6 +26,7 @@ from acausal import (
 )
 from acausal.compiler import CompiledModel
 from acausal.core import library
+from acausal.core import sampler as core
 from acausal.core.sampler import Sampler
 from acausal.solve.events.sampling import Sampling
 from components import Revolute
@@ -292,6 +293,19 @@ def test_interrupted_between_instants(monkeypatch: Any) -> None:
     result: Any = caught.value.result
     assert 0.5 < result.time[-1] < 2.5
     assert result.stats.stopped == "interrupted"
+
+
+def test_what_was_done_before_an_interrupt_is_counted(monkeypatch: Any) -> None:
+    def cut(go: Any) -> None:
+        go()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(core, "apart", cut)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(compiled(SampledPendulum), stop_time=3.0)
+    stats: Any = caught.value.result.stats
+    assert stats.calls > 10
+    assert stats.calls < stats.steps < stats.residual_evaluations
 
 
 def test_sampled_system_in_closed_form() -> None:

@@ -19,10 +19,11 @@ class Fast(Model):
 
     x: Scalar = output("angle")
     v: Scalar = variable("its rate")
+    square: Scalar = parameter("square of its frequency", default=1e8)
 
     def equations(self):
         yield der(self.x) == self.v
-        yield der(self.v) == -1e8 * sin(self.x)
+        yield der(self.v) == -self.square * sin(self.x)
 
 
 class Watched(Fast):
@@ -68,12 +69,27 @@ def interrupted(cls, after=0.7, values=None, **options):
 @pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
 @pytest.mark.parametrize("cls", [Fast, Watched])
 def test_rows_are_kept(cls, method):
-    result = interrupted(cls, method=method)
+    # So fast that the core, too, needs far longer for all rows than it is given.
+    frequency = 1e5
+    result = interrupted(cls, values={"square": frequency**2}, method=method)
     assert 2 < result.time.size < 120_000
     np.testing.assert_allclose(np.diff(result.time), 30.0 / 120_000, rtol=1e-6)
     assert np.all(np.isfinite(result["x"]))
     # Errors of amplitude add up over thousands of periods.
-    assert np.max(np.abs(result["x"][result.time < 0.5])) < 1.01
+    assert np.max(np.abs(result["x"][result.time < 5e3 / frequency])) < 1.01
+
+
+@pytest.mark.parametrize("method", ["idas", "rosenbrock"])
+def test_what_was_done_is_counted(method):
+    result = interrupted(Fast, values={"square": 1e10}, method=method)
+    stats = result.stats
+    assert stats.method == method
+    assert stats.steps > 20 * result.time.size
+    assert stats.method_steps == {method: stats.steps}
+    assert stats.calls > 0
+    assert stats.factorisations > 0
+    assert stats.residual_evaluations > stats.steps
+    assert 0.0 < stats.integration_seconds < stats.solve_seconds
 
 
 def test_rows_are_those_of_a_complete_run():

@@ -89,8 +89,8 @@ def test_rows_before_a_time(time, left):
 
 def test_counts_of_calls_add_up_and_outlive_the_rows():
     trace = traced(leg(2.0))
-    assert trace.count("idas", 5, 2, 11) == 5
-    assert trace.count("rosenbrock", 3, 3, 0) == 3
+    trace.count("idas", 5, 2, 11)
+    trace.count("rosenbrock", 3, 3, 0)
     trace.count("idas", 1, 0, 0)
     empty = trace.emptied()
     for one in (trace, empty):

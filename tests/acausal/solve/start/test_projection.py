@@ -105,6 +105,9 @@ def test_stiff_coordinates_are_spared_by_the_lowest_threshold_that_serves():
     np.testing.assert_allclose(_spared(whole(1, 2), J, stiffness, 1.0), [1 / (1 + 1e7), 1])
     np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 1e-3]), stiffness, 1.0), [1 / (1 + 1e3), 1])
     np.testing.assert_allclose(_spared(whole(1, 2), np.array([1.0, 0.0]), stiffness, 1.0), [1 / (1 + 1e7), 1])
+    # In a run of 1e200 s: the square of the feedback is too small a number.
+    with np.errstate(over="ignore"):  # as in a run
+        np.testing.assert_array_equal(_spared(whole(1, 2), J, stiffness, 1e-199), [0, 1])
 
 
 def test_two_constraints_take_a_coordinate_each_that_they_hold_well():
