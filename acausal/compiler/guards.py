@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.compiler.clock import by_clock, functions, planned_times, truth
+from acausal.compiler.rounding import terms
 from acausal.compiler.rowwise import Rowwise
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
@@ -137,17 +138,17 @@ class Guards:
 
     @cached_property
     def estimate(self) -> Call:
-        """Function of parameters and time: switches and discrete variables, exact where only time decides."""
-        r = self.reduced
+        """Function of parameters, time and a later time: switches and discrete variables, those of the clock at the latter."""
+        r, later = self.reduced, ca.SX.sym("later")
         head = self._head()
         starts = self._start(r.p, time.sx) if head.numel() else ca.SX(0, 1)
         known = ca.SX.zeros(r.constants.numel())
         for k in self.timed:
             if k < self.n_switches:
-                known[k] = head[k]
+                known[k] = head[k] = ca.substitute(head[k], time.sx, later)
         head = ca.substitute([head], [r.constants], [known])[0] if head.numel() else head
         head = ca.substitute([head], [ca.vertcat(r.x, r.z)], [starts])[0] if head.numel() else head
-        return Call(ca.Function("estimate", [r.p, time.sx], [ca.densify(head)]))
+        return Call(ca.Function("estimate", [r.p, time.sx, later], [ca.densify(head)]))
 
     @cached_property
     def start(self) -> Call:
@@ -165,14 +166,18 @@ class Guards:
         """Function of x, z, parameters, time, constants, new constants, nominal changes and a time: what must not jump.
 
         That is what is differentiated. All unknowns are those before the instant; the switches of the entries themselves
-        take the new values. The second result is how much the nominal changes, and that time, change each entry.
+        take the new values. The second result is how much the nominal changes, and that time, change each entry; the third
+        one the size of its terms, as of `terms`.
         """
         r = self.reduced
         new, unknowns = ca.SX.sym("new", r.constants.numel()), ca.vertcat(r.x, r.z)
         nominal, span = ca.SX.sym("nominal", unknowns.numel()), ca.SX.sym("span")
         entries = self._resolve(ca.substitute([e for e, _ in self._entries], [r.constants], [new]))
         size = ca.fabs(ca.jacobian(entries, unknowns)) @ nominal + ca.fabs(ca.jacobian(entries, time.sx)) * span
-        return Call(ca.Function("continuous", [*self.arguments, new, nominal, span], [entries, ca.densify(size)]))
+        rounded = terms([*self.arguments, new], entries)
+        return Call(
+            ca.Function("continuous", [*self.arguments, new, nominal, span], [entries, ca.densify(size), rounded])
+        )
 
     @property
     def differentiated(self) -> list[Origin]:

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 class Instants:
     """What happens at one time."""
 
-    # Rounds until switches fit each other.
-    rounds: int = 20
     # Of the run: what changes sign within that time does so now.
     short: float = 1e-8
-    # Of the values, and of what nominal values and the length of the run change in them: a smaller jump is the error with
-    # which an event is located.
+    # Of the values, and of what nominal values change in them, and the time in which conditions that are searched change by
+    # theirs: a smaller jump is the error with which an event is located. By the clock there is none.
     jump: float = 1e-5
+    # Of the terms of what must not jump: instants are known to that part of the time (`Agenda.added`), its rounding is less.
+    rounding: float = 1e-11
     # Of the size in a run: an excess that changes less does not move.
     moves: float = 1e-3
     # Of the run: an excess that falls to 0 within that time does so now.

@@ -176,6 +176,9 @@ class Switches:
 
     # Rounds until they do; each settles one switch at least, and chains of ideal parts have a few.
     rounds: int = 20
+    # Rounds beyond them where they repeat themselves, in which switches change one at a time: 5,000 sets of n saturations in
+    # random monotone feedback, n up to 8, took 2 n at most. All assignments of six switches are as many.
+    tries: int = 64
     # Change of a discrete variable, over its value, that is none.
     same: float = 1e-9
     # Excess of a condition, over its scale, that may be rounding: at dead centre the pistons of a V6 engine move at 2e-16 m/s,

@@ -101,7 +101,7 @@ def _rows(problem: Problem, solver: Consistent, times: np.ndarray, x: np.ndarray
     if not len(times):
         return Rows(times, x, np.empty((0, compiled.nz)), np.empty((0, compiled.reduced.constants.numel())))
     layout, timed = compiled.layout, [k for k in guards.timed if k < n]
-    heads = np.array([guards.estimate(p, t)[0].copy() for t in times]).reshape(len(times), -1)
+    heads = np.array([guards.estimate(p, t, t)[0].copy() for t in times]).reshape(len(times), -1)
     for row, t in zip(heads, times, strict=True):
         row[timed] = guards.holds_at(p, t, 0.0)[0][: len(timed)]
     guess = np.split(compiled.start(p, times[0])[0], [compiled.nx])[1]

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define ROUNDS 20      /* until switches fit each other */
+#define SINGLY 64      /* rounds beyond them, in which one switch changes at a time, as of `Assignments` of Python */
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
 #define NEAR 1e-12     /* of the time: instants that near are one, and leave no room for an integration */
@@ -80,17 +81,31 @@ static void look_at_clock(ac_instance *i, round_of *r) {
     i->now.time = time;
 }
 
-static int32_t look_at_conditions(ac_instance *i, round_of *r) {
+/* Let one switch change of those that would, one that no longer holds before others; until all fit, nothing acts. */
+static void single_out(ac_instance *i) {
+    const ac_unit *u = i->of;
+    int32_t one = -1;
+    for (int32_t k = 0; k < u->watched; k++) {
+        if (u->guard[k].on < 0 || i->other[k] == i->truth[k]) continue;
+        if (one < 0 || i->truth[k] > i->truth[one]) one = k;
+    }
+    if (one < 0) return;
+    const double now = i->other[one];
+    ac_put(i->other, i->truth, u->watched);
+    i->other[one] = now;
+}
+
+static int32_t look_at_conditions(ac_instance *i, round_of *r, int singly) {
     const ac_unit *u = i->of;
     const double *rate = i->guards + 2 * u->watched;
     const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
+    for (int32_t k = 0; k < u->watched; k++) i->other[k] = holds(i, k, rate[k]);
+    if (singly) single_out(i);
     for (int32_t k = 0; k < u->watched; k++) {
-        const int now = holds(i, k, rate[k]);
-        note(u, r, k, now, i->truth[k] > 0);
-        i->other[k] = now;
+        note(u, r, k, i->other[k] > 0, i->truth[k] > 0);
+        i->truth[k] = i->other[k];
     }
-    for (int32_t k = 0; k < u->watched; k++) i->truth[k] = i->other[k];
     return AC_OK;
 }
 
@@ -126,13 +141,13 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
     const ac_unit *u = i->of;
     memset(found, 0, sizeof *found);
     int32_t failed = ac_know(i, AC_RATE), round = 0;
-    for (; round < ROUNDS && !failed; round++) {
+    for (; round < ROUNDS + SINGLY && !failed; round++) {
         /* As long as all constants and conditions, behind what the values of conditions and their rates need. */
         round_of r = {.on = i->flips, .fires = i->flips + u->switches};
         for (int32_t k = 0; k < u->switches; k++) r.on[k] = i->c[k];
         memset(r.fires, 0, ((size_t)u->watched + (size_t)u->timed) * sizeof *r.fires);
         if (!round) look_at_clock(i, &r);
-        failed = look_at_conditions(i, &r);
+        failed = look_at_conditions(i, &r, round >= ROUNDS);
         if (failed || !r.changes) break;
         failed = jump(i, &r, &found->states);
         if (failed) break;
@@ -140,7 +155,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         ac_changed(i);
         failed = ac_know(i, AC_RATE);
     }
-    if (round == ROUNDS) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
+    if (round == ROUNDS + SINGLY) failed = ac_fail(i, AC_FAILED, "conditions switch back and forth at one instant.");
     if (failed) return AC_FAILED;
     double between;
     for (int32_t k = 0; k < u->watched; k++) i->crossed[k] = 0;

@@ -9,6 +9,7 @@
 #define SHORTEST 1e-4   /* of the way: two solutions meet, or there is none beyond */
 #define FAR 0.1         /* change of a state over its size in a step: more may lead to another solution */
 #define ROUNDS 20       /* until switches fit the values, as in Python */
+#define SINGLY 64       /* rounds beyond them, in which one switch changes at a time */
 
 /* Parameters, and the time, on the way from those of the file to those that are wanted. */
 static void stand(ac_instance *i, const double *p, double time, double s) {
@@ -84,15 +85,31 @@ static int is_timed(const ac_unit *u, int32_t on) {
     return 0;
 }
 
+/* Whether a switch or discrete variable does not fit what was found for it. */
+static int is_wrong(const ac_instance *i, int32_t k, double found) {
+    const ac_unit *u = i->of;
+    return !(k < u->switches && is_timed(u, k)) && !(fabs(i->c[k] - found) <= 1e-9 * fabs(found));
+}
+
+/* The switch that changes where one does at a time: one that no longer holds before others; -1 for none. */
+static int32_t single(const ac_instance *i, const double *w) {
+    int32_t one = -1;
+    for (int32_t k = 0; k < i->of->switches; k++) {
+        if (is_wrong(i, k, w[i->of->tape[AC_HEAD].output[k]]) && (one < 0 || i->c[k] > i->c[one])) one = k;
+    }
+    return one;
+}
+
 /* Take the switches and discrete variables that fit the values; whether they did already. */
-static int fitting(ac_instance *i) {
+static int fitting(ac_instance *i, int singly) {
     const ac_unit *u = i->of;
     const double *w = ac_run(i, AC_HEAD);
+    const int32_t one = singly ? single(i, w) : -1;
     int same = 1;
     for (int32_t k = 0; k < u->switches + u->discretes; k++) {
         const double found = w[u->tape[AC_HEAD].output[k]];
-        if ((k < u->switches && is_timed(u, k)) || fabs(i->c[k] - found) <= 1e-9 * fabs(found)) continue;
-        i->c[k] = found;
+        if (!is_wrong(i, k, found)) continue;
+        if (k >= u->switches || !singly || k == one) i->c[k] = found;
         same = 0;
     }
     if (!same) i->prepared = 0;
@@ -130,10 +147,10 @@ int32_t ac_initial(ac_instance *i) {
     if (differs(i)) failed = follow(i, p, time);
     stand(i, p, time, 1);
     clock(i);
-    for (int32_t round = 0; round < ROUNDS && !failed && !fits; round++) {
+    for (int32_t round = 0; round < ROUNDS + SINGLY && !failed && !fits; round++) {
         failed = ac_solve(i, AC_INITIAL);
         if (failed) ac_fail(i, failed, "the equations at the start have no solution.");
-        else fits = fitting(i);
+        else fits = fitting(i, round >= ROUNDS);
     }
     if (!failed && !fits) failed = ac_fail(i, AC_FAILED, "no switches fit the values at the start.");
     if (failed) return AC_FAILED;

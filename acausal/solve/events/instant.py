@@ -7,10 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import algebraic
 
@@ -95,33 +97,72 @@ class Instants:
         """
         fires, changed = list(fired or []), False
         after = constants or at.constants
-        moved: list[int] = []
+        moved, tried = list[int](), Assignments(range(int(np.sum(self.is_switch))))
         none = np.zeros(len(self.watched), dtype=bool)
         due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
-        for _ in range(INSTANTS.rounds):
+        for _ in range(MOST):
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
             if not flips.any() and not fires and after is at.constants:
                 return replace(at, truth=now), changed
-            moved = [*self.watched[flips].tolist(), *fires]
-            after = after.switched(self.watched[flips], now[flips])
-            jumped = self._jump(at, fires, after)
-            self._refuse_jumps(at, jumped.constants)
-            at = replace(algebraic(self.problem, jumped), truth=now)
+            moved = self.watched[flips].tolist() + fires
+            if flips.any():
+                now = self._wanted(tried, at, now, after.discretes)
+                fires = [] if tried.cycle else fires  # until switches are found that fit, nothing acts
+            try:
+                at = self._after(at, now, fires, after)
+            except (InitializationError, Failure):
+                if not (tried.cycle and flips.any()):
+                    raise
             fires, changed, after = [], True, at.constants
         raise Cycling(moved)
 
-    def _refuse_jumps(self, at: Point, constants: Constants) -> None:
+    def _wanted(self, tried: Assignments, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
+        """Return what holds next: what follows from the values, and where that repeats itself, other switches."""
+        current, found = (np.concatenate([one[self.is_switch], at.x, discretes]) for one in (at.truth, now))
+        following = tried.then(current, found)
+        if following is None:
+            raise Cycling(self.watched[self.is_switch][tried.changing].tolist())
+        if not tried.cycle:
+            return now
+        wanted = at.truth.copy()
+        wanted[self.is_switch] = following[: len(tried.switches)] > 0
+        return wanted
+
+    def _after(self, at: Point, now: np.ndarray, fires: list[int], constants: Constants) -> Point:
+        """Return the point after some conditions hold from now on and others act, with constants of the clock."""
+        changed = now != at.truth
+        flips = self.is_switch & changed
+        jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
+        self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
+        return replace(algebraic(self.problem, jumped), truth=now)
+
+    def _leeway(self, at: Point, changed: np.ndarray) -> float:
+        """Time in which conditions that change move as far as what they compare typically does; none where the clock acts.
+
+        The instant of a condition that is searched is known no better than what it compares. One that changes together with
+        another one may be away from its own instant: that counts in full.
+        """
+        if not (self.guards.differentiated and changed.any()):
+            return 0.0
+        here = at.x, at.z, self.problem.p, at.time, at.constants.vector
+        far = np.nan_to_num(self.guards.scale(*here, self.nominal)[0])
+        value, rate = np.nan_to_num(self.rates(at))
+        times = (far + np.abs(value) / INSTANTS.jump) / np.maximum(np.abs(rate), np.finfo(float).tiny)
+        return min(self.span, float(np.max(times[changed])))
+
+    def _refuse_jumps(self, at: Point, constants: Constants, leeway: float) -> None:
         """Refuse that something jumps of which a derivative is in the equations."""
         if not self.guards.differentiated:
             return
         here = at.x, at.z, self.problem.p, at.time, at.constants.vector
         both = [at.constants.vector, constants.vector]
-        found = [np.array(self.guards.continuous(*here, new, self.nominal, self.span)) for new in both]
-        (before, size), (after, size_after) = np.nan_to_num(found, posinf=HUGE, neginf=-HUGE)
+        found = [np.array(self.guards.continuous(*here, new, self.nominal, leeway)) for new in both]
+        (before, size, terms), (after, size_after, terms_after) = np.nan_to_num(found, posinf=HUGE, neginf=-HUGE)
         jumps = np.abs(after - before)
         excess = jumps - INSTANTS.jump * (np.abs(before) + np.abs(after) + size + size_after)
+        excess -= INSTANTS.rounding * (terms + terms_after)
         worst = int(np.argmax(excess))
         if excess[worst] > 0:
             raise Failure(

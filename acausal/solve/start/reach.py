@@ -45,7 +45,7 @@ def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     values, nominal = np.frombuffer(p), compiled.nominal[:nx]
     around = LOOPS.around * np.random.default_rng(0).standard_normal((LOOPS.looks, nx))
     x = compiled.start(values, 0.0)[0][:nx] + nominal * around
-    constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0)[0], 1.0)
+    constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0, 0.0)[0], 1.0)
     J = np.abs(c.held(x, values, np.zeros(len(x)), constants.vector) * nominal[c.entries[1]])
     J = np.median(np.where(np.isfinite(J), J, 0.0), axis=0)
     found = np.ones(nx)

@@ -14,6 +14,7 @@ from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
@@ -44,32 +45,44 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
-    head = problem.compiled.guards.estimate(p, later)[0].copy()
-    previous = older = head
-    for count in range(POLICY.switches.rounds):
-        begun = _begun(problem, time, head, initial)
+    by_clock, watched = ([k for k in some if k < guards.n_switches] for some in (guards.timed, guards.watched))
+    tried = Assignments(watched)
+    head = guards.estimate(p, time, later)[0].copy()
+    head = tried.then(head, head)
+    while head is not None and tried.count <= MOST:
+        try:
+            begun = _begun(problem, time, head, initial)
+        except InitializationError:
+            if not tried.cycle:
+                raise
+            head = tried.then(head, head)
+            continue
         at = begun.point
         found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
-        new, by_clock = found.copy(), [k for k in guards.timed if k < guards.n_switches]
+        new = found.copy()
         new[by_clock] = head[by_clock]
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Rounding would turn what is in doubt over again and again.
-        doubtful = _doubtful(problem, at) if count and not np.all(same) else np.empty(0, dtype=int)
+        doubtful = _doubtful(problem, at) if tried.count > 1 and not np.all(same) else np.empty(0, dtype=int)
         same[doubtful] = True
         if np.all(same):
             return replace(begun, point=replace(at, truth=_first_truth(problem, at, doubtful, head)))
-        older, previous, head = previous, head, new
-    wrong = [k for k in range(guards.n_switches) if head[k] != previous[k]] or list(range(guards.n_switches))
-    if len(places := set(places_text(problem.compiled, wrong).splitlines())) == 1 and np.array_equal(older, head):
-        raise InitializationError(
+        head = tried.then(head, np.where(same, head, new))
+    raise InitializationError(_no_switches(problem.compiled, time, tried))
+
+
+def _no_switches(compiled: CompiledModel, time: float, tried: Assignments) -> str:
+    """Say which conditions find no rest at the start."""
+    places = places_text(compiled, tried.changing or tried.switches)
+    if tried.cycle and len(places.splitlines()) == 1:
+        return (
             f"at t = {time:g} s this condition contradicts its own consequence, whether it is true or false:\n"
-            f"{places.pop()}\nGive other start values, or change what holds where it is true, or where it is false."
+            f"{places}\nGive other start values, or change what holds where it is true, or where it is false."
         )
-    raise InitializationError(
-        f"no switches fit the values at the start, t = {time:g} s; after {POLICY.switches.rounds} rounds these "
-        "conditions still change:\n"
-        + places_text(problem.compiled, wrong)
-        + "\nGive start values at which it is clear which of them hold, or use smooth=True."
+    return (
+        f"no switches fit the values at the start, t = {time:g} s; after {tried.count} rounds these "
+        f"conditions still change:\n{places}\n"
+        "Give start values at which it is clear which of them hold, or use smooth=True."
     )
 
 
