@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, cos, der, fixed, parameter, piecewise, sin, time, variable
-from components import rotational
+from acausal import Model, Scalar, chain, connect, cos, der, fixed, guess, parameter, piecewise, sin, time, variable
+from components import Revolute, rotational
 from components.rotational import Inertia
-from tests.acausal.solve.start.test_gears import Gear
+from tests.acausal.solve.start.test_gears import Gear, GearedLoop, Rods
 
 
 class Twins(Model):
@@ -69,6 +69,38 @@ def test_gears_side_by_side_are_named(model: type[Model], method: str) -> None:
     assert "g1 (Gear)" in str(caught.value)
     assert "g2 (Gear)" in str(caught.value)
     assert "take one of them out, or let one of them be elastic" in str(caught.value)
+
+
+class TwinsOnALoop(GearedLoop):
+    second = Gear(ratio=2)
+
+    def connections(self):
+        yield super().connections()
+        yield chain(self.foot1.axis, self.second, self.rotor.flange_b)
+
+
+def test_gears_side_by_side_on_a_joint_of_a_loop_are_named() -> None:
+    with pytest.raises(ac.StructurallySingularError, match=r"through `foot1\.phi`, `rotor\.phi`") as caught:
+        ac.compile(TwinsOnALoop())
+    assert "gear (Gear)" in str(caught.value)
+    assert "second (Gear)" in str(caught.value)
+
+
+class GearedCranks(Rods):
+    """A gear between the cranks says what the loop says, which ranks tell."""
+
+    gear = Gear(ratio=1)
+    foot1 = Revolute(phi=fixed(0.7), w=fixed(1), use_axis_flange=True)
+    foot2 = Revolute(phi=guess(0.7), use_axis_flange=True)
+
+    def connections(self):
+        yield super().connections()
+        yield chain(self.foot1.axis, self.gear, self.foot2.axis)
+
+
+def test_a_gear_that_says_what_a_loop_says() -> None:
+    geared, free = (ac.simulate(model(), stop_time=0.6, tolerance=1e-8) for model in (GearedCranks, Rods))
+    assert np.allclose(geared["foot1.phi"], free["foot1.phi"], atol=1e-5)
 
 
 class Locked(Twins):
