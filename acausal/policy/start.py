@@ -132,6 +132,8 @@ class Rest:
 
     # A derivative that is 0, over the change that nominal values of the unknowns make in it.
     still: float = 1e-7
+    # Random signs of rounding errors: the largest effect of eight is within a factor of a few of the largest there is.
+    signs: int = 8
     # Newton steps, and implicit Euler steps that follow the motion.
     newton: int = 60
     relaxation: int = 400

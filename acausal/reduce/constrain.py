@@ -13,6 +13,8 @@ from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
 from acausal.symbols import stacked
 
+MOST = 5  # lines and names in a message
+
 
 @dataclass(frozen=True)
 class Projections:
@@ -67,6 +69,7 @@ def constrain(
     projections = plan.constrained.projections
     coordinates = stacked([elements[p.coordinate] for p in projections])
     states = stacked([elements[p.state] for p in projections])
+    _refuse_implicit(flat, plan)
     bare, following = _bare(plan, elements, residuals, explicit)
     counts = _counting(flat, plan, elements, residuals)
     bare, following = ca.substitute([bare, following], [coordinates], [states])
@@ -87,6 +90,26 @@ def constrain(
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
     choice = ca.vertcat(*counts, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
     return Projections(bare, choice, coordinates, states, following, moves)
+
+
+def _refuse_implicit(flat: FlatModel, plan: Plan) -> None:
+    """Refuse constraints through variables that do not follow explicitly from states, and name the equations of the first."""
+    implicit = set(plan.constrained.reached).difference(v for v, _ in plan.constrained.following)
+    if not implicit:
+        return
+    block = next(block for block in plan.blocks if implicit.intersection(block.variables))
+    origins, names = flat.equations.origins, flat.unknowns.names
+    said = dict.fromkeys(str(origins[e]) for e in sorted(block.equations) if e < len(origins))
+    what = [f"`{names[v]}`" for v in sorted(block.variables) if v < len(names)]
+    raise StructurallySingularError(
+        "\n".join(
+            [
+                f"the motion is constrained through {', '.join(what[:MOST])}, which these equations give together only:",
+                *(f"  {line}" for line in list(said)[:MOST]),
+                "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
+            ]
+        )
+    )
 
 
 def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
@@ -111,11 +134,6 @@ def _bare(
     rows = [row for c in constrained.constraints for row in c.rows]
     column = stacked([residuals[row] for row in rows])
     pairs = constrained.following
-    if not {v for v, _ in pairs}.issuperset(constrained.reached):
-        raise StructurallySingularError(
-            "an equation constrains the motion through variables that are given implicitly only; "
-            "give them their own explicit equations."
-        )
     if not pairs:
         return column, ca.SX(0, 1)
     symbols = ca.vertcat(*[elements[v] for v, _ in pairs])

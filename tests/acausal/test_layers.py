@@ -33,6 +33,8 @@ SOLVE = (
     "hermite",
     "looks",
     "guesses",
+    "there",
+    "dependent",
     "causes",
     "undecided",
     "start",

@@ -17,9 +17,12 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import GOLDEN, spread
 from acausal.solve.points import Point, Rows
+from acausal.solve.problem import Problem
+from acausal.solve.start.determined import undetermined
 from acausal.solve.start.newton import algebraic
 
 ENERGY = POLICY.energy
@@ -269,10 +272,20 @@ def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: floa
     """
     compiled, constants, found = solver.compiled, at.constants, [at.z]
     for time in times[1:]:
-        at = algebraic(solver.problem, replace(at, time=float(time)))
+        at = _solved(solver.problem, replace(at, time=float(time)))
         found.append(at.z)
     n = len(times) - 1
     rows, energy = Rows.within(times, np.zeros((n + 1, 0)), np.array(found), constants.vector), np.zeros((n, 2))
     if tolerance is not None and not compiled.powers.is_zero():
         energy = between_rows(solver, rows, tolerance)[0][1:]
     return Leg(rows[1:], energy, constants, 0)
+
+
+def _solved(problem: Problem, at: Point) -> Point:
+    """Return the point with its algebraic unknowns; what the core does not solve for at once may be open at this time."""
+    if found := problem.solved(at, POLICY.newton.quick):
+        return found
+    found = algebraic(problem, at)
+    if text := undetermined(problem, found):
+        raise Failure(at.time, text)
+    return found

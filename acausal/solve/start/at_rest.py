@@ -15,6 +15,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.rank import factored
 from acausal.solve.start.words import equation_text
 from acausal.symbols import scalars, stacked
 
@@ -89,9 +90,22 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
     J = scipy.sparse.csr_matrix((entries, (rows, columns)), shape=shape)
     allowed = _allowed(J, at.y, problem.nominal, POLICY.rest.still)
+    if not np.all(np.abs(value) <= allowed):
+        allowed = allowed + abs(J)[:, problem.nx :] @ _unsure(problem, at)
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]
     return [(names[k], float(value[k])) for k in order]
+
+
+def _unsure(problem: Problem, at: Point) -> np.ndarray:
+    """How far the rounding of their equations moves the algebraic unknowns: stiff parts at rest accelerate by it."""
+    nx, nz = problem.nx, problem.nz
+    J = problem.local(at).jacobian[nx : nx + nz].tocsc()
+    if not (nz and np.all(np.isfinite(J.data))):
+        return np.zeros(nz)
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (nz, POLICY.rest.signs))
+    solve = factored(J[:, nx:], problem.nominal[nx:], POLICY.ranks.rank)
+    return np.nan_to_num(np.max(np.abs(solve(_rounding(J, at.y)[:, None] * signs)), axis=1))
 
 
 @once
@@ -114,4 +128,9 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
 def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:
     """What each row may be: a part of what nominal values make of it, of 1 if it holds constants only, and rounding."""
     most = abs(J) @ nominal
-    return part * np.where(most > 0, most, 1.0) + NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))
+    return part * np.where(most > 0, most, 1.0) + _rounding(J, y)
+
+
+def _rounding(J: Any, y: np.ndarray) -> np.ndarray:
+    """Rounding of rows, by that of their terms."""
+    return NEWTON.terms * np.finfo(float).eps * (abs(J) @ np.abs(y))

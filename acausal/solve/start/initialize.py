@@ -21,10 +21,10 @@ from acausal.solve.start.complete import closed_guess, ranked
 from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
-from acausal.solve.start.opponents import opponents
+from acausal.solve.start.opponents import contradiction
 from acausal.solve.start.redundancy import Redundancy
 from acausal.solve.start.steady import Equilibrium
-from acausal.solve.start.words import contradiction_text, missing_text
+from acausal.solve.start.words import missing_text
 from acausal.structure import complete
 
 INITIAL = ("fixed", "guesses", "steady")
@@ -281,8 +281,7 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
         value = local.value[problem.nx :]
         wrong = [k for k in system.surplus if abs(value[k]) > allowed[k]]
         if wrong:
-            others = opponents(problem, system, at, wrong)
-            raise InitializationError(contradiction_text(problem.compiled, value, wrong, others))
+            raise InitializationError(contradiction(problem, system, at, wrong))
     return at
 
 

@@ -1,4 +1,4 @@
-"""Which conditions at the start determine what other conditions say as well."""
+"""What conditions at the start contradict: other conditions that determine what they say as well, or the equations."""
 
 from __future__ import annotations
 
@@ -8,11 +8,22 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.determined import undetermined
 from acausal.solve.start.newton import InitialSystem
 from acausal.solve.start.rank import scaled
+from acausal.solve.start.words import contradiction_text
 
 
-def opponents(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> list[int]:
+def contradiction(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> str:
+    """Say what some conditions, which do not hold at the solution of the initial system, contradict."""
+    # Values that the equations leave open are anything: what is given for them only seems to contradict others.
+    if text := undetermined(problem, at):
+        return f"at t = {at.time:.6g} s {text}"
+    value = problem.values(at, 1.0)[problem.nx :].copy()
+    return contradiction_text(problem.compiled, value, wrong, _opponents(problem, system, at, wrong))
+
+
+def _opponents(problem: Problem, system: InitialSystem, at: Point, wrong: list[int]) -> list[int]:
     """Return the conditions that hold and that, with the equations, determine the residuals of some others.
 
     Parameters

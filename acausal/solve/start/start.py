@@ -16,6 +16,7 @@ from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.complete import leave_singular
+from acausal.solve.start.determined import undetermined
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
@@ -87,13 +88,15 @@ def _no_switches(compiled: CompiledModel, time: float, tried: Assignments) -> st
 
 
 def _begun(problem: Problem, time: float, head: np.ndarray, initial: str) -> Start:
-    """Initialise, and say why where that fails or ends where equations have no value."""
+    """Initialise, and say why where that fails, or ends where equations have no value or do not determine the unknowns."""
     try:
         begun = initialize(problem, time, head, initial)
     except Lost as lost:
         raise InitializationError(cause(problem, lost.at, lost.flag, STAGES, mend="") or str(lost)) from None
     if not np.all(np.isfinite(problem.values(begun.point)[: problem.nx + problem.nz])):
         raise InitializationError(without_value(problem, begun.point) or NOT_FINITE)
+    if not begun.redundancy.singular and (text := undetermined(problem, begun.point)):
+        raise InitializationError(f"at t = {time:.6g} s {text}")
     return begun
 
 

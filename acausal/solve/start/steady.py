@@ -196,9 +196,12 @@ class Equilibrium:
         value, J = here.rates[self.rows], here.A[self.rows]
         if conditions:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
-        if self.problem.compiled.constraints.size:
+        c = self.problem.compiled.constraints
+        if c.size:
             off, M = self.problem.constraints(here.point)
-            value, J = np.concatenate([value, off]), np.vstack([J, M.toarray()])
+            # Rows that are dropped may be rounding, which would hold something once they have length 1.
+            kept = c.counting(here.point.constants.closures)
+            value, J = np.concatenate([value, off[kept]]), np.vstack([J, M.toarray()[kept]])
         return value, J
 
     def _far(self, step: np.ndarray) -> float:

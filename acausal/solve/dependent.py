@@ -1,0 +1,109 @@
+"""Which equations depend on each other at a point, and what they leave open."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from acausal.policy import POLICY
+from acausal.solve.guesses import another_guess
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.there import There, of_zeros, zeros_in
+
+CAUSES = POLICY.causes
+ANOTHER = "Replace one of them by an equation that says something new."
+SIDE_BY_SIDE = (
+    "Nothing divides a load between parts that hold the same side by side: take one of them out, or let one of them be "
+    "elastic."
+)
+
+
+def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
+    """Say which equations depend on each other at a point, and what they leave open; "" if none do.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Where.
+    flag : float
+        1 while the initial system holds.
+    """
+    there = There.of(problem, at, flag)
+    left, right = _null(there)
+    if not len(right):
+        return ""
+    rows, names = there.whole.rows, there.whole.names
+    origins = dict.fromkeys(str(rows[k].origin) for k in _heavy(left) if rows[k].origin.where)
+    open_ = [f"`{names[there.whole.solved[k]]}`" for k in _heavy(right) if names[there.whole.solved[k]]]
+    inside = [rows[k] for k in _heavy(left)]
+    zeros = [name for name, k in zeros_in(problem, inside) if not len(_null(there.with_parameter(k, 1.0))[1])]
+    what = ", ".join(open_[: CAUSES.shown]) + (f" and {more} more" if (more := len(open_) - CAUSES.shown) > 0 else "")
+    lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
+    if zeros:
+        return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
+    if len(inside) > 1 and _same(there):
+        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n" + (
+            SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
+        )
+    if len(inside) > 1:
+        return (
+            f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
+            "Give other guesses; if none helps, they say the same or contradict each other: replace one of them."
+        )
+    k = int(there.whole.solved[_heavy(right)[0]])
+    here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
+    return f"this equation {here}:\n{lines}\n{another_guess(problem, k)}; if none helps, the equation may have no solution."
+
+
+def said_twice(problem: Problem, at: Point) -> str:
+    """As `dependent`, for equations that hold at the point, and that depend on each other beside it as well; "" for others.
+
+    A position in which motions branch is not meant.
+    """
+    return dependent(problem, at) if _same(There.of(problem, at, 0.0)) else ""
+
+
+def _same(there: There) -> bool:
+    """Whether equations that depend on each other at a point hold there, and depend on each other beside it as well."""
+    left, _ = _null(there)
+    if not len(left):
+        return False
+    J = there.whole.sensitivities(*there.arguments)
+    size = abs(J) @ (np.abs(there.unknowns) + 1.0)
+    held = np.abs(there.whole.values(*there.arguments)[0][: len(size)]) <= POLICY.newton.consistent * size
+    move = POLICY.ranks.motion * np.random.default_rng(0).standard_normal((2, len(there.unknowns)))
+    beside = replace(there, unknowns=there.unknowns * (1.0 + move[0]) + move[1])
+    return bool(np.all(held[_heavy(left)])) and len(_null(beside)[1]) >= len(left)
+
+
+def _null(there: There) -> tuple[np.ndarray, np.ndarray]:
+    """Combinations of equations, and of unknowns, that vanish: shapes (k, equations), (k, unknowns)."""
+    solved = there.whole.solved
+    none = np.zeros((0, 0)), np.zeros((0, 0))
+    if not 0 < len(solved) <= CAUSES.largest:
+        return none
+    J = there.whole.jacobian(*there.arguments)
+    if J.shape[0] != J.shape[1] or not np.all(np.isfinite(J)):
+        return none
+    for _ in range(CAUSES.balancing):
+        J = J / _sizes(J, 1)
+        J = J / _sizes(J, 0)
+    U, s, V = np.linalg.svd(J)
+    k = int(np.sum(s <= CAUSES.rank * s[0]))
+    return (U.T[-k:], V[-k:]) if k else none
+
+
+def _sizes(J: np.ndarray, axis: int) -> np.ndarray:
+    size = np.linalg.norm(J, axis=axis, keepdims=True)
+    return np.where(size > 0, size, 1.0)
+
+
+def _heavy(vectors: np.ndarray) -> list[int]:
+    """What takes part in the vectors, what weighs most first; what weighs the same but for rounding, in its own order."""
+    weight = np.linalg.norm(vectors, axis=0)
+    weight = np.round(weight / np.max(weight), CAUSES.digits)
+    return [int(k) for k in np.argsort(-weight, kind="stable") if weight[k] > CAUSES.weight]

@@ -1,0 +1,55 @@
+"""Whether the equations determine the algebraic unknowns at a point.
+
+Newton's steps of least norm find a solution of equations that say the same as well, and rounding makes these regular. A
+sparse factorisation tells, whatever the units and however stiff parts are: in the scenes, with beams a million times as
+stiff too, no pivot is less than 1e-5 of its terms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
+from acausal.policy import POLICY
+from acausal.solve.dependent import said_twice
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.start.parts import Part, part_of
+
+ROUNDING = POLICY.newton.terms * np.finfo(float).eps
+
+
+def undetermined(problem: Problem, at: Point) -> str:
+    """Say which equations say the same at a point and beside it, and what they leave open; "" if none do."""
+    return "" if _pivots_hold(_without_rounding(problem, at)) else said_twice(problem, at)
+
+
+def _without_rounding(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
+    """Jacobian of the algebraic equations; entries that parameters change altogether where they change by rounding are 0."""
+    inner, p = _inner(problem.compiled), problem.p
+    beside = replace(problem, p=p * (1 + ROUNDING * np.random.default_rng(0).standard_normal(len(p))))
+    J, changed = (inner.sparse(own.local(at).entries) for own in (problem, beside))
+    J.data[np.abs(changed.data - J.data) >= np.abs(J.data)] = 0.0
+    return J
+
+
+def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
+    """Whether no pivot is the rounding of its terms; equations without a value are not looked at."""
+    if not (J.shape[0] and np.all(np.isfinite(J.data))):
+        return True
+    try:
+        factors = scipy.sparse.linalg.splu(J, permc_spec="NATURAL")
+    except RuntimeError:
+        return False
+    terms = np.asarray(abs(factors.L).multiply(abs(factors.U).T).sum(axis=1)).ravel()
+    return bool(np.all(np.abs(factors.U.diagonal()) > ROUNDING * terms))
+
+
+@once
+def _inner(compiled: CompiledModel) -> Part:
+    unknowns = np.arange(compiled.nx, compiled.nx + compiled.nz)
+    return part_of(compiled.pattern, unknowns, unknowns)

@@ -1,0 +1,69 @@
+"""The rows of a model at a point, and which of its parameters are 0 in them: what tells why equations fail there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.whole import Row, Whole, whole
+from acausal.policy import POLICY
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.symbols import scalars
+
+CAUSES = POLICY.causes
+
+
+@dataclass(frozen=True)
+class There:
+    """The rows of a model at a point."""
+
+    whole: Whole
+    p: np.ndarray
+    at: Point
+    flag: float
+    unknowns: np.ndarray
+
+    @classmethod
+    def of(cls, problem: Problem, at: Point, flag: float) -> There:
+        """Take the unknowns that are solved explicitly as they are there."""
+        return cls(whole(problem.compiled), problem.p, at, flag, problem.unknowns(at, flag))
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """Arguments of the rows; what has no value counts as an ordinary number, so that only its own equation fails."""
+        known = np.where(np.isfinite(self.unknowns), self.unknowns, CAUSES.ordinary)
+        return known, self.p, self.at.time, self.at.constants.vector, self.flag
+
+    def failing(self) -> list[Row]:
+        """Rows that have no value by themselves."""
+        wrong = ~np.isfinite(self.whole.values(*self.arguments)[0])
+        return [row for row, fails in zip(self.whole.rows, wrong, strict=True) if fails]
+
+    def with_parameter(self, k: int, value: float) -> There:
+        """The same point with another parameter."""
+        p = self.p.copy()
+        p[k] = value
+        return replace(self, p=p)
+
+
+def zeros_in(problem: Problem, rows: list[Row]) -> list[tuple[str, int]]:
+    """Parameters in some rows that are 0."""
+    own = problem.compiled.reduced.flat.parameters
+    inside = {s.element_hash() for row in rows for s in ca.symvar(row.expression)}
+    symbols = scalars(own.symbols)
+    return [
+        (name, k)
+        for k, (name, s) in enumerate(zip(own.names, symbols, strict=True))
+        if s.element_hash() in inside and problem.p[k] == 0
+    ]
+
+
+def of_zeros(names: list[str]) -> str:
+    """Say that some parameters are 0."""
+    shown = " and ".join(f"`{name}`" for name in names[: CAUSES.shown])
+    verb = "is" if len(names) == 1 else "are"
+    return f"{shown} {verb} 0, which the equations do not allow. Give another value."
