@@ -103,6 +103,7 @@ FUNCTIONS = {
     "ac_lu_free": (None, (c_void_p,)),
     "ac_settler_make": (c_void_p, (POINTER(SquareData),)),
     "ac_settle_rows": (c_int64, (c_void_p, *[c_int32] * 3, *[c_void_p] * 4, c_double, *[c_void_p] * 2)),
+    "ac_settler_least": (c_double, (c_void_p,)),
     "ac_settler_renew": (None, (c_void_p,)),
     "ac_settler_free": (None, (c_void_p,)),
     "ac_rodas_make": (c_void_p, (POINTER(EquationsData),)),

@@ -137,3 +137,8 @@ class Settler:
             *(address(size), enough, address(found), address(settled)),
         )
         return found, settled > 0
+
+    @property
+    def least(self) -> float:
+        """The least pivot at the last place, over the terms that it is the sum of: where it is rounding, so are solutions."""
+        return self._library.ac_settler_least(self._memory)

@@ -128,15 +128,25 @@ class Problem:
 
         None also for what is not integrated.
         """
+        settler, z = self._settled(at)
+        return replace(at, z=z) if settler and z is not None and settler.evaluations <= most else None
+
+    def least_pivot(self, at: Point) -> float:
+        """Return the least pivot of the algebraic equations over its terms; 0 where the core does not solve them."""
+        settler, z = self._settled(at)
+        return settler.least if settler and z is not None else 0.0
+
+    def _settled(self, at: Point) -> tuple[Settler | None, np.ndarray | None]:
+        """Solve for all algebraic unknowns by the core, where it has the equations; None where that does not converge."""
         if not (self.runs and library() and self.nz):
-            return None
+            return None, None
         settler = Settler(core_square(self.compiled, tuple(range(self.nz))))
         z, settled = settler(
             *(self.p, at.constants.vector, at.x, at.z, np.array([[at.time]])),
             size=self.nominal[self.nx :],
             enough=POLICY.consistent.settled,
         )
-        return replace(at, z=z[0]) if settled[0] and settler.evaluations <= most else None
+        return settler, z[0] if settled[0] else None
 
     def completed(self, at: Point) -> Point:
         """Return the point with all algebraic unknowns that follow from the states alone, multipliers 0."""

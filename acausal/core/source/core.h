@@ -85,6 +85,7 @@ AC_PUBLIC ac_settler *ac_settler_make(const ac_square *square);
 AC_PUBLIC int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early, const int32_t *length,
                                  const int32_t *stride, const double *const *part, const double *size, double enough,
                                  double *found, int32_t *settled);
+AC_PUBLIC double ac_settler_least(const ac_settler *s);
 AC_PUBLIC void ac_settler_renew(ac_settler *s);
 AC_PUBLIC void ac_settler_free(ac_settler *s);
 

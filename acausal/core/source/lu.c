@@ -129,6 +129,20 @@ void ac_lu_solve_transposed(ac_lu *lu, double *b) {
     }
 }
 
+/* The least pivot over the terms that it is the sum of, 0 where there are no factors: rounding where the matrix is singular. */
+double ac_lu_least(ac_lu *lu) {
+    double *column = lu->work, least = lu->ready ? INFINITY : 0;
+    for (int32_t k = 0; k < lu->n && lu->ready; k++) {
+        const double pivot = fabs(1 / lu->inverse[k]);
+        double terms = pivot;
+        for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) column[lu->u_row[e]] = lu->u_rows[lu->u_place[e]];
+        for (int32_t i = lu->l_in[k]; i < lu->l_in[k + 1]; i++) terms += fabs(lu->l_rows[i] * column[lu->l_column[i]]);
+        for (int32_t e = lu->u_start[k]; e < lu->u_start[k + 1]; e++) column[lu->u_row[e]] = 0;
+        least = fmin(least, pivot / terms);
+    }
+    return least;
+}
+
 /* How often pivots were chosen, factorisations, entries of both factors, and operations of one factorisation. */
 void ac_lu_counts(const ac_lu *lu, int64_t counts[4]) {
     counts[0] = lu->chosen, counts[1] = lu->factored;

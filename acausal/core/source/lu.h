@@ -25,6 +25,7 @@ int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int
 void ac_lu_renew(ac_lu *lu);
 void ac_lu_lose(ac_lu *lu, double part);
 int ac_lu_again(ac_lu *lu, const double *value);
+double ac_lu_least(ac_lu *lu);
 int32_t ac_lu_choose(ac_lu *lu, const double *value);
 size_t ac_lu_order_size(const ac_lu *lu);
 void ac_lu_order(const ac_lu *lu, double *order);

@@ -43,6 +43,9 @@ ac_settler *ac_settler_make(const ac_square *square) {
 /* Forget what was solved: what is found from here on does not depend on it. */
 void ac_settler_renew(ac_settler *s) { ac_lu_renew(s->lu); }
 
+/* The least pivot of the factors used last, over the terms that it is the sum of; 0 where there are none. */
+double ac_settler_least(const ac_settler *s) { return ac_lu_least(s->lu); }
+
 void ac_settler_free(ac_settler *s) {
     if (!s) return;
     ac_lu_free(s->lu);
