@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Callable, Hashable
 from functools import wraps
 from typing import Any, Protocol, TypeVar
@@ -12,7 +13,10 @@ R = TypeVar("R")
 class Compiled(Protocol):
     """Keeps what was computed from its equations."""
 
-    kept: dict[Any, Any]
+    @property
+    def kept(self) -> dict[Any, Any]:
+        """Results by function and arguments."""
+        ...
 
 
 def once(function: Callable[..., R]) -> Callable[..., R]:
@@ -28,10 +32,19 @@ def once(function: Callable[..., R]) -> Callable[..., R]:
     def call(compiled: Compiled, *key: Hashable) -> R:
         place = (function, *key)
         if place not in compiled.kept:
+            before, started = making(compiled), clock.perf_counter()
             compiled.kept[place] = function(compiled, *key)
+            compiled.kept[making] = (
+                before + clock.perf_counter() - started
+            )  # what it made by others of its kind among it
         return compiled.kept[place]
 
     return call
+
+
+def making(compiled: Compiled) -> float:
+    """Return how many seconds went into results that are kept for good: they belong to compiling, whichever run needs them."""
+    return compiled.kept.get(making, 0.0)
 
 
 def latest(calls: int) -> Callable[[Callable[..., R]], Callable[..., R]]:

@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.once import making
 from acausal.compiler.report import loops_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
@@ -73,11 +74,13 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     SimulationError
         If the integration fails; its `result` holds what was computed.
     """
-    problem, plan, beginning = _begun(compiled, p, task)
-    begun = clock.perf_counter()
+    made, (problem, plan, beginning) = making(compiled), _begun(compiled, p, task)
+    begun, at_first = clock.perf_counter(), making(compiled)
     done = _integrated(problem, task, plan, beginning)
+    building = done.integrator.trace.building + making(compiled) - at_first
     # A run costs what it costs, whichever run before it left its beginning.
-    seconds = beginning.seconds + clock.perf_counter() - begun - done.integrator.trace.building
+    seconds = beginning.seconds + clock.perf_counter() - begun - building
+    done.integrator.trace.building = building + at_first - made
     met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)

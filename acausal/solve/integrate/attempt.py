@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from acausal.compiler.constants import Constants
+from acausal.compiler.once import making
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import everywhere, refined
@@ -141,14 +142,14 @@ class Integrator:
             parts, way = parts * more, way.shared(more)
         times = np.interp(np.arange((len(times) - 1) * parts + 1) / parts, np.arange(len(times)), times)
         request = Request(self.problem, self.settings, way, at, times, works, self.rounding(at))
-        started = clock.perf_counter()
+        started, made = clock.perf_counter(), making(c)
         try:
             integration = METHODS[way.method].prepare(request)
         except RuntimeError:
             # An entry of the Jacobian that is 0 everywhere leaves an unknown undetermined.
             return Refusal(Kind.UNSOLVABLE, at.time)
         finally:
-            self.trace.building += clock.perf_counter() - started
+            self.trace.building += clock.perf_counter() - started - (making(c) - made)
         try:
             found = self._outcome(integration)
         except KeyboardInterrupt:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time as clock
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 import acausal as ac
 from acausal import AcausalWarning, Model, Scalar, chain, der, fixed, guess, parameter, sin, variable
+from acausal.compiler.once import making
 from acausal.solve import beginning
 from components import Body, FixedTranslation, Revolute, World
 from models import FourBar
@@ -68,6 +70,18 @@ def test_seconds_of_the_beginning_count_in_every_run():
     runs = [ac.simulate(compiled, stop_time=0.01, intervals=1) for _ in range(2)]
     (first,) = compiled.kept[beginning.kept.__wrapped__].values()
     assert all(run.stats.solve_seconds > first.seconds > 0 for run in runs)
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_what_is_made_for_a_model_counts_as_compiled(method):
+    compiled = ac.compile(FourBar())
+    began = clock.perf_counter()
+    first, again = (ac.simulate(compiled, stop_time=0.01, intervals=1, method=method).stats for _ in range(2))
+    whole = clock.perf_counter() - began
+    at_compiling, made = sum(compiled.seconds.values()), making(compiled)
+    assert first.compile_seconds >= at_compiling + made > at_compiling
+    assert again.compile_seconds - at_compiling < made
+    assert first.compile_seconds - at_compiling + first.solve_seconds < whole
 
 
 def test_zeros_of_both_signs_are_not_the_same(starts):
