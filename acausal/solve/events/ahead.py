@@ -178,6 +178,8 @@ class Ahead:
         integrator = self.integrator
         if self.stride.shorten(grid):
             return Found(at)
+        if failure.kind is Kind.STEPS and self.stride.cut(failure.time - at.time, self.locator.shortest):
+            return Found(at)
         for k in range(POLICY.locate.halvings):
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
