@@ -109,6 +109,11 @@ class Looks:
     rows: int = 12_800
     # Difference of output intervals, over them, that is rounding.
     equal: float = 1e-9
+    # Of a step: an event that comes so early is looked for again in a shorter step, as what a step interpolates is off by a part
+    # of all that moves in it: a ball's first step in a run of 1e9 s takes days, in which it falls out of sight. Not where the
+    # time until then is that many rounding errors of the time, or fewer.
+    early: float = 1e-5
+    roundings: int = 1000
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 from acausal.solve.start.start import places_text
 
+LOOKS = POLICY.looks
+
 
 @dataclass(frozen=True)
 class Found:
@@ -115,6 +117,9 @@ class Ahead:
                 self._look_closer(at)
                 leg = march.leg(self.stride.density)
                 continue
+            if crossing and march.is_coarse(crossing.after.time):
+                self.step, self._march = LOOKS.fine * (crossing.after.time - at.time), None
+                return Found(at)
             kept = march.keep(leg, crossing.after.time if crossing else np.inf)
             if kept:
                 self.step, self._march = march.step, None if crossing else march
