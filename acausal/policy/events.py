@@ -112,6 +112,11 @@ class Looks:
     rows: int = 12_800
     # Difference of output intervals, over them, that is rounding.
     equal: float = 1e-9
+    # Of a step: an event that comes so early is looked for again in a shorter step, as what a step interpolates is off by a part
+    # of all that moves in it: a ball's first step in a run of 1e9 s takes days, in which it falls out of sight. Not where the
+    # time until then is that many rounding errors of the time, or fewer.
+    early: float = 1e-5
+    roundings: int = 1000
 
 
 @dataclass(frozen=True)
@@ -135,9 +140,14 @@ class Locate:
     snap: float = 0.01
     # Times at which a leg is checked between its rows.
     looks: int = 4000
-    # Of the run: no two times of a leg are nearer; nor are they by so many rounding errors of the time.
+    # Of the run: planned instants are no nearer to what has happened.
     shortest: float = 1e-12
+    # Of the interval in which a change was found: so short a part is a straight line to rounding, as its bend is the square
+    # of that; and rounding errors of the time, between which no time is looked for.
+    straight: float = 1e-8
     roundings: int = 4
+    # A look that is not beyond a change by its rounding error is followed by one that is so many times as far.
+    further: float = 64.0
     # How far beside the predicted time the next look is, so that the change lies between both: as far as the prediction
     # moved, at least this part of the shortest time, at most that of the interval.
     beside: float = 1 / 3

@@ -2,12 +2,14 @@
 #include "instance.h"
 #include "rodas.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #define LOOKS 4         /* parts of a step at whose ends conditions are looked at */
 #define LEVEL 0.01      /* of the width: a condition has changed where it is beyond 0 by that */
-#define HALVINGS 60     /* of the part in which an event lies: then its time is known to rounding */
+#define HALVINGS 60     /* of the part in which an event lies, at most */
+#define ROUNDINGS 2     /* of its time: within that it is known */
 #define AHEAD 100       /* spans of a run: where no stop time is known */
 #define RETURN 64       /* steps after which closed loops go back to their constraints, as `simulate` does */
 #define CROWDED 1e-9    /* of a run: within that time ... */
@@ -108,7 +110,7 @@ static double beyond(const ac_instance *i, int32_t k, double value) { return i->
 
 /* First time in a part of the step at which a condition has changed, given that it has at its end. */
 static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double level) {
-    for (int tries = 0; tries < HALVINGS && *to - from > ac_near(i) / 4; tries++) {
+    for (int tries = 0; tries < HALVINGS && *to - from > ROUNDINGS * DBL_EPSILON * fabs(*to); tries++) {
         const double middle = from + (*to - from) / 2;
         stand(i, middle);
         const int32_t failed = ac_know(i, AC_GUARD);

@@ -21,6 +21,8 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 from acausal.solve.start.start import places_text
 
+LOOKS = POLICY.looks
+
 
 @dataclass(frozen=True)
 class Found:
@@ -115,6 +117,9 @@ class Ahead:
                 self._look_closer(at)
                 leg = march.leg(self.stride.density)
                 continue
+            if crossing and march.is_coarse(crossing.after.time):
+                self.step, self._march = LOOKS.fine * (crossing.after.time - at.time), None
+                return Found(at)
             kept = march.keep(leg, crossing.after.time if crossing else np.inf)
             if kept:
                 self.step, self._march = march.step, None if crossing else march
@@ -177,6 +182,8 @@ class Ahead:
         """Shorten the time: the law may no longer be valid beyond an event."""
         integrator = self.integrator
         if self.stride.shorten(grid):
+            return Found(at)
+        if failure.kind is Kind.STEPS and self.stride.cut(failure.time - at.time, self.locator.shortest):
             return Found(at)
         for k in range(POLICY.locate.halvings):
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])

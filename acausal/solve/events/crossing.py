@@ -62,6 +62,18 @@ def _errors(sides: Sides) -> np.ndarray:
     return error / 4
 
 
+def turns(sides: Sides, level: np.ndarray) -> list[int]:
+    """Return intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
+
+    A convex function lies above its tangents: elsewhere it cannot change and change back.
+    """
+    value, rate = sides.value - level, sides.rate
+    h, turning = np.diff(sides.times)[:, None], (rate[:-1] < 0) & (rate[1:] > 0)
+    bend = np.where(turning, rate[1:] - rate[:-1], 1.0)
+    tangents = (value[:-1] * rate[1:] - value[1:] * rate[:-1] + rate[:-1] * rate[1:] * h) / bend
+    return np.flatnonzero(np.any(turning & (tangents < 0), axis=1)).tolist()
+
+
 def root(times: tuple[float, float], value: tuple[float, float], rate: tuple[float, float]) -> float:
     """Return where the cubic through two points is 0; its values there are positive and not positive."""
     h = times[1] - times[0]

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.policy import POLICY
 from acausal.solve.events.between import between
-from acausal.solve.events.crossing import Sides, dips, levels, root
+from acausal.solve.events.crossing import Sides, dips, levels, root, turns
 from acausal.solve.events.instant import Instants
 from acausal.solve.events.samples import Sample, Samples
 from acausal.solve.integrate.attempt import Integrator
@@ -21,13 +21,13 @@ from acausal.solve.undecided import undecided
 
 LOCATE = POLICY.locate
 LOOKS = POLICY.looks
+EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
 class Crossing:
-    """The first change: samples before and after it, at most a rounding error apart, and the greatest values before."""
+    """The first change: a sample at most a rounding error after it, and the greatest values before."""
 
-    before: Sample
     after: Sample
     peak: np.ndarray
 
@@ -103,7 +103,7 @@ class Locator:
         most = max(LOCATE.suspects, len(out) // LOOKS.fine) if depth == 0 or content else len(out)
         near = np.minimum(sides.value[1:], sides.value[:-1]) - level[:-1] <= LOCATE.reach * travel
         round_about = np.any(near & (travel > np.maximum(np.ptp(sides.value, axis=0), width)), axis=1)[: end + 1]
-        turning = _near(samples.before(end + 1).sides, level[: end + 1])
+        turning = turns(samples.before(end + 1).sides, level[: end + 1])
         doubtful = np.any(near & ((margin < -width) | ((error > width) & (margin < LOCATE.error * error))), axis=1)[
             : end + 1
         ]
@@ -121,7 +121,7 @@ class Locator:
         for k in suspects.tolist() if depth < LOCATE.depth else []:
             inner = self._inside(samples[k], samples[k + 1], depth)
             if inner:
-                return Crossing(inner.before, inner.after, np.maximum(peak[k], inner.peak))
+                return Crossing(inner.after, np.maximum(peak[k], inner.peak))
         if end == len(out):
             if depth == 0:
                 self.passed = np.maximum(self.passed, peak[-1])
@@ -146,8 +146,8 @@ class Locator:
             If there is none.
         """
         a, b = samples[max(known - 1, 0)], samples[known]
-        slack = LOCATE.level * self.instants.width(at)
-        while b.time - a.time > self.shortest:
+        slack, shortest = LOCATE.level * self.instants.width(at), LOCATE.straight * (b.time - a.time)
+        while b.time - a.time > shortest:
             found = self._between(at, a, b, (a.time + b.time) / 2)
             if isinstance(found, Refusal):
                 raise Failure.of(found)
@@ -177,12 +177,12 @@ class Locator:
 
     def _seen_between(self, samples: Samples, level: np.ndarray, turning: list[int], end: int) -> np.ndarray:
         """In which of the first intervals a condition changes and changes back, where it turns fast enough for that."""
-        found = np.zeros(end, dtype=bool)
+        found, shortest = np.zeros(end, dtype=bool), LOCATE.straight * np.diff(samples.rows.times)
         todo = [(k, samples[k], samples[k + 1], level[k]) for k in turning]
         looks = 0
         while todo:
             k, a, b, least = todo.pop()
-            if found[k] or b.time - a.time <= LOOKS.fine * self.shortest:
+            if found[k] or b.time - a.time <= LOOKS.fine * shortest[k]:
                 continue
             looks += LOOKS.fine
             inner = self._interpolated(a, b, np.linspace(a.time, b.time, LOOKS.fine + 1)[1:-1])
@@ -191,7 +191,7 @@ class Locator:
                 continue
             parts = [a, *(inner[i] for i in range(len(inner))), b]
             times, value, rate = (np.array([getattr(r, name) for r in parts]) for name in ("time", "value", "rate"))
-            todo += [(k, parts[i], parts[i + 1], least) for i in _near(Sides(times, value, rate), least)]
+            todo += [(k, parts[i], parts[i + 1], least) for i in turns(Sides(times, value, rate), least)]
         return found
 
     def _interpolated(self, a: Sample, b: Sample, times: np.ndarray) -> Samples | None:
@@ -221,7 +221,8 @@ class Locator:
             If the motion cannot be followed up to the change.
         """
         level = np.where(a.value > 0, 0.0, np.minimum(a.value, 0.0) - slack)
-        shortest = max(self.shortest, LOCATE.roundings * float(np.spacing(abs(b.time))))
+        # Of the interval and not of the run: a brake is as exact in a run of a day as in one of a second.
+        shortest = max(LOCATE.straight * (b.time - a.time), LOCATE.roundings * float(np.spacing(abs(b.time))))
         predicted, last, width = b.time, b.time, [np.inf, np.inf]
         # A time that could not be reached: perhaps the law has no value beyond the change.
         wall, refusal = np.inf, Refusal(Kind.OTHER, a.time)
@@ -244,7 +245,29 @@ class Locator:
                 a = found[0]
                 peak = np.maximum(peak, a.value)
                 level = np.where(a.value > 0, 0.0, level)
-        return Crossing(a, b if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
+        return Crossing(self._landed(a, b, level) if b.time < wall else self._at_wall(at, a, b, wall, refusal), peak)
+
+    def _landed(self, a: Sample, b: Sample, level: np.ndarray) -> Sample:
+        """Where the first condition changes, on the straight line between two samples: nearer than times can tell.
+
+        What a time that is rounded leaves of a speed would stay for ever where the new law holds the speed.
+        """
+        out = b.value < level
+        change = (a.value - b.value)[out]
+        s = float(np.min((a.value - level)[out] / change))
+        # One state alone is as exact as itself; a difference of states is as exact as they are.
+        sizes = float(np.max(self.instants.width(a.at)[out] / change)) / self.integrator.tolerance
+        for errors in (1.0, *(sizes * LOCATE.further ** np.arange(LOCATE.roundings))):
+            found = self._at_share(a, b, min(s + EPS * errors, 1.0))
+            if np.any(found.value < level):
+                return found
+        return b
+
+    def _at_share(self, a: Sample, b: Sample, s: float) -> Sample:
+        """The sample at a share of the way from one to another."""
+        here, there = a.at, b.at
+        between = replace(here, time=a.time + s * (b.time - a.time)).with_y(here.y + s * (there.y - here.y))
+        return self._alone(here, between)[0]
 
     def _at_wall(self, at: Point, a: Sample, b: Sample, wall: float, refusal: Refusal) -> Sample:
         """The last sample that could be reached, where a condition is as near to its change as the tolerance can tell."""
@@ -267,15 +290,3 @@ class Locator:
             return found
         leg = self.integrator.trial(a.at, np.array([a.time, time]), LOCATE.trial_steps)
         return leg if isinstance(leg, Refusal) else self._alone(at, leg.end(at))
-
-
-def _near(sides: Sides, level: np.ndarray) -> list[int]:
-    """Intervals in which a condition turns away from its change, where its tangents at both ends meet beyond it.
-
-    A convex function lies above its tangents: elsewhere it cannot change and change back.
-    """
-    value, rate = sides.value - level, sides.rate
-    h, turns = np.diff(sides.times)[:, None], (rate[:-1] < 0) & (rate[1:] > 0)
-    bend = np.where(turns, rate[1:] - rate[:-1], 1.0)
-    tangents = (value[:-1] * rate[1:] - value[1:] * rate[:-1] + rate[:-1] * rate[1:] * h) / bend
-    return np.flatnonzero(np.any(turns & (tangents < 0), axis=1)).tolist()

@@ -95,6 +95,16 @@ class Stride:
         self.block = max(1, (len(grid) - 1) // LOOKS.fine)
         return True
 
+    def cut(self, reached: float, least: float) -> bool:
+        """Take less than an interval next, where all steps that are allowed led so far; False if that is as good as nothing.
+
+        Looks at its ends alone would not show what so many steps follow.
+        """
+        if reached <= LOOKS.fine * least:
+            return False
+        self.piece = reached / LOOKS.fine
+        return True
+
     def begin(self, since: float | None = None) -> None:
         """Begin with one interval, after an event that came `since` seconds after the point before."""
         self.block = 1

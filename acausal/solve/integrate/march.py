@@ -101,6 +101,11 @@ class March:
         y, nx = self._curve(times), self.integrator.problem.nx
         return Rows.within(times, y[:, :nx], y[:, nx:], self._integration.request.at.constants.vector)
 
+    def is_coarse(self, time: float) -> bool:
+        """Whether a time is so early in the first of the last steps that errors of that drown what moved until then."""
+        begin, end = self._curve.times[:2]
+        return LOOKS.roundings * np.spacing(abs(time)) < (time - begin) < LOOKS.early * (end - begin)
+
     def keep(self, leg: Leg, time: float) -> Leg | None:
         """Return a leg up to a time: outputs, some ends of steps, and a last row that satisfies the equations.
 

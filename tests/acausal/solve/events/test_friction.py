@@ -101,6 +101,29 @@ def test_clutch_locks_two_rotors():
     assert result.stats["energy_dissipated"] == pytest.approx(60.0, abs=1e-5)
 
 
+class Brakes(Model):
+    """Two rotors, of which a brake at a wall holds one, and another brake the other at that."""
+
+    a = rotational.Inertia(J=1e-3, phi=fixed(0), w=fixed(10))
+    between = rotational.Friction(tau_sliding=5.0)
+    b = rotational.Inertia(J=1e-3, phi=fixed(0), w=fixed(-5))
+    brake = rotational.Friction(tau_sliding=1.0)
+    wall = rotational.Fixed()
+
+    def connections(self):
+        yield chain(self.a, self.between, self.b, self.brake, self.wall)
+
+
+@pytest.mark.filterwarnings("ignore:.*faster than they are checked:acausal.AcausalWarning")
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_brakes_hold_however_long_the_run_is(method):
+    """The rotor b stops and turns round, then both turn alike, at `w`, and stop: all within 7 ms."""
+    result = ac.simulate(Brakes(), stop_time=100.0, tolerance=1e-9, method=method)
+    w = 70 / 27
+    assert result["a.phi"][-1] == pytest.approx((10**2 - w**2) / 1e4 + w**2 / 1e3, rel=1e-9)
+    assert result["b.phi"][-1] == pytest.approx(-(5**2) / 1.2e4 + w**2 / 8e3 + w**2 / 1e3, rel=1e-9)
+
+
 def test_clutch_tears_open_above_its_torque():
     class Overload(Model):
         drive = rotational.Torque(tau=4 * time)

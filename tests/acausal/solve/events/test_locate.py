@@ -28,8 +28,8 @@ class Motion:
         How often conditions were asked for, at one time or at many.
     """
 
-    def __init__(self, *functions) -> None:
-        self.functions, self.trials, self.looks = functions, 0, 0
+    def __init__(self, *functions, span=10.0) -> None:
+        self.functions, self.span, self.trials, self.looks = functions, span, 0, 0
         self.problem, self.compiled, self.tolerance = SimpleNamespace(watched=self.watched), SimpleNamespace(nx=1), 1e-8
         self.settings = SimpleNamespace(nominal=np.ones(1))
         self.consistent = self
@@ -52,7 +52,7 @@ class Motion:
     def locator(self) -> Locator:
         guards = SimpleNamespace(needs=())
         width = np.full(len(self.functions), WIDTH)
-        return Locator(self, SimpleNamespace(guards=guards, span=10.0, width=lambda at: width))  # type: ignore[arg-type]
+        return Locator(self, SimpleNamespace(guards=guards, span=self.span, width=lambda at: width))  # type: ignore[arg-type]
 
 
 def leg(times) -> Leg:
@@ -81,12 +81,16 @@ def below(at):
 GRID = np.linspace(0, 3, 13)
 
 
-@pytest.mark.parametrize("at", [0.1, 0.25, 1.0 + 1e-12, 1.7, 2.999])
-def test_a_change_is_narrowed_down_to_rounding(at):
-    found = first(Motion(below(at)), GRID)
-    assert found.before.time == pytest.approx(at, abs=WIDTH / 10)
-    assert 0 < found.after.time - found.before.time < 1e-11
-    assert found.before.value[0] > found.after.value[0] < 0
+@pytest.mark.parametrize("span", [10.0, 1e9])
+@pytest.mark.parametrize("at", [0.1, 1.0 + 1e-12, 1.7, 2.999])
+def test_a_change_is_narrowed_down_to_rounding_however_long_the_run_is(at, span):
+    found = first(Motion(below(at), span=span), GRID)
+    assert found.after.time == pytest.approx(at, abs=1e-14)
+    assert -1e-13 < found.after.value[0] < 0
+
+
+def test_where_a_row_is_on_the_change_it_is_beyond_by_what_counts():
+    assert first(Motion(below(0.25)), GRID).after.time == pytest.approx(0.25, abs=WIDTH / 10)
 
 
 def test_nothing_is_integrated_anew_where_the_cubic_is_the_motion():

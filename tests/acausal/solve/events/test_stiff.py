@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, parameter, piecewise, time, variable
+from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, time, variable, when
 from acausal.core import library
+from acausal.solve.integrate import settings
 
 G = 9.81
 METHODS = ["auto", "rosenbrock", "idas"]
@@ -75,3 +77,23 @@ def test_a_law_that_the_clock_makes_stiff(intervals: int, method: Any) -> None:
     result = ac.simulate(Kicked(), stop_time=2.0, tolerance=1e-6, intervals=intervals, method=method)
     assert result["v"][-1] == pytest.approx(-1, abs=1e-4)
     assert result["x"][-1] == pytest.approx(np.pi / 1e4, abs=1e-4)
+
+
+class Ringing(Model):
+    """A vibration that has died out long before the first output: exp(-10 t) cos(1000 t), nearly."""
+
+    x: Scalar = variable("x", start=1, fixed=True)
+    v: Scalar = variable("v", start=0, fixed=True)
+    n: Scalar = discrete("n")
+
+    def equations(self):
+        yield self.v == der(self.x)
+        yield der(self.v) == -1e6 * self.x - 20 * self.v
+        yield when(self.x > 0.3, reinit(self.n, self.n + 1))
+
+
+def test_where_an_interval_takes_more_steps_than_allowed_conditions_are_checked_more_often(monkeypatch):
+    """With as few steps allowed as are taken in a second: the peaks are below 0.3 after 19 of them."""
+    monkeypatch.setattr(settings, "RESCUE", replace(settings.RESCUE, long=2_000, fewest_long=2_000))
+    result = ac.simulate(Ringing(), stop_time=1e4, intervals=100, method="idas")
+    assert result["n"][-1] == 19
