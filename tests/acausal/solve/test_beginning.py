@@ -79,8 +79,8 @@ def test_what_is_made_for_a_model_counts_as_compiled(method):
     first, again = (ac.simulate(compiled, stop_time=0.01, intervals=1, method=method).stats for _ in range(2))
     whole = clock.perf_counter() - began
     at_compiling, made = sum(compiled.seconds.values()), making(compiled)
-    assert first.compile_seconds >= at_compiling + made > at_compiling
-    assert again.compile_seconds - at_compiling < made
+    assert first.compile_seconds > at_compiling + made / 2 > at_compiling
+    assert again.compile_seconds < at_compiling + made / 2
     assert first.compile_seconds - at_compiling + first.solve_seconds < whole
 
 
