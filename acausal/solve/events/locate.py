@@ -253,6 +253,8 @@ class Locator:
         What a time that is rounded leaves of a speed would stay for ever where the new law holds the speed.
         """
         out = b.value < level
+        if not out.any():  # exactly there
+            return b
         change = (a.value - b.value)[out]
         s = float(np.min((a.value - level)[out] / change))
         # One state alone is as exact as itself; a difference of states is as exact as they are.

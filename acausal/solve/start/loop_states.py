@@ -143,7 +143,7 @@ def _spared(levels: list[Part], J: np.ndarray, stiffness: np.ndarray, feedback: 
     Moving them costs energy; they are spared in proportion to their stiffness over a threshold, the lowest that is enough.
     """
     known: Spaces = {}
-    threshold = max(feedback**2, np.finfo(float).tiny)  # in runs over 1e163 s the square would vanish
+    threshold = max(float(np.square(feedback)), np.finfo(float).tiny)  # in runs over 1e163 s the square would vanish
     for decade in range(1, LOOPS.decades + 1) if np.any(stiffness) else ():
         weights = 1 / (1 + stiffness / (10.0**decade * threshold))
         if _transversality(levels, J[None], J * weights, known)[0] >= LOOPS.spared:
