@@ -103,10 +103,8 @@ def _told(solver: Consistent, rows: Rows, within: float) -> np.ndarray:
     if len(rows) < ENERGY.least:
         return np.ones(len(rows) - 1, dtype=bool)
     off = np.abs(_slopes(solver, rows) - solver.rates(solver(rows)[0]))
-    h, scale = (
-        np.diff(rows.times)[:, None],
-        np.ptp(rows.x, axis=0) + ENERGY.rounding * solver.compiled.nominal[: off.shape[1]],
-    )
+    h, nominal = np.diff(rows.times)[:, None], solver.compiled.nominal[: off.shape[1]]
+    scale = np.ptp(rows.x, axis=0) + ENERGY.rounding * nominal
     return np.all(np.maximum(off[1:], off[:-1]) * h <= within * scale, axis=1)
 
 

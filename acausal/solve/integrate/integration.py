@@ -70,10 +70,6 @@ class Integration(ABC):
         What it was asked for.
     flat : float or None
         Time in s of the first flat position of loops that it passed where it may have left the motion, if it looks for them.
-    left : float
-        What algebraic equations left between steps at most, over the most of their terms, if it looks at that.
-    taken : array, shape (n + 1,), or None
-        Steps up to the start and each output, with parts of steps, if it counts them.
     """
 
     request: Request
@@ -81,12 +77,12 @@ class Integration(ABC):
 
     @property
     def left(self) -> float:
-        """See above."""
+        """What algebraic equations left between steps at most, over the most of their terms; infinite if it does not look."""
         return np.inf
 
     @property
     def taken(self) -> np.ndarray | None:
-        """See above."""
+        """Steps up to the start and each output, with parts of steps; None if it does not count them."""
         return None
 
     @property
