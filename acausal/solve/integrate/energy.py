@@ -62,7 +62,7 @@ def refined(
 
     It comes from the integrator where its steps are no longer than the intervals between rows, and these do not tell the
     motion. In other stretches it comes from splines through some rows, or all, or points between them; or from the integrator
-    where it agrees.
+    where it agrees. Where steps are not known, the balance with the stored energy tells which of both is right.
 
     Parameters
     ----------
@@ -79,20 +79,38 @@ def refined(
     smooth : bool
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
+    if taken is None:
+        found, known = _by_splines(solver, rows, given, tolerance, _exchanged(solver, rows), None, smooth)
+        best, balanced = _balanced(solver, rows, found, given, tolerance)
+        return best, known or balanced
     known, work = True, np.diff(given, axis=0)
-    apart = np.zeros(len(work), dtype=bool) if taken is None else np.diff(taken) < 1
-    tolerances, within = ENERGY.told
+    apart = np.diff(taken) < 1
     if not apart.all():
-        apart = apart | _told(solver, rows, within if taken is None else tolerances * tolerance)
+        apart = apart | _told(solver, rows, ENERGY.told * tolerance)
     ends = np.flatnonzero(np.diff(np.concatenate([[False], apart, [False]])))
     stretches = [(first, last) for first, last in ends.reshape(-1, 2).tolist() if last - first >= ENERGY.least]
     exchanged = _exchanged(solver, rows) if stretches else 0.0
     for first, last in stretches:
         some = slice(first, last + 1)
-        steps = None if taken is None else taken[some]
-        found, sure = _by_splines(solver, rows[some], given[some], tolerance, exchanged, steps, smooth)
+        found, sure = _by_splines(solver, rows[some], given[some], tolerance, exchanged, taken[some], smooth)
         work[first:last], known = np.diff(found, axis=0), known and sure
     return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), known
+
+
+def _balanced(
+    solver: Consistent, rows: Rows, found: np.ndarray, given: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, bool]:
+    """Work up to each row, in each interval as it was found unless what is given balances clearly better.
+
+    And whether all of it balances with the stored energy to the tolerance.
+    """
+    problem, rows = solver.problem, solver(rows)[0]
+    stored = np.diff([problem.stored(problem.point(rows, k)) for k in range(len(rows))])
+    works = [np.diff(w, axis=0) for w in (found, given)]
+    off, other = (np.abs(each[:, 0] - each[:, 1] - stored) for each in works)
+    work = np.where((other < ENERGY.clearly * off)[:, None], works[1], works[0])
+    balanced = np.sum(np.minimum(off, other)) <= tolerance * np.sum(np.abs(work))
+    return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), bool(balanced)
 
 
 def _told(solver: Consistent, rows: Rows, within: float) -> np.ndarray:
