@@ -158,8 +158,6 @@ class Energy:
     # each other may miss there, of the greatest power: nodes a whole turn apart agree with each other on anything.
     probes: int = 24
     alike: float = 1e-2
-    # Of the tolerance: how far the rates of splines through rows that tell the motion may be off, in changes over an interval.
-    told: float = 10.0
     # Of what one of two works does not balance, the part that another one may leave that is clearly better.
     clearly: float = 0.5
     # Rows at which the stored energy is evaluated, and what of it counts as exchanged even if it rests: powers that cancel

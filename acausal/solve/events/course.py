@@ -67,7 +67,6 @@ class Course:
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
         self.weak = 0
         self.first: Point | None = None
-        self.determined: set[bytes] = set()  # positions of the switches
 
     def go(self, at: Point) -> None:
         """Go from break to break; the law of each segment holds up to its end."""
@@ -233,20 +232,12 @@ class Course:
         except InitializationError as error:
             why = cause(self.integrator.problem, error.at) if isinstance(error, Lost) else ""
             raise Failure(at.time, f"the equations have no solution after an event: {why or error}") from None
-        if changed and (text := self._undetermined(new)):
+        if changed and (text := undetermined(self.integrator.problem, new)):
             raise Failure(at.time, text)
         stored = self.integrator.settings.energy and changed
         energy = self.integrator.problem.stored
         change = energy(new) - energy(at) if stored else 0.0
         return new, np.array([max(change, 0.0), max(-change, 0.0)]), changed
-
-    def _undetermined(self, at: Point) -> str:
-        """Say what the equations leave open after an event, where switches have a position that was not looked at; else ""."""
-        position = at.constants.switches.tobytes()
-        if position in self.determined:
-            return ""
-        self.determined.add(position)
-        return undetermined(self.integrator.problem, at)
 
     def _refuse_chattering(self, time: float, guards: list[int]) -> None:
         crowded = len(self.recent) == INSTANTS.most and time - self.recent[0] <= INSTANTS.window * self.instants.span

@@ -60,9 +60,9 @@ def refined(
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row, and whether it is known to the tolerance.
 
-    It comes from the integrator where its steps are no longer than the intervals between rows, and these do not tell the
-    motion. In other stretches it comes from splines through some rows, or all, or points between them; or from the integrator
-    where it agrees. Where steps are not known, the balance with the stored energy tells which of both is right.
+    It comes from the integrator where its steps are no longer than the intervals between rows, and from splines through some
+    rows, or all, or points between them, in stretches of longer steps; or the other way round where that balances clearly
+    better with the stored energy.
 
     Parameters
     ----------
@@ -79,51 +79,39 @@ def refined(
     smooth : bool
         Whether rows are nearer to each other than steps, so that cubics through them follow the motion.
     """
-    if taken is None:
-        found, known = _by_splines(solver, rows, given, tolerance, _exchanged(solver, rows), None, smooth)
-        best, balanced = _balanced(solver, rows, found, given, tolerance)
-        return best, known or balanced
-    known, work = True, np.diff(given, axis=0)
-    apart = np.diff(taken) < 1
-    if not apart.all():
-        apart = apart | _told(solver, rows, ENERGY.told * tolerance)
+    work = np.diff(given, axis=0)
+    steps = np.zeros(len(work)) if taken is None else np.diff(taken)
+    if np.all(steps >= 1):
+        return given, True
+    known, stored = True, _stored(solver, rows)
+    off = _unbalanced(work, stored)
+    apart = (steps < 1) | (off > tolerance * np.mean(np.sum(np.abs(work), axis=1) + np.abs(stored)))
     ends = np.flatnonzero(np.diff(np.concatenate([[False], apart, [False]])))
-    stretches = [(first, last) for first, last in ends.reshape(-1, 2).tolist() if last - first >= ENERGY.least]
-    exchanged = _exchanged(solver, rows) if stretches else 0.0
-    for first, last in stretches:
-        some = slice(first, last + 1)
-        found, sure = _by_splines(solver, rows[some], given[some], tolerance, exchanged, taken[some], smooth)
-        work[first:last], known = np.diff(found, axis=0), known and sure
-    return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), known
+    exchanged = _exchanged(solver, rows)
+    for first, last in ends.reshape(-1, 2).tolist():
+        if last - first < ENERGY.least:
+            continue
+        some, rest = slice(first, last), slice(first, last + 1)
+        found, sure = _by_splines(
+            *(solver, rows[rest], given[rest], tolerance, exchanged, None if taken is None else taken[rest], smooth)
+        )
+        each = np.diff(found, axis=0)
+        left = _unbalanced(each, stored[some])
+        kept = np.where(steps[some] < 1, off[some] < ENERGY.clearly * left, left >= ENERGY.clearly * off[some])
+        work[some] = np.where(kept[:, None], work[some], each)
+        known &= sure or np.sum(np.minimum(left, off[some])) <= tolerance * np.sum(np.abs(work[some]))
+    return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), bool(known)
 
 
-def _balanced(
-    solver: Consistent, rows: Rows, found: np.ndarray, given: np.ndarray, tolerance: float
-) -> tuple[np.ndarray, bool]:
-    """Work up to each row, in each interval as it was found unless what is given balances clearly better.
-
-    And whether all of it balances with the stored energy to the tolerance.
-    """
+def _stored(solver: Consistent, rows: Rows) -> np.ndarray:
+    """Change of the stored energy from row to row in J."""
     problem, rows = solver.problem, solver(rows)[0]
-    stored = np.diff([problem.stored(problem.point(rows, k)) for k in range(len(rows))])
-    works = [np.diff(w, axis=0) for w in (found, given)]
-    off, other = (np.abs(each[:, 0] - each[:, 1] - stored) for each in works)
-    work = np.where((other < ENERGY.clearly * off)[:, None], works[1], works[0])
-    balanced = np.sum(np.minimum(off, other)) <= tolerance * np.sum(np.abs(work))
-    return np.vstack([given[:1], given[:1] + np.cumsum(work, axis=0)]), bool(balanced)
+    return np.diff([problem.stored(problem.point(rows, k)) for k in range(len(rows))])
 
 
-def _told(solver: Consistent, rows: Rows, within: float) -> np.ndarray:
-    """Whether the rows at both ends of an interval tell the motion: splines through all have the rates of the states.
-
-    `within` is how far off they may be, in what the states change in the run and over the interval.
-    """
-    if len(rows) < ENERGY.least:
-        return np.ones(len(rows) - 1, dtype=bool)
-    off = np.abs(_slopes(solver, rows) - solver.rates(solver(rows)[0]))
-    h, nominal = np.diff(rows.times)[:, None], solver.compiled.nominal[: off.shape[1]]
-    scale = np.ptp(rows.x, axis=0) + ENERGY.rounding * nominal
-    return np.all(np.maximum(off[1:], off[:-1]) * h <= within * scale, axis=1)
+def _unbalanced(work: np.ndarray, stored: np.ndarray) -> np.ndarray:
+    """What supplied, dissipated and stored energy leave in each interval, in J."""
+    return np.abs(work[:, 0] - work[:, 1] - stored)
 
 
 def _nodes(times: np.ndarray, taken: np.ndarray | None, count: int) -> np.ndarray:

@@ -7,6 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, der, discrete, piecewise, reinit, variable, when
+from acausal.core import library
 
 G = 9.81
 

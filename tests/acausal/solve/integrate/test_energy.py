@@ -31,7 +31,7 @@ from models import SCENES
 from tests.acausal.solve.machines import Cranked, Two, Wound
 from tests.shared import compiled, pairwise
 
-BY_CORE = {"auto": bool(library()), "rosenbrock": True, "idas": False}
+BY_CORE = {"auto": bool(library()), "rosenbrock": bool(library()), "idas": False}
 
 
 @pytest.mark.parametrize(
@@ -131,6 +131,24 @@ def test_work_of_positioning(intervals, method):
     heat = 0.3 * squares * (1 + 1 + 9)
     for name in ("energy_supplied", "energy_dissipated"):
         assert stats[name] == pytest.approx(heat, rel=3e-5 if BY_CORE[method] else 3e-3)
+
+
+class Vibrating(Released):
+    """The same with a weak damper, which 16 periods a second keep busy."""
+
+    spring = rotational.SpringDamper(c=1e4, d=2.0)
+
+
+@pytest.mark.parametrize("intervals", [1, 50, 500])
+@pytest.mark.parametrize(("stop", "tolerance"), [(0.5, 1e-8), (1.0, 1e-6), (2.0, 1e-5), (2.0, 1e-7)])
+@pytest.mark.parametrize("method", ["auto", "idas", "rosenbrock"])
+def test_heat_of_a_vibration(stop, tolerance, intervals, method):
+    how = {"stop_time": stop, "tolerance": tolerance, "intervals": intervals, "method": method}
+    result = ac.simulate(compiled(Vibrating), energy=True, **how)
+    left = result["rotor.w"][-1] ** 2 / 2 + 5e3 * result["rotor.phi"][-1] ** 2
+    assert result.stats["energy_dissipated"] == pytest.approx(
+        5e3 - left, rel=(10 if BY_CORE[method] else 1000) * tolerance
+    )
 
 
 class Slipping(Model):

@@ -6,7 +6,24 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, cos, der, fixed, guess, parameter, piecewise, sin, time, variable
+from acausal import (
+    Model,
+    Scalar,
+    chain,
+    connect,
+    cos,
+    der,
+    discrete,
+    fixed,
+    guess,
+    parameter,
+    piecewise,
+    reinit,
+    sin,
+    time,
+    variable,
+    when,
+)
 from components import Revolute, rotational
 from components.rotational import Inertia
 from tests.acausal.solve.start.test_gears import Gear, GearedLoop, Rods
@@ -227,3 +244,26 @@ def test_a_position_that_is_singular_by_itself_is_passed() -> None:
 
     result = ac.simulate(Driven(), stop_time=1, intervals=4)
     assert np.allclose(result["s"], 2 * np.cos(np.pi / 2 * result.time), atol=1e-6)
+
+
+class Turned(Model):
+    """A discrete variable makes both equations the same at its second change."""
+
+    k: Scalar = discrete("factor", start=0.5)
+    q: Scalar = parameter("a tenth", default=0.1)
+    x: Scalar = variable("x")
+    y: Scalar = variable("y")
+    v: Scalar = variable("v", start=1, fixed=True)
+
+    def equations(self):
+        yield 3 * self.q * self.x + 0.7 * self.y == time
+        yield self.k * self.x + 0.7 * self.y == time
+        yield der(self.v) == self.x - self.v
+        yield when(time > 0.3, reinit(self.k, 0.4))
+        yield when(time > 0.5, reinit(self.k, 0.3))
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_a_discrete_variable_leaves_unknowns_open(method: str) -> None:
+    with pytest.raises(ac.SimulationError, match=r"t = 0\.5 s: .*say the same"):
+        ac.simulate(Turned(), stop_time=1, method=method)
