@@ -85,8 +85,7 @@ class Progress(Structure):
         *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
         ("written", c_int32),
         ("kept", c_int32),
-        ("time", c_double),
-        ("left", c_double),
+        *((name, c_double) for name in ("time", "left", "left_at", "turned_at")),
     )
 
 

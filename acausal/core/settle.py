@@ -44,25 +44,27 @@ class Square:
         arrays = (array.ctypes.data for array in (self.start, self.row, self.unknowns))
         return SquareData(len(self.unknowns), pointer(self.tape.data), *arrays)
 
-    def hold(self, *arguments: np.ndarray, tolerance: float) -> bool:
-        """Whether the residuals at one place are no more than a part of the sizes of their terms in the unknowns.
+    def hold(self, *arguments: np.ndarray, sizes: np.ndarray, tolerance: float) -> np.ndarray:
+        """Whether the residuals at n places are no more than a part of the sizes of their terms in the unknowns, shape (n,).
 
         Parameters
         ----------
         *arguments : arrays
-            Arguments of the equations, of which those that differ from place to place have one row.
+            As of `Settler`.
+        sizes : array, shape (n, unknowns)
+            Of the unknowns.
         tolerance : float
             That part.
         """
-        found, n = self.tape.rows(*arguments)[0], len(self.unknowns)
-        y = np.concatenate([a.ravel() for a in arguments])[self._columns]
-        terms = np.bincount(self.row, np.abs(found[n:] * y), minlength=n)
-        return bool((np.abs(found[:n]) <= tolerance * terms).all())
+        found, n = self.tape.rows(*arguments), len(self.unknowns)
+        parts, terms = np.abs(found[:, n:]) * sizes[:, self._columns], np.zeros((len(found), n))
+        np.add.at(terms.T, self.row, parts.T)
+        return np.all(np.abs(found[:, :n]) <= tolerance * terms, axis=1)
 
     @cached_property
     def _columns(self) -> np.ndarray:
-        """Place among the arguments of the unknown of each entry."""
-        return np.repeat(self.unknowns, np.diff(self.start))
+        """The unknown of each entry, counted from the first."""
+        return np.repeat(np.arange(len(self.unknowns)), np.diff(self.start))
 
     @cached_property
     def pool(self) -> Pool:

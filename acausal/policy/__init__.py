@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
 from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks, Rests, Sampling
-from acausal.policy.integrate import Calls, Consistent, Energy, Order, Rescue, Sizes
+from acausal.policy.integrate import Branches, Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
 
@@ -27,6 +27,7 @@ class Policy:
     order: Order
     rescue: Rescue
     calls: Calls
+    branches: Branches
     consistent: Consistent
     energy: Energy
     sizes: Sizes
@@ -57,6 +58,7 @@ POLICY = Policy(
     Order(),
     Rescue(),
     Calls(),
+    Branches(),
     Consistent(),
     Energy(),
     Sizes(),

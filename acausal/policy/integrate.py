@@ -122,6 +122,18 @@ class Calls:
 
 
 @dataclass(frozen=True)
+class Branches:
+    """Jumps of algebraic unknowns within a step, which is divided again and again where they change most."""
+
+    # Parts at once, and how often: a law may be as steep as a millionth of a step.
+    parts: int = 16
+    zooms: int = 5
+    # Of the size of an unknown, changes that count; and of a change, what a part of it may take where it is smooth.
+    slight: float = 1e-2
+    share: float = 0.25
+
+
+@dataclass(frozen=True)
 class Consistent:
     """Algebraic unknowns on their equations."""
 
@@ -129,6 +141,8 @@ class Consistent:
     settled: float = 1e-7
     # The same where per cents count.
     roughly: float = 3e-2
+    # Such steps more where a sine of something large keeps the first one from converging so.
+    again: int = 10
     # The same for linear equations: elimination with pivots leaves rounding times the change (Higham 2002, section 9.3).
     once: float = 1.0
     # Of the largest unknown: what is smaller may be rounding, which never settles.

@@ -125,7 +125,8 @@ typedef struct {
     int64_t steps, refused, slopes, values, pivots;
     int32_t written, kept; /* outputs and steps */
     double time;           /* reached */
-    double left;           /* of algebraic equations between steps, the largest residual over the largest sum of its terms */
+    double left, left_at;  /* of algebraic equations between steps, the largest residual over the largest sum of its terms; its time */
+    double turned_at;      /* time from which the determinant of the matrix has another sign than at first; infinite: it has none */
 } ac_progress;
 
 typedef struct ac_rodas ac_rodas;

@@ -143,6 +143,23 @@ double ac_lu_least(ac_lu *lu) {
     return least;
 }
 
+/* Whether a permutation is odd; `seen` is memory for it. */
+int32_t ac_is_odd(int32_t n, const int32_t *to, int32_t *seen) {
+    int32_t odd = 0;
+    memset(seen, 0, (size_t)n * sizeof *seen);
+    for (int32_t k = 0; k < n; k++) {
+        for (int32_t i = k; !seen[i]; i = to[i]) seen[i] = 1, odd ^= i != k;
+    }
+    return odd;
+}
+
+/* Whether the determinant is negative. */
+int ac_lu_is_negative(const ac_lu *lu) {
+    int negative = lu->odd;
+    for (int32_t k = 0; k < lu->n; k++) negative ^= lu->inverse[k] < 0;
+    return negative;
+}
+
 /* How often pivots were chosen, factorisations, entries of both factors, and operations of one factorisation. */
 void ac_lu_counts(const ac_lu *lu, int64_t counts[4]) {
     counts[0] = lu->chosen, counts[1] = lu->factored;

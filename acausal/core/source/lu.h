@@ -6,6 +6,7 @@
 
 struct ac_lu {
     int32_t n, ready, known;               /* whether there are pivots, and values for which they were chosen */
+    int32_t odd;                           /* whether the steps permute rows and columns by an odd number of exchanges */
     int32_t *start, *row;                  /* of the matrix */
     int32_t *row_of, *column_of, *step_of; /* row and column of each step, step of each row */
     double *scale, *inverse, *work;        /* inverse of each pivot */
@@ -26,6 +27,8 @@ void ac_lu_renew(ac_lu *lu);
 void ac_lu_lose(ac_lu *lu, double part);
 int ac_lu_again(ac_lu *lu, const double *value);
 double ac_lu_least(ac_lu *lu);
+int32_t ac_is_odd(int32_t n, const int32_t *to, int32_t *seen);
+int ac_lu_is_negative(const ac_lu *lu);
 int32_t ac_lu_choose(ac_lu *lu, const double *value);
 size_t ac_lu_order_size(const ac_lu *lu);
 void ac_lu_order(const ac_lu *lu, double *order);

@@ -280,6 +280,7 @@ int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int
         step_of_column[j] = k;
     }
     if (!failed && !keep(lu, &c)) failed = -1;
+    lu->odd = failed ? 0 : ac_is_odd(n, lu->row_of, step_of_column) ^ ac_is_odd(n, lu->column_of, step_of_column);
     drop(&c);
     free(step_of_column);
     return failed;

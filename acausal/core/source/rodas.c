@@ -20,7 +20,7 @@
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define LOST 1e-4             /* of the tolerance, which the factors lose at most */
-#define LOOKS 4                /* steps from one look at residuals to the next, but for the first ones */
+#define LOOKS 4                /* steps from one look at the terms of equations to the next, but for the first ones */
 #define FIRST_LOOKS 16
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
@@ -51,7 +51,9 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
     r->gathered[0] = r->gathered[1] = 0;
-    r->begun = r->refused = r->unsolved = r->look = 0;
+    r->begun = r->refused = r->unsolved = r->sign = 0;
+    r->look = 2;
+    r->progress.left_at = r->t, r->progress.turned_at = INFINITY;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;
@@ -275,11 +277,11 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->refused = 0;
         r->progress.steps++;
         r->stale = 1;
-        r->look = r->progress.steps < FIRST_LOOKS || r->progress.steps % LOOKS == 0;
+        r->look = 1 + (r->progress.steps < FIRST_LOOKS || r->progress.steps % LOOKS == 0);
         keep(r);
     }
     r->progress.time = r->t;
-    r->progress.left = ac_rodas_left(r);
+    ac_rodas_tell(r, found == AC_DONE);
     *progress = r->progress;
     return found;
 }

@@ -156,9 +156,9 @@ class Integrator:
             self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
-            return self.settled(found.every(parts), way, integration.left)
+            return self.settled(found.every(parts), integration)
         rows = self._reached(integration, parts) if keep else None
-        settled = rows and self.settled(rows, way, integration.left)
+        settled = rows and self.settled(rows, integration)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
 
     def _outcome(self, integration: Integration) -> Leg | Refusal:
@@ -201,16 +201,16 @@ class Integrator:
             return None
         return found.every(parts)
 
-    def settled(self, leg: Leg, way: Way, left: float) -> Leg | Refusal:
+    def settled(self, leg: Leg, integration: Integration) -> Leg | Refusal:
         """Let the last row of a leg, whose arrays are its own, satisfy the equations, as the next call starts from it.
 
         The other rows are solved when they are read.
-        Without a Newton iteration an integration may go on where the equations have no solution: what they left between
-        steps tells, or else some rows do.
+        Without a Newton iteration an integration may go on where the equations have no solution, or with another one: if it
+        is not sure, some rows tell, and what is between its steps.
         """
+        way = integration.request.way
         iterates = METHODS[way.method].multistep
-        tolerances, most = POLICY.calls.left
-        sure = iterates or left <= min(tolerances * way.tolerance, most)
+        sure = iterates or integration.follows()
         given = leg.rows[-1:] if sure else leg.rows[spread(len(leg.rows), POLICY.calls.settled)]
         found, lost = self.consistent(given)
         last = found[-1:]
@@ -225,6 +225,9 @@ class Integrator:
         ends = (last, given[-1:])
         if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
+        jump = None if sure else integration.jump(self.consistent)
+        if jump is not None and jump <= end.time:
+            return Refusal(Kind.UNSOLVABLE, jump)
         leg.rows.z[-1] = last.z[0]
         return leg
 

@@ -10,6 +10,8 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.core_equations import core_equations
 from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
+from acausal.solve.integrate.branches import first_jump
+from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.flat import flat_time, passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
@@ -43,6 +45,7 @@ class ByCore(Integration):
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
         self.ended, self._keeps = False, loops or request.curves
+        self._examined = -np.inf
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -61,9 +64,37 @@ class ByCore(Integration):
         return done.steps, done.steps + done.refused, done.values
 
     @property
-    def left(self) -> float:
-        """What algebraic equations left between steps at most, over the most of their terms."""
-        return self._rodas.progress.left
+    def _doubts(self) -> list[float]:
+        """Times of steps that leave more of algebraic equations than is right, and after which they have another sign."""
+        done, (tolerances, most) = self._rodas.progress, POLICY.calls.left
+        left = [done.left_at] if done.left > min(tolerances * self.request.way.tolerance, most) else []
+        return [*left, *([done.turned_at] if np.isfinite(done.turned_at) else [])]
+
+    def follows(self) -> bool:
+        """Whether residuals between steps are small, and their Jacobian did not become singular."""
+        return not self._doubts
+
+    def jump(self, consistent: Consistent) -> float | None:
+        """Time in s of the first jump of an algebraic unknown up to where that is in doubt: the steps are taken again.
+
+        Loops are looked at in other ways; what keeps them closed leaves more between steps.
+        """
+        last = -np.inf if self._loops else max(self._doubts, default=-np.inf)
+        if last <= self._examined:
+            return None
+        self._examined, refusal = last, None
+        again = ByCore(replace(self.request, curves=True), self._damps)
+        while not (refusal or again.ended or again.reached >= last):
+            refusal = again.advance(POLICY.calls.steps)
+            found = first_jump(consistent, again.curve, self.request.at.constants.vector)
+            if found is not None:
+                return found
+        return None
+
+    @property
+    def reached(self) -> float:
+        """Time in s after the last step."""
+        return self._rodas.progress.time
 
     @property
     def taken(self) -> np.ndarray | None:

@@ -24,6 +24,7 @@ from acausal.solve.start.newton import algebraic, terms
 from acausal.solve.start.parts import part_of
 
 CONSISTENT = POLICY.consistent
+ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,8 +126,7 @@ class Consistent:
         size = self._sizes(rows, self._terms(rows, needed))
         for step in self.compiled.passes(needed.key):
             doubtful |= self._settle(step, size[step.unknowns], found, left)
-        rounding = POLICY.newton.terms * np.finfo(float).eps
-        wrong = [k for k in sorted(doubtful) if not self.holds(found, k, rounding, needed.equations)]
+        wrong = [k for k in sorted(doubtful) if not self.holds(found, k, ROUNDING, needed.equations)]
         return found, [float(rows.times[k]) for k in wrong if not self._alone(rows, k, found)]
 
     def rates(self, rows: Rows) -> np.ndarray:
@@ -138,9 +138,10 @@ class Consistent:
         """Whether algebraic equations, all if not given, hold in a row, relative to the sizes of their terms."""
         c, at = self.compiled, self.problem.point(rows, k)
         # Terms in algebraic unknowns alone are less than all of them, which take longer.
-        by_core = equations is None and c.nz and library()
-        if by_core and self._square(range(c.nz)).hold(*self._given(rows[[k]]), tolerance=tolerance):
-            return True
+        if equations is None and c.nz and library():
+            row = rows[[k]]
+            if self._square(range(c.nz)).hold(*self._given(row), sizes=np.abs(row.z), tolerance=tolerance)[0]:
+                return True
         local = self.problem.local(at)
         own = slice(c.nx, c.nx + c.nz) if equations is None else c.nx + equations
         left, y = np.abs(local.value[own]), at.y
@@ -148,6 +149,31 @@ class Consistent:
         if (left <= tolerance * local.magnitudes(np.abs(y))[own]).all():
             return True
         return bool((left <= tolerance * terms(local, y, c.nominal)[own]).all())
+
+    def sizes(self, values: np.ndarray) -> np.ndarray:
+        """Sizes of algebraic unknowns of some values at n times, shape (n, nz): what is far below the largest is rounding."""
+        nominal = self.compiled.nominal[self.compiled.nx :]
+        return np.maximum(values, CONSISTENT.noise * np.max(values / nominal, axis=1, keepdims=True) * nominal)
+
+    def solve(self, rows: Rows) -> tuple[Rows, np.ndarray]:
+        """Return rows as a call does, all of them solved, and whether the equations hold in each to rounding.
+
+        That is in the sizes of its own unknowns: where these grow without end, a Newton step is small beside them.
+        """
+        found = self(rows)[0]
+        square, sizes = self._square(range(self.compiled.nz)), self.sizes(np.abs(found.z))
+        right = square.hold(*self._given(found), sizes=sizes, tolerance=ROUNDING)
+        for k in np.flatnonzero(~right).tolist():
+            right[k] = self._again(found, k)
+        return found, right
+
+    def _again(self, rows: Rows, k: int) -> bool:
+        """Solve one row again in place, in the sizes of its own unknowns; return whether the equations hold to rounding."""
+        for _ in range(CONSISTENT.again):
+            rows.z[k] = self(rows[[k]])[0].z[0]
+            if self.holds(rows, k, ROUNDING):
+                return True
+        return False
 
     def _terms(self, rows: Rows, needed: _Needed) -> np.ndarray:
         """Change of each unknown that changes an equation by as much as its terms, at some of the times."""

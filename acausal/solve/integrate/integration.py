@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.ladder import Refusal, Way
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.trace import Leg
@@ -75,10 +76,13 @@ class Integration(ABC):
     request: Request
     flat: float | None = None
 
-    @property
-    def left(self) -> float:
-        """What algebraic equations left between steps at most, over the most of their terms; infinite if it does not look."""
-        return np.inf
+    def follows(self) -> bool:
+        """Whether it is sure that algebraic equations hold between its steps, and that their solution went on."""
+        return False
+
+    def jump(self, consistent: Consistent) -> float | None:
+        """Time in s of the first jump of an algebraic unknown where it is not sure; None if it knows of none."""
+        return None
 
     @property
     def taken(self) -> np.ndarray | None:

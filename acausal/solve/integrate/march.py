@@ -114,7 +114,7 @@ class March:
         last = int(np.searchsorted(leg.times, time))
         part = leg.part(0, last)
         part = replace(part, rows=part.rows.with_z(part.rows.z.copy()))
-        kept = self.integrator.settled(part, self._way, self._integration.left) if last else leg
+        kept = self.integrator.settled(part, self._integration) if last else leg
         if self.integrator.is_worn(leg.rows, leg.constants):
             kept = Refusal(Kind.WORN, float(leg.times[0]))
         if isinstance(kept, Refusal):

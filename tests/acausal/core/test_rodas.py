@@ -5,6 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
+from math import pi
 
 import casadi as ca
 import numpy as np
@@ -322,3 +323,28 @@ def test_steps_are_known_everywhere_between_their_ends():
         errors.append((steps, worst))
     (n, coarse), _, (m, fine) = errors
     assert np.log(coarse / fine) / np.log(m / n) > 3.5
+
+
+@pytest.mark.parametrize("turns", [False, True])
+@pytest.mark.parametrize("seed", range(8))
+def test_the_sign_of_the_determinant_is_told_whichever_pivots_are_chosen(seed, turns):
+    random, n = np.random.default_rng(seed), 5
+    order, right = random.permutation(n).tolist(), random.standard_normal(n)
+
+    def matrix(t):
+        A = ca.SX.eye(n)
+        for k in (0, 2):  # turned by a right angle, so that pivots wear out; the determinant of a turn is 1
+            c, s = ca.sin(pi / 2 * ca.exp(-20 * t)), ca.cos(pi / 2 * ca.exp(-20 * t))
+            A[k : k + 2, k : k + 2] = ca.vertcat(ca.horzcat(c, -s), ca.horzcat(s, c))
+        A[4, 4] = 0.7531 - t if turns else 3.0
+        return A[order, :]
+
+    rodas = Rodas(equations(lambda x, z, t, p: -x, lambda x, z, t, p: matrix(t) @ z - ca.DM(right), nz=n, np=0))
+    x, none, z = np.ones(1), np.empty(0), np.linalg.solve(ca.DM(ca.evalf(matrix(0))).full(), right)
+    found = integrated(rodas, np.linspace(0, 1.5, 40), x, z, none, none, size=x, tolerance=1e-6)
+    assert rodas.progress.pivots > 1
+    if turns:
+        assert 0.7531 < found.progress.turned_at < 0.9
+    else:
+        assert found.progress.turned_at == np.inf
+        assert found.end == End.DONE

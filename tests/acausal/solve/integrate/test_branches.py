@@ -1,0 +1,137 @@
+"""Where the solution of algebraic equations ends, a run does, whatever its method; where it goes on, so does a run."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Model, Scalar, atan2, cos, der, fixed, guess, parameter, sin, time, variable
+from acausal.core import library
+from acausal.solve.integrate.by_core import ByCore
+
+CORE = pytest.mark.skipif(library() is None, reason="needs the core")
+
+
+class Implicit(Model):
+    """A state, and an unknown that follows from it."""
+
+    x: Scalar = variable("state")
+    z: Scalar = variable("what follows")
+
+
+class Fold(Implicit):
+    """Two branches beside one that leads from one to the other; the upper one begins where the lower one ends, at x = 2."""
+
+    rate: Scalar = parameter("rate of the state", default=1.0)
+
+    def equations(self):
+        yield self.z**3 - 3 * self.z == self.x
+        yield der(self.x) == self.rate
+
+
+class FoldBack(Implicit):
+    """The same, with a state that depends on the branch."""
+
+    def equations(self):
+        yield self.z**3 - 3 * self.z == self.x
+        yield der(self.x) == self.z + 4
+
+
+class Sine(Implicit):
+    """No solution after 1 s."""
+
+    def equations(self):
+        yield sin(self.z) == time
+        yield der(self.x) == self.z
+
+
+class Gap(Implicit):
+    """No solution for a while."""
+
+    def equations(self):
+        yield sin(self.z) == 1.05 * sin(time)
+        yield der(self.x) == self.z - self.x
+
+
+ENDS = [
+    (Fold(x=fixed(-2.0), z=guess(-2.0)), 4.0),
+    (FoldBack(x=fixed(-2.0), z=guess(-2.0)), 1.7461),
+    (Sine(x=fixed(0.0)), 1.0),
+    (Gap(x=fixed(0.0)), float(np.arcsin(1 / 1.05))),
+]
+
+
+WORDS = r"no solution|could not be solved|no step was short enough|ever shorter"
+
+
+@CORE
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("intervals", [1, 10, 400])
+@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
+@pytest.mark.parametrize("case", range(len(ENDS)))
+def test_a_run_ends_where_its_solution_does(case, method, intervals, tolerance):
+    model, end = ENDS[case]
+    with pytest.raises(ac.SimulationError, match=WORDS) as caught:
+        ac.simulate(model, stop_time=5.0, tolerance=tolerance, intervals=intervals, method=method)
+    rows = caught.value.result
+    assert rows.time[-1] <= end + 0.1
+    if method == "auto":
+        assert abs(float(str(caught.value).split("t = ")[1].split(" ")[0]) - end) < 0.08
+
+
+class Steep(Implicit):
+    """A law that rises within 1e-6 s."""
+
+    def equations(self):
+        yield self.z + 0.1 * sin(self.z) == atan2(1e6 * (time - 0.5317), 1)
+        yield der(self.x) == self.z
+
+
+class Bent(Implicit):
+    def equations(self):
+        yield self.z + 0.5 * sin(self.z) == 5 * sin(3 * time)
+        yield der(self.x) == self.z - self.x
+
+
+class Large(Implicit):
+    """Far larger than its nominal value."""
+
+    def equations(self):
+        yield 1e-9 * self.z + 1e-12 * cos(self.z / 1e8) == sin(time)
+        yield der(self.x) == 1e-9 * self.z
+
+
+class Growing(Implicit):
+    """Faster than some steps may resolve."""
+
+    def equations(self):
+        yield self.z + 0.1 * sin(self.z) == 3 * self.x
+        yield der(self.x) == self.z - sin(time)
+
+
+@CORE
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7])
+@pytest.mark.parametrize("intervals", [1, 200])
+@pytest.mark.parametrize(
+    "model",
+    [
+        Fold(x=fixed(-2.0), z=guess(-2.0), rate=0.7),
+        Steep(x=fixed(0.0)),
+        Bent(x=fixed(0.0)),
+        Large(x=fixed(0.0)),
+        Growing(x=fixed(1.0)),
+    ],
+)
+def test_steep_bent_and_large_unknowns_go_on_even_where_all_is_in_doubt(model, intervals, tolerance, monkeypatch):
+    how = {"stop_time": 5.0, "tolerance": tolerance, "intervals": intervals, "method": "rosenbrock"}
+    as_it_is = ac.simulate(model, **how)
+    asked = list[float | None]()
+    jump = ByCore.jump
+    monkeypatch.setattr(ByCore, "_doubts", property(lambda self: [np.inf]))
+    monkeypatch.setattr(ByCore, "jump", lambda self, consistent: asked.append(jump(self, consistent)))
+    found = ac.simulate(model, **how)
+    assert asked
+    assert not any(asked)
+    for name in ("x", "z"):
+        np.testing.assert_array_equal(found[name], as_it_is[name])
