@@ -66,17 +66,18 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
             "start beside that."
         )
     system = initial_system(problem, at, initial)
-    residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct))
+    flag = float(initial != "steady")
+    residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct), flag)
     held = algebraic(problem, problem.projected(at)) if problem.compiled.constraints.size else at
     return Beginning(held, residuals, starts, Spectrum(problem, at).vibration)
 
 
 def _square(
-    compiled: CompiledModel, rows: np.ndarray, known: np.ndarray, direct: dict[int, int]
+    compiled: CompiledModel, rows: np.ndarray, known: np.ndarray, direct: dict[int, int], flag: float
 ) -> tuple[ca.SX, dict[int, ca.SX]]:
-    """Return the equations of an initial system, and the starts in them."""
+    """Return the equations of an initial system, and the starts in them; `flag` is 1 where it is one, 0 in equilibrium."""
     r, nx = compiled.reduced, compiled.nx
-    equations = ca.substitute(ca.vertcat(r.ode, r.alg, compiled.conditions), initial_flag.sx, 1)
+    equations = ca.substitute(ca.vertcat(r.ode, r.alg, compiled.conditions), initial_flag.sx, flag)
     if r.projections.choice.numel():
         equations = ca.substitute(equations, r.projections.moves, 1)
     entries = scalars(equations)

@@ -69,8 +69,8 @@ def simulate(
         more steps than the motion, and takes IDAS where loops pass flat positions (docs/ringing.md). Default "auto".
     constraints : "auto", "states" or "projection"
         How closed loops stay closed: "states" lets some coordinates follow from the others, chosen by pivots at the start
-        and again where the pivots fall; "projection" integrates all of them and projects. "auto" begins with states, and
-        projects if they do not last. Default "auto".
+        and again where the pivots fall; "projection" integrates all of them and projects. "auto" projects by the core; IDAS
+        begins with states, and projects if they do not last. Default "auto".
     max_order : int, optional
         Limit of the order of the multistep method, 1 to 5; chosen from the problem where it is not given.
     energy : bool

@@ -40,7 +40,11 @@ class Beam(TwoFrames):
         doc="It is tangent to the root, or the chord from the first to the last point.",
     )
     alpha: Scalar = parameter(
-        "mass-proportional damping", unit="1/s", default=0, minimum=0, doc="Rayleigh damping: D = alpha M + beta K."
+        "mass-proportional damping",
+        unit="1/s",
+        default=0,
+        minimum=0,
+        doc="Rayleigh damping: D = alpha M + beta K, of what moves in the reference frame: little does in short volumes.",
     )
     beta: Scalar = parameter(
         "stiffness-proportional damping",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Expr, Scalar, parameter
+from acausal import Expr, Scalar, parameter, require
 from components.rotational.slipping import Slipping
 
 
@@ -17,6 +17,14 @@ class Friction(Slipping):
         default=lambda self: self.tau_sliding,
         doc="tau_sliding if not given.",
     )
+
+    def requirements(self):
+        name = self._path or type(self).__name__
+        yield require(
+            self.tau_sliding <= self.tau_static,
+            f"`tau_sliding` of {name} is more than its `tau_static`: it would stick and slide again without end. Give a larger "
+            "`tau_static`",
+        )
 
     def holding(self) -> Expr:
         """Torque of stiction."""

@@ -28,6 +28,7 @@ from components import (
     Spring,
     SpringDamperParallel,
     World,
+    rotational,
 )
 
 
@@ -204,3 +205,17 @@ def test_requirement_must_be_a_condition():
 
     with pytest.raises(DeclarationError, match="require needs a condition"):
         ac.compile(Wrong())
+
+
+def test_friction_that_slides_with_more_than_it_sticks_is_refused():
+    class Braked(Model):
+        shaft = rotational.Inertia(J=1, phi=fixed(0), w=fixed(1))
+        brake = rotational.Friction(tau_sliding=1, tau_static=1.3)
+        wall = rotational.Fixed()
+
+        def connections(self):
+            yield chain(self.wall.flange, self.brake, self.shaft.flange_a)
+
+    with pytest.raises(DeclarationError, match=r"`tau_sliding` of brake is more than its `tau_static`"):
+        ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 2.0})
+    assert ac.simulate(Braked(), stop_time=0.1, parameters={"brake.tau_sliding": 1.3}).time[-1] == 0.1

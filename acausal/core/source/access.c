@@ -94,6 +94,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
     }
     if (!changed) return AC_OK;
     ac_changed(i);
+    i->now.given = i->now.phase > AC_INITIALISING;
     if (i->now.phase <= AC_INITIALISING || !ac_limits(i, 0)) return AC_OK;
     memcpy(i->p, i->other, size);
     ac_changed(i);
@@ -112,6 +113,7 @@ int32_t ac_set_slopes(ac_instance *i, const uint32_t *reference, size_t count, c
         i->p[u->input[2 * input + 1]] = slope[k];
         i->p[u->input[2 * u->inputs]] = i->now.time;
         ac_changed(i);
+        i->now.given = 1;
     }
     return AC_OK;
 }

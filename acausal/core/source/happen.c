@@ -31,7 +31,7 @@ double ac_next_instant(ac_instance *i, double *between) {
 
 double ac_width(const ac_instance *i, int32_t guard) {
     const double scale = i->guards[i->of->watched + guard];
-    return i->now.tolerance * (scale > 0 && isfinite(scale) ? scale : 1);
+    return i->now.tolerance * (scale > 0 && isfinite(scale) ? scale : fmin(i->of->span, 1));
 }
 
 /* Whether a watched condition holds from now on. */

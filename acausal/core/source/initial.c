@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define FIRST 0.0625    /* of the way: the first step */
-#define SHORTEST 1e-4   /* of the way: two solutions meet, or there is none beyond */
+#define SHORTEST 1e-10  /* of the way, as to a height of 1e9 m: two solutions meet, or there is none beyond */
 #define FAR 0.1         /* change of a state over its size in a step: more may lead to another solution */
 #define ROUNDS 20       /* until switches fit the values, as in Python */
 #define SINGLY 64       /* rounds beyond them, in which one switch changes at a time */
@@ -56,7 +56,9 @@ static int32_t follow(ac_instance *i, const double *p, double time) {
         memcpy(i->x, kept, (size_t)e->nx * sizeof *kept);
         memcpy(i->z, kept + e->nx, (n - (size_t)e->nx) * sizeof *kept);
         step /= 2;
-        if (step < SHORTEST) return ac_fail(i, AC_FAILED, "no start values were found for these parameters.");
+        if (step >= SHORTEST) continue;
+        i->now.time = time;
+        return ac_fail(i, AC_FAILED, "no start values were found for these parameters.");
     }
     return AC_OK;
 }

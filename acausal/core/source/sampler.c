@@ -76,7 +76,7 @@ static void act(ac_sampler *s) {
     ac_tape_rows(s->of.acts, s->tape, 1, 6, length, stride, part, s->acted);
     for (int32_t k = 0; k < s->of.conditions; k++) {
         const double scale = s->acted[k];
-        s->width[k] = s->request.tolerance * (scale > 0 ? fmin(scale, DBL_MAX) : 1);
+        s->width[k] = s->request.tolerance * (scale > 0 ? fmin(scale, DBL_MAX) : fmin(s->request.span, 1));
     }
 }
 

@@ -249,6 +249,14 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
     return failed;
 }
 
+/* Values that were set may change conditions at once, and instants that are known. */
+static int32_t happen_by_what_was_given(ac_instance *i) {
+    ac_happened found;
+    const int32_t any = i->now.given && i->of->watched + i->of->timed;
+    i->now.given = 0;
+    return any ? ac_happen(i, &found) : AC_OK;
+}
+
 /* From the present time to another; with `early`, back at the first event, which is left to the caller. */
 int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event) {
     *event = 0, *reached = i->now.time;
@@ -258,7 +266,8 @@ int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32
     }
     if (i->now.phase != AC_RUNNING || i->now.failed) return ac_fail(i, AC_REFUSED, "it is not running.");
     if (!(to >= i->now.time) || !isfinite(to)) return ac_fail(i, AC_REFUSED, "a step leads to a later time.");
-    int32_t failed = go(i, to, early, event);
+    int32_t failed = happen_by_what_was_given(i);
+    if (!failed) failed = go(i, to, early, event);
     if (!failed) failed = ac_know(i, AC_Z);
     *reached = i->now.time;
     i->now.failed = failed == AC_FAILED;

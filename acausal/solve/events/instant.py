@@ -48,10 +48,10 @@ class Instants:
         self.is_switch = self.watched < self.guards.n_switches
 
     def width(self, at: Point) -> np.ndarray:
-        """How far each watched excess may be off by the tolerance."""
+        """How far each watched excess may be off by the tolerance; one of time alone as in a run of 1 s at most."""
         here = at.x, at.z, self.problem.p, at.time, at.constants.vector
         scale = np.nan_to_num(self.guards.scale(*here, self.nominal)[0])
-        return self.tolerance * np.where(scale > 0, scale, 1.0)
+        return self.tolerance * np.where(scale > 0, scale, min(self.span, 1.0))
 
     def rates(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Watched excesses and their time derivatives."""

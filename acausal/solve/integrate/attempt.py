@@ -11,12 +11,13 @@ from acausal.compiler.constants import Constants
 from acausal.compiler.once import making
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.energy import everywhere, refined
+from acausal.solve.integrate.energy import refined
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
 from acausal.solve.integrate.methods import METHODS, rounding
 from acausal.solve.integrate.settings import Settings
+from acausal.solve.integrate.stateless import everywhere
 from acausal.solve.integrate.trace import Leg, Trace
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows

@@ -9,7 +9,6 @@ settles does so in a small part of it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import scipy
@@ -17,13 +16,8 @@ import scipy
 from acausal.policy import POLICY
 from acausal.solve.hermite import cubic
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.ladder import Failure
-from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import GOLDEN, spread
-from acausal.solve.points import Point, Rows
-from acausal.solve.problem import Problem
-from acausal.solve.start.determined import undetermined
-from acausal.solve.start.newton import algebraic
+from acausal.solve.points import Rows
 
 ENERGY = POLICY.energy
 
@@ -48,11 +42,18 @@ def work(times: np.ndarray, power: np.ndarray, at: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     times, power : arrays, shapes (k,), (k, m)
-        Times in s and powers in W that are known, 6 at least.
+        Times in s and powers in W that are known.
     at : array, shape (n,)
         Times in s.
     """
-    return scipy.interpolate.make_interp_spline(times, power, 5).antiderivative()(at)
+    return _spline(times, power).antiderivative()(at)
+
+
+def _spline(times: np.ndarray, values: np.ndarray) -> scipy.interpolate.BSpline:
+    """Return the spline of order 5 through values at times of which some may be equal, of a lower one through few of them."""
+    apart = np.append(True, np.diff(times) > 0)  # parts of an interval of a few rounding errors are
+    order = {1: 0, 2: 1, 3: 1, 4: 3, 5: 3}.get(int(np.sum(apart)), 5)
+    return scipy.interpolate.make_interp_spline(times[apart], values[apart], order)
 
 
 def refined(
@@ -83,11 +84,11 @@ def refined(
     steps = np.zeros(len(work)) if taken is None else np.diff(taken)
     if np.all(steps >= 1):
         return given, True
-    known, stored = True, _stored(solver, rows)
+    known, energy = True, _stored(solver, rows)
+    stored, exchanged = np.diff(energy), _exchanged(energy)
     off = _unbalanced(work, stored)
     apart = (steps < 1) | (off > tolerance * np.mean(np.sum(np.abs(work), axis=1) + np.abs(stored)))
     ends = np.flatnonzero(np.diff(np.concatenate([[False], apart, [False]])))
-    exchanged = _exchanged(solver, rows)
     for first, last in ends.reshape(-1, 2).tolist():
         if last - first < ENERGY.least:
             continue
@@ -104,9 +105,14 @@ def refined(
 
 
 def _stored(solver: Consistent, rows: Rows) -> np.ndarray:
-    """Change of the stored energy from row to row in J."""
+    """Stored energy at each row in J."""
     problem, rows = solver.problem, solver(rows)[0]
-    return np.diff([problem.stored(problem.point(rows, k)) for k in range(len(rows))])
+    return np.array([problem.stored(problem.point(rows, k)) for k in range(len(rows))])
+
+
+def _exchanged(stored: np.ndarray) -> float:
+    """By how much the stored energy varies, but for rounding: a tiny power need not be known to its own tolerance."""
+    return float(np.ptp(stored) + ENERGY.rounding * np.max(np.abs(stored)))
 
 
 def _unbalanced(work: np.ndarray, stored: np.ndarray) -> np.ndarray:
@@ -176,7 +182,8 @@ def between_rows(
     t, n, agreed = rows.times, len(rows) - 1, 0
     slopes = _slopes(solver, rows)
     found, change = np.full((n + 1, 2), np.inf), np.full(2, np.inf)
-    exchanged = _exchanged(solver, rows) if exchanged is None else exchanged
+    some = rows[spread(n + 1, ENERGY.looks)]
+    exchanged = _exchanged(_stored(solver, some)) if exchanged is None else exchanged
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
     while n * parts <= ENERGY.most:
         inside, since = _inside(rows, slopes, np.arange(n * parts + 1) / parts)
@@ -214,13 +221,6 @@ def along(solver: Consistent, inside: Callable[[np.ndarray], Rows], times: np.nd
     return np.vstack([np.zeros((1, 2)), np.cumsum(each, axis=0)])
 
 
-def _exchanged(solver: Consistent, rows: Rows) -> float:
-    """By how much the stored energy varies, but for rounding: a tiny power need not be known to its own tolerance."""
-    problem = solver.problem
-    stored = [problem.stored(problem.point(rows, k)) for k in spread(len(rows), ENERGY.looks)]
-    return float(np.ptp(stored) + ENERGY.rounding * np.max(np.abs(stored)))
-
-
 def _slopes(solver: Consistent, rows: Rows) -> np.ndarray:
     """Slopes of the states at consistent rows: those of splines of order 5 through them, or the rates of a few rows.
 
@@ -228,7 +228,7 @@ def _slopes(solver: Consistent, rows: Rows) -> np.ndarray:
     """
     if len(rows) < 6:
         return solver.rates(rows)
-    return scipy.interpolate.make_interp_spline(rows.times, rows.x, 5)(rows.times, 1)
+    return _spline(rows.times, rows.x)(rows.times, 1)
 
 
 def _inside(rows: Rows, slopes: np.ndarray, s: np.ndarray) -> tuple[Rows, np.ndarray]:
@@ -251,45 +251,10 @@ def _seen(solver: Consistent, rows: Rows, times: np.ndarray, power: np.ndarray, 
     z[ends] = solver(rows[ends])[0].z
     rows = rows.with_z(z)
     probes, since = _inside(rows, _slopes(solver, rows), s)
-    missed = np.abs(scipy.interpolate.make_interp_spline(times, power, 5)(since) - powers(solver, probes))
+    missed = np.abs(_spline(times, power)(since) - powers(solver, probes))
     return bool(np.all(missed <= np.maximum(ENERGY.alike * np.max(np.abs(power), axis=0), least / times[-1])))
 
 
 def _halved(some: np.ndarray) -> np.ndarray:
     """Every second node, and the last one."""
     return np.unique([*range(0, len(some), 2), len(some) - 1])
-
-
-def everywhere(solver: Consistent, at: Point, times: np.ndarray, tolerance: float | None) -> Leg:
-    """Go from output to output where there is nothing to integrate.
-
-    Parameters
-    ----------
-    solver : Consistent
-        As of `powers`.
-    at : Point
-        Where it begins.
-    times : array, shape (n + 1,)
-        Times in s, that of the point first.
-    tolerance : float or None
-        Of the energies; None leaves them 0.
-    """
-    compiled, constants, found = solver.compiled, at.constants, [at.z]
-    for time in times[1:]:
-        at = _solved(solver.problem, replace(at, time=float(time)))
-        found.append(at.z)
-    n = len(times) - 1
-    rows, energy = Rows.within(times, np.zeros((n + 1, 0)), np.array(found), constants.vector), np.zeros((n, 2))
-    if tolerance is not None and not compiled.powers.is_zero():
-        energy = between_rows(solver, rows, tolerance)[0][1:]
-    return Leg(rows[1:], energy, constants, 0)
-
-
-def _solved(problem: Problem, at: Point) -> Point:
-    """Return the point with its algebraic unknowns; what the core does not solve for at once may be open at this time."""
-    if found := problem.solved(at, POLICY.newton.quick):
-        return found
-    found = algebraic(problem, at)
-    if text := undetermined(problem, found):
-        raise Failure(at.time, text)
-    return found

@@ -41,7 +41,7 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
 
 
 def ranked(
-    problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool
+    problem: Problem, at: Point, direct: Mapping[int, int], conditions: list[int], refuse: bool, flag: float = 1.0
 ) -> InitialSystem:
     """Complete the initial system by the ranks of its Jacobian.
 
@@ -58,19 +58,21 @@ def ranked(
         need not hold where others determine all.
     refuse : bool
         Whether freedoms that are left are refused or take their guesses.
+    flag : float, optional
+        1 while the conditions of the start hold, 0 in equilibrium.
     """
     compiled, c, nx, nz = problem.compiled, problem.compiled.constraints, problem.nx, problem.nz
     held = sorted(direct.values())
     free = np.setdiff1d(np.arange(nx), held)
     rows = nx + np.array(conditions, dtype=int)
-    M, C = _reduced(problem, at, free, rows)
+    M, C = _reduced(problem, at, free, rows, flag)
     used, surplus = _independent(M, C)
     if surplus:
         # A condition can lack influence at one position without lacking it around.
         shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
         moved[free] += shake * problem.nominal[free]
-        M, C = _reduced(problem, replace(at, x=moved), free, rows)
+        M, C = _reduced(problem, replace(at, x=moved), free, rows, flag)
         used, surplus = _independent(M, C)
     determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
     left = _left(compiled, np.vstack([M.toarray(), C[used]]), determined, free) if determined < len(free) else []
@@ -92,14 +94,14 @@ def ranked(
 
 
 def _reduced(
-    problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray
+    problem: Problem, at: Point, free: np.ndarray, rows: np.ndarray, flag: float
 ) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
     M, size = problem.gradients(at)[:, free], problem.nominal[free]
     if not rows.size:
         return M, np.zeros((0, len(free)))
-    J = problem.local(at, 1.0).jacobian.tocsc()
+    J = problem.local(at, flag).jacobian.tocsc()
     inner, right = J[nx : nx + nz, nx:].tocsc(), J[nx : nx + nz][:, free].toarray()
     dz = -factored(inner, problem.nominal[nx:], POLICY.ranks.rank)(right) if nz else right
     return M, (J[rows][:, free].toarray() + J[rows][:, nx:] @ dz) * size

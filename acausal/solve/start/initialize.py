@@ -5,19 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.local import Local
-from acausal.compiler.once import latest, once
+from acausal.compiler.once import latest
 from acausal.compiler.report import AtStart
 from acausal.errors import DeclarationError, InitializationError
-from acausal.language.functions import initial as initial_flag
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.blocks import by_blocks
 from acausal.solve.start.complete import closed_guess, ranked
+from acausal.solve.start.conditions import flag_matters, giving, lasts
 from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
@@ -102,7 +102,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
             if not (redundancy.singular and _states_suffice(problem, system)):
                 raise
     # The conditions of the initial system no longer hold; the states stay, the rest follows.
-    if _flag_matters(compiled):
+    if flag_matters(compiled):
         at = algebraic(problem, at)
     if not loops:
         return Start(at)
@@ -124,8 +124,13 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     """
     if not problem.compiled.constraints.size and initial != "steady":
         return _system(problem, problem.local(at, 1.0), initial)
-    first = {state: row for row, state in reversed(_giving(problem.compiled).items())}
-    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial)
+    lasting = {
+        row: state
+        for row, state in giving(problem.compiled).items()
+        if initial != "steady" or lasts(problem.compiled, row)
+    }
+    first = {state: row for row, state in reversed(lasting.items())}
+    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(initial != "steady"))
 
 
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
@@ -149,13 +154,13 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
     return system, replace(at, z=z), redundancy
 
 
-def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str) -> InitialSystem:
+def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str, flag: float = 1.0) -> InitialSystem:
     """Choose the initial system by ranks at a point where the loops are closed."""
     nx, nz = problem.nx, problem.nz
     others = [row for row in range(nz, nz + problem.compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
         others += range(-nx, 0)
-    return ranked(problem, at, direct, others, initial == "fixed")
+    return ranked(problem, at, direct, others, initial == "fixed", flag)
 
 
 def _states_suffice(problem: Problem, system: InitialSystem) -> bool:
@@ -187,7 +192,7 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
     """
     compiled = problem.compiled
     # The first condition on a state gives it, another one must agree.
-    first = {state: row for row, state in reversed(_giving(compiled).items())}
+    first = {state: row for row, state in reversed(giving(compiled).items())}
     direct = {row: state for state, row in first.items()}
     if direct:
         at = with_direct(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
@@ -195,17 +200,6 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
         return at, Redundancy(), direct
     at, redundancy = closed_guess(problem, at, np.array(sorted(first), dtype=int))
     return problem.completed(at), redundancy, direct
-
-
-@once
-def _flag_matters(compiled: CompiledModel) -> bool:
-    return any(ca.which_depends(ca.vertcat(compiled.reduced.ode, compiled.reduced.alg), initial_flag.sx, 1, True))
-
-
-@once
-def _curved(compiled: CompiledModel) -> list[bool]:
-    """Which conditions are not linear in the unknowns."""
-    return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)
 
 
 def _system(problem: Problem, local: Local, initial: str) -> InitialSystem:
@@ -237,7 +231,7 @@ def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSyste
         raise InitializationError(missing_text(compiled, guessed))
     used = [nz + k for k in done.used if k < given]
     surplus = [nz + k for k in done.surplus if k < given]
-    direct = {row: state for row, state in _giving(compiled).items() if row in used}
+    direct = {row: state for row, state in giving(compiled).items() if row in used}
     solved = [row for row in used if row not in direct]
     known = sorted([*guessed, *direct.values()])
     return InitialSystem(
@@ -258,21 +252,6 @@ def _rows(compiled: CompiledModel, order: np.ndarray) -> list[list[int]]:
     return [columns[first:last] for first, last in zip([0, *ends], ends, strict=False)]
 
 
-@once
-def _giving(compiled: CompiledModel) -> dict[int, int]:
-    """Conditions that give one state by themselves, counted from the first algebraic equation, and that state."""
-    J, nx, nz = compiled.pattern, compiled.nx, compiled.nz
-    unknowns = np.bincount(J.indices, minlength=J.shape[0])[nx + nz :]
-    last = np.zeros(J.shape[0], dtype=int)
-    last[J.indices] = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
-    curved = _curved(compiled)
-    return {
-        nz + k: state
-        for k, state in enumerate(last[nx + nz :].tolist())
-        if unknowns[k] == 1 and state < nx and not curved[k]
-    }
-
-
 def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
     at = _solution(problem, system, at)
     if system.surplus.size:
@@ -288,12 +267,12 @@ def _solve(problem: Problem, system: InitialSystem, at: Point) -> Point:
 def _solution(problem: Problem, system: InitialSystem, at: Point) -> Point:
     """Solve the initial system; where all states are known and no equation is of the start alone, as in a run."""
     known = len(system.known) == problem.nx and np.array_equal(system.rows, np.arange(problem.nz))
-    if known and not _flag_matters(problem.compiled) and (found := problem.solved(at, POLICY.newton.quick)):
+    if known and not flag_matters(problem.compiled) and (found := problem.solved(at, POLICY.newton.quick)):
         return found
     try:
         return newton(problem, system, at, 1.0)
     except InitializationError:
-        found = follow(problem, system, at)
+        found = follow(problem, system, at) or by_blocks(problem, system, at)
         if found is None:
             raise
         return found

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, der, discrete, piecewise, reinit, variable, when
+from acausal import Model, Scalar, der, discrete, parameter, piecewise, reinit, time, variable, when
 from acausal.core import library
 
 G = 9.81
@@ -37,3 +37,26 @@ def test_impacts_are_as_exact_however_long_the_run_is(stop):
     assert result["n"][-1] == n
     falls = np.sqrt(2e-3 / G) * (1 + 2 * np.cumsum([0.0, *0.9 ** np.arange(1, n)]))
     assert np.max(np.min(np.abs(falls[:, None] - np.array(result.stats["event_times"])), axis=1)) < 1e-9
+
+
+class Planned(Model):
+    """Counts instants that discrete variables plan."""
+
+    period: Scalar = parameter("between them", unit="s", default=1.0)
+    n: Scalar = discrete("how many")
+    due: Scalar = discrete("the next one", unit="s", start=0.5 * period)
+    x: Scalar = variable("grows", fixed=True)
+
+    def equations(self):
+        yield der(self.x) * self.period == 1
+        yield when(time >= self.due, reinit(self.n, self.n + 1), reinit(self.due, self.due + self.period))
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-8])
+def test_planned_instants_act_however_short_the_run_is(tolerance, method):
+    compiled = ac.compile(Planned())
+    for period in (1e-12, 1e-9, 1e-6, 1.0, 1e6):
+        for periods in (1, 20):
+            how = {"stop_time": periods * period, "tolerance": tolerance, "method": method}
+            assert ac.simulate(compiled, parameters={"period": period}, **how)["n"][-1] == periods

@@ -135,3 +135,17 @@ def test_steep_bent_and_large_unknowns_go_on_even_where_all_is_in_doubt(model, i
     assert not any(asked)
     for name in ("x", "z"):
         np.testing.assert_array_equal(found[name], as_it_is[name])
+
+
+def test_a_run_without_states_ends_there_and_keeps_what_it_found():
+    class Alone(Model):
+        z: Scalar = variable("what time tells")
+
+        def equations(self):
+            yield sin(self.z) == time
+
+    with pytest.raises(ac.SimulationError, match=r"stopped at t = 1\.02 s: .*no solution[^$]*test_branches") as caught:
+        ac.simulate(Alone(), stop_time=1.5, intervals=50)
+    found = caught.value.result
+    assert found.time[-1] == pytest.approx(0.99)
+    np.testing.assert_allclose(found["z"], np.arcsin(found.time), atol=1e-12)

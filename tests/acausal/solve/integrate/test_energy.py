@@ -307,3 +307,37 @@ def test_energy_of_an_impact_is_balanced():
     )
     assert abs(fine) < 1e-7
     assert abs(rough) < 1e-4
+
+
+@pytest.mark.parametrize("distinct", [1, 2, 3, 4, 5, 6, 20])
+def test_times_may_be_equal(distinct):
+    times = np.sort(np.concatenate([np.linspace(0, 1, distinct), np.zeros(3), np.full(2, (distinct > 1) * 1.0)]))
+    found = energy.work(times, np.ones((len(times), 2)), times)
+    np.testing.assert_allclose(found, np.tile(times, (2, 1)).T, atol=1e-14)
+
+
+def test_events_a_rounding_error_from_an_output_leave_energies_as_they_are():
+    class Backlash(Model):
+        """Two masses that touch in both directions."""
+
+        p: Scalar = variable("position", start=0.3, fixed=True)
+        v: Scalar = variable("its rate", fixed=True)
+        q: Scalar = variable("position", fixed=True)
+        w: Scalar = variable("its rate", fixed=True)
+
+        def equations(self):
+            gap, drag = self.p - self.q, 5 * (self.v - self.w)
+            law = [(1e4 * (gap - side * 0.1) + drag, side * gap > 0.1) for side in (1, -1)]
+            force = piecewise(*law, 0)
+            yield der(self.p) == self.v
+            yield der(self.q) == self.w
+            yield 2 * der(self.v) == 10 * cos(3 * time) - force
+            yield der(self.w) == force - 20 * self.q
+
+        def supplied_power(self):
+            return 10 * cos(3 * time) * self.v
+
+    exact = ac.simulate(Backlash(), stop_time=3, energy=True, tolerance=1e-9).stats["energy_supplied"]
+    for tolerance in (1e-7, 1e-8):
+        stats = ac.simulate(Backlash(), stop_time=3, energy=True, method="idas", tolerance=tolerance).stats
+        assert stats["energy_supplied"] == pytest.approx(exact, abs=1e-3)

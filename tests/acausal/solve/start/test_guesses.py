@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, chain, connect, der, fixed, guess, parameter, structural, variable
-from components import Body, BodyBox, FixedTranslation, Revolute, World
+from components import Body, BodyBox, FixedTranslation, Revolute, Spring, World
 
 
 class TwoRoots(Model):
@@ -178,3 +178,33 @@ class Nothing(Model):
 @pytest.mark.parametrize("initial", ["fixed", "guesses", "steady"])
 def test_a_model_without_unknowns_starts(initial: str) -> None:
     assert ac.simulate(Nothing(), stop_time=1.0, initial=initial, intervals=2)["y"] == pytest.approx([2.0] * 3)
+
+
+def test_free_bodies_whose_start_is_given_start_whatever_joins_them():
+    """Nothing is left to guess, but ends of the spring coincide at the guesses of the frames, where its force is steep."""
+    inertia = ((0.007, -0.0004, -0.001), (-0.0004, 0.0105, 0.0013), (-0.001, 0.0013, 0.0054))
+
+    def free(I: Any, x: float, w: tuple[float, float, float] = (0, 0, 0)) -> Body:
+        start = {"r_0": fixed((x, 0, 0)), "v_0": fixed((0, 0, 0)), "w_a": fixed(w)}
+        return Body(m=1, I=I, angles_fixed=True, angles_start=(0, 0, 0), **start)
+
+    class Joined(Model):
+        world = World(gravity=None)
+        a, b = free(inertia, 0, (1, 0, -2)), free(((1, 0, 0), (0, 1, 0), (0, 0, 1)), 1)
+        up, down = FixedTranslation(r=(0, 0.2, 0)), FixedTranslation(r=(0, 0, -0.1))
+        spring = Spring(c=1, s_unstretched=1)
+
+        def connections(self):
+            yield chain(self.a.frame_a, self.up, self.spring, self.down.frame_b)
+            yield connect(self.down.frame_a, self.b.frame_a)
+
+    result = ac.simulate(Joined(), stop_time=1e-3, intervals=1)
+    arms = np.array([0, 0.2, 0]), np.array([1, 0, -0.1])
+    pull = (arms[1] - arms[0]) * (1 - 1 / np.linalg.norm(arms[1] - arms[0]))
+    np.testing.assert_allclose(result["a.frame_a.a"][0], pull, atol=1e-12)
+    w = np.array([1, 0, -2])
+    np.testing.assert_allclose(
+        result["a.frame_a.z"][0],
+        np.linalg.solve(inertia, np.cross(arms[0], pull) - np.cross(w, inertia @ w)),
+        atol=1e-9,
+    )

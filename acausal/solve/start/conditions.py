@@ -1,0 +1,45 @@
+"""What conditions of the start say by themselves."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
+from acausal.language.functions import initial as initial_flag
+from acausal.symbols import scalars
+
+
+@once
+def flag_matters(compiled: CompiledModel) -> bool:
+    """Whether equations differ while the initial system holds."""
+    return any(ca.which_depends(ca.vertcat(compiled.reduced.ode, compiled.reduced.alg), initial_flag.sx, 1, True))
+
+
+@once
+def giving(compiled: CompiledModel) -> dict[int, int]:
+    """Conditions that give one state by themselves, counted from the first algebraic equation, and that state."""
+    J, nx, nz = compiled.pattern, compiled.nx, compiled.nz
+    unknowns = np.bincount(J.indices, minlength=J.shape[0])[nx + nz :]
+    last = np.zeros(J.shape[0], dtype=int)
+    last[J.indices] = np.repeat(np.arange(J.shape[1]), np.diff(J.indptr))
+    curved = _curved(compiled)
+    return {
+        nz + k: state
+        for k, state in enumerate(last[nx + nz :].tolist())
+        if unknowns[k] == 1 and state < nx and not curved[k]
+    }
+
+
+@once
+def lasts(compiled: CompiledModel, row: int) -> bool:
+    """Whether a condition, counted from the first algebraic equation, says something in equilibrium, where it has no start."""
+    said = scalars(ca.substitute(compiled.conditions, initial_flag.sx, 0))[row - compiled.nz]
+    return not said.is_constant()
+
+
+@once
+def _curved(compiled: CompiledModel) -> list[bool]:
+    """Which conditions are not linear in the unknowns."""
+    return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)
