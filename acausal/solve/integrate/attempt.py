@@ -122,15 +122,19 @@ class Integrator:
         return bool(np.any(worn(self.problem, some, constants) < least_cosine(self.problem)))
 
     def trial(self, at: Point, times: np.ndarray, max_steps: int) -> Leg | Refusal:
-        """Integrate in the current way, carefully where that fails; without works."""
+        """Integrate in the current way, carefully where that fails; without works, and through jumps."""
         way = replace(self.way, max_steps=max_steps)
-        found = self.attempt(at, times, way, works=False)
-        return self.attempt(at, times, replace(way, careful=True), works=False) if isinstance(found, Refusal) else found
+        found = self.attempt(at, times, way, works=False, leaps=True)
+        if isinstance(found, Refusal):
+            found = self.attempt(at, times, replace(way, careful=True), works=False, leaps=True)
+        return found
 
-    def attempt(self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False) -> Leg | Refusal:
+    def attempt(
+        self, at: Point, times: np.ndarray, way: Way, works: bool = True, keep: bool = False, leaps: bool = False
+    ) -> Leg | Refusal:
         """Integrate from a point, at times[0], through all other times in one call.
 
-        Works are 0 unless requested; a refusal holds what was reached if `keep`.
+        Works are 0 unless requested; a refusal holds what was reached if `keep`; algebraic unknowns may jump if `leaps`.
         """
         c = self.compiled
         if not c.nx:
@@ -157,7 +161,7 @@ class Integrator:
             self._keep_reached(integration, parts)
             raise
         if isinstance(found, Leg):
-            return self.settled(found.every(parts), integration)
+            return self.settled(found.every(parts), integration, leaps)
         rows = self._reached(integration, parts) if keep else None
         settled = rows and self.settled(rows, integration)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
@@ -202,7 +206,7 @@ class Integrator:
             return None
         return found.every(parts)
 
-    def settled(self, leg: Leg, integration: Integration) -> Leg | Refusal:
+    def settled(self, leg: Leg, integration: Integration, leaps: bool = False) -> Leg | Refusal:
         """Let the last row of a leg, whose arrays are its own, satisfy the equations, as the next call starts from it.
 
         The other rows are solved when they are read.
@@ -226,7 +230,7 @@ class Integrator:
         ends = (last, given[-1:])
         if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
-        jump = None if sure else integration.jump(self.consistent)
+        jump = None if sure or leaps else integration.jump(self.consistent)
         if jump is not None and jump <= end.time:
             return Refusal(Kind.UNSOLVABLE, jump)
         leg.rows.z[-1] = last.z[0]
