@@ -132,6 +132,8 @@ void ac_renew_inputs(ac_instance *i);
 double ac_near(const ac_instance *i);                           /* times that near are one */
 double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
+void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
+int32_t ac_refuse_jump(ac_instance *i);
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
 int ac_is_flat(ac_instance *i);
 

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #define NOISE 1e-9 /* of the largest algebraic unknown: what is smaller may be rounding */
+#define TOLERANCES 1000 /* over which, and of the terms, residuals are in doubt: as `Calls.left` of Python */
+#define MOST_LEFT 0.05
 
 /* Of the interpolant, order 4, see `rodas5p.h`. */
 static const double H[3][STAGES] = {
@@ -126,4 +128,14 @@ void ac_rodas_tell(ac_rodas *r, int last) {
         const double part = r->left[k] == 0 ? 0 : r->left[k] / r->terms[k];
         if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY, p->left_at = r->left_at[k];
     }
+}
+
+/* Whether it is in doubt after a step that the algebraic equations were followed; each doubt is told once. */
+int ac_rodas_doubts(ac_rodas *r) {
+    ac_progress *p = &r->progress;
+    ac_rodas_tell(r, 1);
+    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !isfinite(p->turned_at)) return 0;
+    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    p->turned_at = INFINITY, r->sign = 0;
+    return 1;
 }

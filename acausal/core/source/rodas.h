@@ -29,6 +29,7 @@ void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const 
 void ac_rodas_write(ac_rodas *r, double h, int last);
 void ac_rodas_look(ac_rodas *r);
 void ac_rodas_tell(ac_rodas *r, int last);
+int ac_rodas_doubts(ac_rodas *r);
 void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,
                     int32_t count, double *y);
 

@@ -16,7 +16,7 @@
 #define MOST_CROWDED 100 /* ... so many events are chattering */
 
 /* States and guesses of algebraic unknowns at a time within the last step. */
-static void stand(ac_instance *i, double time) {
+void ac_stand(ac_instance *i, double time) {
     const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
     const double h = i->now.to - i->now.from, s = h > 0 ? fmin((time - i->now.from) / h, 1) : 1;
     ac_interpolate(n, i->before, i->after, i->dense, s, 0, nx, i->x);
@@ -65,7 +65,7 @@ static void go_back(ac_instance *i) {
     const ac_unit *u = i->of;
     if (!u->constraints || i->now.taken++ < RETURN) return;
     i->now.taken = 1;
-    stand(i, i->now.to);
+    ac_stand(i, i->now.to);
     const double *w = ac_run(i, AC_COORDINATES);
     for (int32_t k = 0; k < u->tape[AC_COORDINATES].outputs; k++) i->after[u->coordinate[k]] = w[u->tape[AC_COORDINATES].output[k]];
     ac_rodas_move(i->rodas, i->after, i->after + ac_states(i));
@@ -97,7 +97,7 @@ static int32_t advance(ac_instance *i, double *left) {
 /* Values of the conditions, and their rates, at a time within the step. */
 static int32_t look(ac_instance *i, double time, double *found) {
     const int32_t n = i->of->watched;
-    stand(i, time);
+    ac_stand(i, time);
     const int32_t failed = ac_indicator_rates(i);
     if (failed) return failed;
     ac_put(found, i->guards, n);
@@ -112,7 +112,7 @@ static double beyond(const ac_instance *i, int32_t k, double value) { return i->
 static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double level) {
     for (int tries = 0; tries < HALVINGS && *to - from > ROUNDINGS * DBL_EPSILON * fabs(*to); tries++) {
         const double middle = from + (*to - from) / 2;
-        stand(i, middle);
+        ac_stand(i, middle);
         const int32_t failed = ac_know(i, AC_GUARD);
         if (failed) return failed;
         *(beyond(i, k, i->guards[k]) > level ? to : &from) = middle;
@@ -124,7 +124,7 @@ static int32_t bisect(ac_instance *i, int32_t k, double from, double *to, double
 static int32_t dip(ac_instance *i, int32_t k, double from, double to, double *at) {
     for (int tries = 0; tries < HALVINGS / 3; tries++) {
         *at = from + (to - from) / 2;
-        stand(i, *at);
+        ac_stand(i, *at);
         const int32_t failed = ac_indicator_rates(i);
         if (failed) return failed;
         if (beyond(i, k, i->guards[k]) > LEVEL * ac_width(i, k)) return AC_OK;
@@ -178,7 +178,7 @@ static int32_t act(ac_instance *i) {
 
 static int32_t at_event(ac_instance *i) {
     const int32_t n = i->of->watched;
-    stand(i, i->now.event);
+    ac_stand(i, i->now.event);
     i->now.event = INFINITY;
     const int32_t failed = ac_know(i, AC_GUARD);
     for (int32_t k = 0; k < n; k++) i->crossed[k] = beyond(i, k, i->guards[k]) > 0;
@@ -194,7 +194,7 @@ static int32_t refuse_flat(ac_instance *i) {
     int32_t failed = AC_OK;
     if (i->now.looked) ac_put(rates, rates + nx, nx);
     for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
-        stand(i, end ? i->now.to : i->now.from);
+        ac_stand(i, end ? i->now.to : i->now.from);
         failed = ac_know(i, AC_RATE);
         if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
         memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
@@ -215,7 +215,7 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
                 if (!failed && early) *event = 1;
                 else if (!failed) failed = act(i);
             } else {
-                stand(i, fmin(to, ahead));
+                ac_stand(i, fmin(to, ahead));
             }
         } else if (i->now.next <= i->now.time + ac_near(i)) {
             i->now.time = i->now.next;
@@ -232,8 +232,9 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             if (!failed) failed = advance(i, &left);
             if (failed) continue;
             failed = refuse_flat(i);
+            if (!failed) failed = ac_refuse_jump(i);
             if (!failed) failed = locate(i);
-            stand(i, time);
+            ac_stand(i, time);
             i->now.looked = !failed;
             /* A step in which nothing could be looked at is not taken. */
             if (failed) i->now.integrates = i->now.curved = 0;

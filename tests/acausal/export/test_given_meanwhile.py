@@ -16,6 +16,7 @@ from acausal import (
     chain,
     der,
     discrete,
+    fixed,
     guess,
     input,
     output,
@@ -28,6 +29,7 @@ from acausal import (
 )
 from components import Body, FlexibleBeam, Revolute, World, rotational
 from tests.acausal.export.hybrid import exported, opened, simulated
+from tests.acausal.solve.integrate.test_branches import ENDS
 
 
 class Switched(Model):
@@ -145,3 +147,22 @@ def test_a_start_may_be_far_from_that_of_the_file(tmp_path):
         np.testing.assert_allclose(found["now"][[0, -1]], [height, height - 9.81 / 2], rtol=1e-12, atol=1e-9)
     found = simulated(path, "CoSimulation", 5001.0, 10, start_time=5000.0)
     assert found["now"][0] == pytest.approx(5001.0)
+
+
+@pytest.mark.parametrize("intervals", [1, 10, 100])
+@pytest.mark.parametrize("case", range(len(ENDS)))
+def test_an_exported_model_ends_where_its_solution_does(case, intervals, tmp_path):
+    model = ENDS[case][0]
+
+    class Shown(type(model)):
+        shown: Scalar = output("what follows")
+
+        def equations(self):
+            yield from super().equations()
+            yield self.shown == self.z
+
+    path = exported(
+        Shown(x=fixed(-2.0 if case < 2 else 0.0), z=guess(-2.0 if case < 2 else 0.0)), tmp_path / "a.fmu", 3
+    )
+    with pytest.raises(Exception, match=r"DoStep failed"):
+        simulated(path, "CoSimulation", 5.0, intervals)
