@@ -85,7 +85,9 @@ class Progress(Structure):
         *((name, c_int64) for name in ("steps", "refused", "slopes", "values", "pivots")),
         ("written", c_int32),
         ("kept", c_int32),
-        *((name, c_double) for name in ("time", "left", "left_at", "turned_at")),
+        ("time", c_double),
+        ("left", c_double),
+        ("turned", c_int64),
     )
 
 

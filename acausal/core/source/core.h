@@ -125,8 +125,8 @@ typedef struct {
     int64_t steps, refused, slopes, values, pivots;
     int32_t written, kept; /* outputs and steps */
     double time;           /* reached */
-    double left, left_at;  /* of algebraic equations between steps, the largest residual over the largest sum of its terms; its time */
-    double turned_at;      /* time from which the determinant of the matrix has another sign than at first; infinite: it has none */
+    double left;           /* of algebraic equations between steps, the largest residual over the largest sum of its terms */
+    int64_t turned;        /* how often the determinant of the matrix had another sign than at first */
 } ac_progress;
 
 typedef struct ac_rodas ac_rodas;

@@ -7,7 +7,7 @@
 
 #define NOISE 1e-9 /* of the largest algebraic unknown: what is smaller may be rounding */
 #define TOLERANCES 1000 /* over which, and of the terms, residuals are in doubt: as `Calls.left` of Python */
-#define MOST_LEFT 0.05
+#define MOST_LEFT 0.015
 
 /* Of the interpolant, order 4, see `rodas5p.h`. */
 static const double H[3][STAGES] = {
@@ -99,7 +99,7 @@ static void gather_residuals(ac_rodas *r) {
     const int32_t *value = r->of.values->output + r->of.nx;
     for (int32_t k = 0; k < r->of.nz; k++) {
         const double residual = fabs(r->values[value[k]]);
-        if (!(residual <= r->left[k])) r->left[k] = residual, r->left_at[k] = r->t;
+        if (!(residual <= r->left[k])) r->left[k] = residual;
     }
 }
 
@@ -110,12 +110,12 @@ void ac_rodas_look(ac_rodas *r) {
     if (r->look > 1) gather_terms(r);
     gather_residuals(r);
     const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;
-    if (r->of.nz && sign == -r->sign && !isfinite(r->progress.turned_at)) r->progress.turned_at = r->t;
+    r->progress.turned += r->of.nz && sign == -r->sign;
     if (!r->sign) r->sign = sign;
     r->look = 0;
 }
 
-/* Tell the most of these residuals, after the last step too, over the most of the terms of its equation, and when that was. */
+/* Tell the most of these residuals, after the last step too, over the most of the terms of its equation. */
 void ac_rodas_tell(ac_rodas *r, int last) {
     ac_progress *p = &r->progress;
     p->left = 0;
@@ -126,7 +126,7 @@ void ac_rodas_tell(ac_rodas *r, int last) {
     }
     for (int32_t k = 0; k < r->of.nz; k++) {
         const double part = r->left[k] == 0 ? 0 : r->left[k] / r->terms[k];
-        if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY, p->left_at = r->left_at[k];
+        if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY;
     }
 }
 
@@ -134,8 +134,8 @@ void ac_rodas_tell(ac_rodas *r, int last) {
 int ac_rodas_doubts(ac_rodas *r) {
     ac_progress *p = &r->progress;
     ac_rodas_tell(r, 1);
-    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !isfinite(p->turned_at)) return 0;
+    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !p->turned) return 0;
     memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
-    p->turned_at = INFINITY, r->sign = 0;
+    p->turned = r->sign = 0;
     return 1;
 }

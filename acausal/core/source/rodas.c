@@ -53,7 +53,6 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->gathered[0] = r->gathered[1] = 0;
     r->begun = r->refused = r->unsolved = r->sign = 0;
     r->look = 2;
-    r->progress.left_at = r->t, r->progress.turned_at = INFINITY;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;

@@ -15,7 +15,7 @@ struct ac_rodas {
     double *block;                              /* all the memory */
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */
-    double *left, *left_at, *terms;             /* (nz) most that each algebraic equation left, when, and most of its terms */
+    double *left, *terms;                       /* (nz) most that each algebraic equation left, and most of its terms */
     double t, h, factored, gathered[2]; /* factored: step whose factors stand in the LU, 0 for none */
     int64_t written_at; /* steps at the last output */
     int32_t begun, refused, unsolved, stale; /* first step is chosen; last step was; equations had no value there; slopes are not those of y */

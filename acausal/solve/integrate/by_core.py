@@ -45,7 +45,7 @@ class ByCore(Integration):
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
         self.ended, self._keeps = False, loops or request.curves
-        self._examined = -np.inf
+        self._again: ByCore | None = None
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -63,28 +63,21 @@ class ByCore(Integration):
         done = self._rodas.progress
         return done.steps, done.steps + done.refused, done.values
 
-    @property
-    def _doubts(self) -> list[float]:
-        """Times of steps that leave more of algebraic equations than is right, and after which they have another sign."""
-        done, (tolerances, most) = self._rodas.progress, POLICY.calls.left
-        left = [done.left_at] if done.left > min(tolerances * self.request.way.tolerance, most) else []
-        return [*left, *([done.turned_at] if np.isfinite(done.turned_at) else [])]
-
     def follows(self) -> bool:
         """Whether residuals between steps are small, and their Jacobian did not become singular."""
-        return not self._doubts
+        done, (tolerances, most) = self._rodas.progress, POLICY.calls.left
+        return done.left <= min(tolerances * self.request.way.tolerance, most) and not done.turned
 
     def jump(self, consistent: Consistent) -> float | None:
-        """Time in s of the first jump of an algebraic unknown up to where that is in doubt: the steps are taken again.
+        """Time in s of the first jump of an algebraic unknown since it was asked last: all steps are taken again.
 
         Loops are looked at in other ways; what keeps them closed leaves more between steps.
         """
-        last = -np.inf if self._loops else max(self._doubts, default=-np.inf)
-        if last <= self._examined:
+        if self._loops:
             return None
-        self._examined, refusal = last, None
-        again = ByCore(replace(self.request, curves=True), self._damps)
-        while not (refusal or again.ended or again.reached >= last):
+        again = self._again = self._again or ByCore(replace(self.request, curves=True), self._damps)
+        refusal = None
+        while not (refusal or again.ended or again.reached >= self.reached):
             refusal = again.advance(POLICY.calls.steps)
             found = first_jump(consistent, again.curve, self.request.at.constants.vector)
             if found is not None:

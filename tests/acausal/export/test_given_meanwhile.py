@@ -162,7 +162,7 @@ def test_an_exported_model_ends_where_its_solution_does(case, intervals, tmp_pat
             yield self.shown == self.z
 
     path = exported(
-        Shown(x=fixed(-2.0 if case < 2 else 0.0), z=guess(-2.0 if case < 2 else 0.0)), tmp_path / "a.fmu", 3
+        Shown(x=fixed(-2.0 if case < 3 else 0.0), z=guess(-2.0 if case < 3 else 0.0)), tmp_path / "a.fmu", 3
     )
     with pytest.raises(Exception, match=r"DoStep failed"):
         simulated(path, "CoSimulation", 5.0, intervals)
