@@ -157,11 +157,11 @@ class Integrator:
             self.trace.building += clock.perf_counter() - started - (making(c) - made)
         try:
             found = self._outcome(integration)
+            if isinstance(found, Leg):
+                return self.settled(found.every(parts), integration, leaps)
         except KeyboardInterrupt:
             self._keep_reached(integration, parts)
             raise
-        if isinstance(found, Leg):
-            return self.settled(found.every(parts), integration, leaps)
         rows = self._reached(integration, parts) if keep else None
         settled = rows and self.settled(rows, integration)
         return replace(found, reached=settled) if isinstance(settled, Leg) else found
