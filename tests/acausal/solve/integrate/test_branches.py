@@ -8,6 +8,7 @@ import pytest
 import acausal as ac
 from acausal import Model, Scalar, atan2, cos, der, fixed, guess, parameter, sin, time, variable
 from acausal.core import library
+from acausal.solve.integrate import by_core
 from acausal.solve.integrate.by_core import ByCore
 
 CORE = pytest.mark.skipif(library() is None, reason="needs the core")
@@ -161,3 +162,17 @@ def test_a_run_without_states_ends_there_and_keeps_what_it_found():
     found = caught.value.result
     assert found.time[-1] == pytest.approx(0.99)
     np.testing.assert_allclose(found["z"], np.arcsin(found.time), atol=1e-12)
+
+
+@CORE
+def test_an_interrupt_while_steps_are_looked_at_keeps_what_was_computed(monkeypatch):
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ByCore, "follows", lambda self: False)
+    monkeypatch.setattr(by_core, "first_jump", interrupted)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ac.simulate(Bent(x=fixed(0.0)), stop_time=5.0, intervals=50)
+    found = caught.value.result  # type: ignore[attr-defined]
+    assert found.time[-1] == 5.0
+    assert found.stats.stopped == "interrupted"
