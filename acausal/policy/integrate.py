@@ -126,11 +126,11 @@ class Branches:
     """Jumps of algebraic unknowns within a step, which is divided again and again where they change most."""
 
     # Parts at once, and how often: a law may be as steep as a millionth of a step.
-    parts: int = 16
-    zooms: int = 5
+    parts: int = 6
+    zooms: int = 8
     # Of the size of an unknown, changes that count; and of a change, what a part of it may take where it is smooth.
-    slight: float = 1e-2
-    share: float = 0.25
+    slight: float = 0.05
+    share: float = 0.5
 
 
 @dataclass(frozen=True)
