@@ -54,13 +54,13 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         try:
             begun = _begun(problem, time, head, initial)
         except InitializationError:
-            if not tried.cycle:
+            there = _at_guesses(problem, time, head) if initial == "steady" and tried.count == 1 else None
+            if there is None and not tried.cycle:
                 raise
-            head = tried.then(head, head)
+            head = tried.then(head, head if there is None else there)
             continue
         at = begun.point
-        found = guards.start(at.x, at.z, p, time, at.constants.vector)[0]
-        new = found.copy()
+        new = _found(problem, at)
         new[by_clock] = head[by_clock]
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Rounding would turn what is in doubt over again and again.
@@ -70,6 +70,22 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             return replace(begun, point=replace(at, truth=_first_truth(problem, at, doubtful, head)))
         head = tried.then(head, np.where(same, head, new))
     raise InitializationError(_no_switches(problem.compiled, time, tried))
+
+
+def _found(problem: Problem, at: Point) -> np.ndarray:
+    """Return the switches and discrete variables that follow from values."""
+    return problem.compiled.guards.start(at.x, at.z, problem.p, at.time, at.constants.vector)[0].copy()
+
+
+def _at_guesses(problem: Problem, time: float, head: np.ndarray) -> np.ndarray | None:
+    """Return the switches of the guessed states, where what follows from these had other guesses; None for the same ones."""
+    try:
+        found = _found(problem, _begun(problem, time, head, "guesses").point)
+    except InitializationError:
+        return None
+    by_clock = [k for k in problem.compiled.guards.timed if k < problem.compiled.guards.n_switches]
+    found[by_clock] = head[by_clock]
+    return None if np.array_equal(found, head) else found
 
 
 def _no_switches(compiled: CompiledModel, time: float, tried: Assignments) -> str:
