@@ -33,10 +33,10 @@ def giving(compiled: CompiledModel) -> dict[int, int]:
 
 
 @once
-def lasts(compiled: CompiledModel, row: int) -> bool:
-    """Whether a condition, counted from the first algebraic equation, says something in equilibrium, where it has no start."""
-    said = scalars(ca.substitute(compiled.conditions, initial_flag.sx, 0))[row - compiled.nz]
-    return not said.is_constant()
+def lasting(compiled: CompiledModel) -> frozenset[int]:
+    """Conditions, counted from the first algebraic equation, that say something in equilibrium, where those of a start do not."""
+    said = scalars(ca.substitute(compiled.conditions, initial_flag.sx, 0))
+    return frozenset(compiled.nz + k for k, entry in enumerate(said) if not entry.is_constant())
 
 
 @once

@@ -17,7 +17,7 @@ from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.blocks import by_blocks
 from acausal.solve.start.complete import closed_guess, ranked
-from acausal.solve.start.conditions import flag_matters, giving, lasts
+from acausal.solve.start.conditions import flag_matters, giving, lasting
 from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
@@ -124,13 +124,10 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     """
     if not problem.compiled.constraints.size and initial != "steady":
         return _system(problem, problem.local(at, 1.0), initial)
-    lasting = {
-        row: state
-        for row, state in giving(problem.compiled).items()
-        if initial != "steady" or lasts(problem.compiled, row)
-    }
-    first = {state: row for row, state in reversed(lasting.items())}
-    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(initial != "steady"))
+    steady = initial == "steady"
+    given = giving(problem.compiled).items()
+    first = {state: row for row, state in reversed(given) if not steady or row in lasting(problem.compiled)}
+    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady))
 
 
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:

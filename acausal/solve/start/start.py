@@ -46,8 +46,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         If no values are found, or none whose switches fit them.
     """
     guards, p = problem.compiled.guards, problem.p
-    by_clock, watched = ([k for k in some if k < guards.n_switches] for some in (guards.timed, guards.watched))
-    tried = Assignments(watched)
+    tried = Assignments([k for k in guards.watched if k < guards.n_switches])
     head = guards.estimate(p, time, later)[0].copy()
     head = tried.then(head, head)
     while head is not None and tried.count <= MOST:
@@ -60,8 +59,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             head = tried.then(head, head if there is None else there)
             continue
         at = begun.point
-        new = _found(problem, at)
-        new[by_clock] = head[by_clock]
+        new = _found(problem, at, head)
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Rounding would turn what is in doubt over again and again.
         doubtful = _doubtful(problem, at) if tried.count > 1 and not np.all(same) else np.empty(0, dtype=int)
@@ -72,19 +70,21 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     raise InitializationError(_no_switches(problem.compiled, time, tried))
 
 
-def _found(problem: Problem, at: Point) -> np.ndarray:
-    """Return the switches and discrete variables that follow from values."""
-    return problem.compiled.guards.start(at.x, at.z, problem.p, at.time, at.constants.vector)[0].copy()
+def _found(problem: Problem, at: Point, head: np.ndarray) -> np.ndarray:
+    """Return the switches and discrete variables that follow from values; what the clock decides stays as in `head`."""
+    guards = problem.compiled.guards
+    found = guards.start(at.x, at.z, problem.p, at.time, at.constants.vector)[0].copy()
+    by_clock = [k for k in guards.timed if k < guards.n_switches]
+    found[by_clock] = head[by_clock]
+    return found
 
 
 def _at_guesses(problem: Problem, time: float, head: np.ndarray) -> np.ndarray | None:
     """Return the switches of the guessed states, where what follows from these had other guesses; None for the same ones."""
     try:
-        found = _found(problem, _begun(problem, time, head, "guesses").point)
+        found = _found(problem, _begun(problem, time, head, "guesses").point, head)
     except InitializationError:
         return None
-    by_clock = [k for k in problem.compiled.guards.timed if k < problem.compiled.guards.n_switches]
-    found[by_clock] = head[by_clock]
     return None if np.array_equal(found, head) else found
 
 
