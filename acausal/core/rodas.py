@@ -171,6 +171,7 @@ class Rodas:
         rate: np.ndarray | None = None,
         smooth: bool = False,
         largest: bool = False,
+        singular: bool = False,
         most: int = 2**62,
         room: int = 0,
         curves: bool = False,
@@ -195,6 +196,9 @@ class Rodas:
             Whether the error of rates leaves out vibrations that a step does not resolve.
         largest : bool, optional
             Whether the largest error of a state counts, not their root mean square.
+        singular : bool, optional
+            Whether positions of closed loops may be passed at which algebraic unknowns grow without end: whether their equations
+            are solved where a step ends does not count then.
         most : int, optional
             Steps between two outputs.
         room : int, optional
@@ -216,7 +220,7 @@ class Rodas:
         places = map(address, (times, *written))
         kept = map(address, self._steps)
         request = RequestData(
-            *(tolerance, first_step, address(size), address(chosen), smooth, largest, most, n),
+            *(tolerance, first_step, address(size), address(chosen), smooth, largest, singular, most, n),
             *(*places, room, *kept),
         )
         # The library keeps the addresses of these, too.

@@ -187,7 +187,7 @@ class Sampler:
         Those named in `THRESHOLDS`, see acausal/policy/events.py.
     p, times, nominal, declared : arrays
         Parameters; outputs in s; sizes of states and algebraic unknowns in the run; of algebraic unknowns as they were stated.
-    size, rate, tolerance, smooth, largest
+    size, rate, tolerance, smooth, largest, singular
         As of `Rodas.begin`.
     fine : int
         Parts of a step at whose ends conditions are looked at, at least.
@@ -212,6 +212,7 @@ class Sampler:
         tolerance: float,
         smooth: bool,
         largest: bool,
+        singular: bool,
         fine: int,
         longest: int = 2**62,
         ringing: int = 2**62,
@@ -229,7 +230,7 @@ class Sampler:
         self._rate, self._found = rate, [np.empty((room, n)) for n in (1, e.nx, e.nz, e.nc, 1)]
         self._peak = np.empty(len(sampled.is_switch))
         steps = RequestData(
-            tolerance=tolerance, size=size.ctypes.data, rate=rate.ctypes.data, smooth=smooth, largest=largest
+            *(tolerance, 0.0, size.ctypes.data, rate.ctypes.data), smooth=smooth, largest=largest, singular=singular
         )
         found = dict(zip(("row_time", "row_x", "row_z", "row_c", "row_event"), self._found, strict=True))
         arrays = {"p": p, "time": times, "nominal": nominal, "declared": declared, "peak": self._peak, **found}

@@ -107,6 +107,8 @@ typedef struct {
     const int32_t *rate;           /* (nx) whether a state is a rate of another one; NULL: none is */
     int32_t smooth;                /* whether vibrations that a step does not resolve are left out of the error of rates */
     int32_t largest;               /* whether the largest error of a state counts, not their root mean square */
+    int32_t singular;              /* whether positions of closed loops may be passed at which unknowns grow without end: what steps
+                                      leave of the algebraic equations is not looked at then */
     int64_t most;                  /* steps between two outputs */
     int32_t outputs;
     const double *time;            /* (1 + outputs) start and output times, ascending */

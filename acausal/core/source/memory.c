@@ -16,7 +16,7 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     const size_t powers = e->powers ? ac_tape_length(e->powers) : 0;
     r->timely = e->slopes->outputs > e->start[r->n];
     r->lu = r->kept[0] = ac_lu_make(r->n, e->start, e->row);
-    r->block = calloc(values + slopes + powers + (STAGES + 9) * n + entries, sizeof(double));
+    r->block = calloc(values + slopes + powers + (STAGES + 12) * n + entries, sizeof(double));
     if (!r->lu || !r->block) {
         ac_rodas_free(r);
         return NULL;
@@ -24,7 +24,8 @@ ac_rodas *ac_rodas_make(const ac_equations *equations) {
     r->values = r->block, r->slopes = r->values + values, r->powers = r->slopes + slopes;
     r->y = r->powers + powers;
     r->next = r->y + n, r->stage = r->next + n, r->b = r->stage + n, r->u = r->b + n;
-    r->dense = r->u + STAGES * n, r->left = r->dense + 3 * n, r->terms = r->left + n, r->matrix = r->terms + n;
+    r->dense = r->u + STAGES * n, r->here = r->dense + 3 * n, r->there = r->here + n, r->left = r->there + n;
+    r->most = r->left + n, r->terms = r->most + n, r->matrix = r->terms + n;
     const ac_tape *tapes[] = {e->values, e->slopes, e->powers};
     double *arrays[] = {r->values, r->slopes, r->powers};
     for (int k = 0; k < 3; k++) {

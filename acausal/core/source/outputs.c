@@ -1,13 +1,8 @@
-/* What is found between two steps: values at outputs, integrals, and what the algebraic equations leave. */
-#include "lu.h"
+/* What is found within a step: values at outputs, and integrals. */
 #include "rodas.h"
 
 #include <math.h>
 #include <string.h>
-
-#define NOISE 1e-9 /* of the largest algebraic unknown: what is smaller may be rounding */
-#define TOLERANCES 1000 /* over which, and of the terms, residuals are in doubt: as `Calls.left` of Python */
-#define MOST_LEFT 0.015
 
 /* Of the interpolant, order 4, see `rodas5p.h`. */
 static const double H[3][STAGES] = {
@@ -77,65 +72,4 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
         ++*written;
     }
     if (r->of.powers && from < 1) gather(r, from, 1, h);
-}
-
-/* The most of the terms of each algebraic equation so far. Unknowns far below the largest are rounding, with terms as small. */
-static void gather_terms(ac_rodas *r) {
-    const int32_t *slope = r->of.slopes->output;
-    double *terms = r->stage, largest = 0;
-    memset(terms, 0, (size_t)r->n * sizeof *terms);
-    for (int32_t j = r->of.nx; j < r->n; j++) largest = fmax(largest, fabs(r->y[j]));
-    for (int32_t j = 0; j < r->n; j++) {
-        const double y = fmax(fabs(r->y[j]), NOISE * largest);
-        for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->slopes[slope[e]]) * y;
-    }
-    for (int32_t k = 0; k < r->of.nz; k++) {
-        if (terms[r->of.nx + k] > r->terms[k]) r->terms[k] = terms[r->of.nx + k];
-    }
-}
-
-/* The most that each algebraic equation left so far; the values there are known. */
-static void gather_residuals(ac_rodas *r) {
-    const int32_t *value = r->of.values->output + r->of.nx;
-    for (int32_t k = 0; k < r->of.nz; k++) {
-        const double residual = fabs(r->values[value[k]]);
-        if (!(residual <= r->left[k])) r->left[k] = residual;
-    }
-}
-
-/* Look at the algebraic equations where a step begins; their values, slopes and factors there are known. The error of the states
-   alone is controlled: where these equations have no solution the method goes on. Their residuals tell, or, where unknowns grow
-   without end, the sign of their determinant: solutions that follow one another have one sign. */
-void ac_rodas_look(ac_rodas *r) {
-    if (r->look > 1) gather_terms(r);
-    gather_residuals(r);
-    const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;
-    r->progress.turned += r->of.nz && sign == -r->sign;
-    if (!r->sign) r->sign = sign;
-    r->look = 0;
-}
-
-/* Tell the most of these residuals, after the last step too, over the most of the terms of its equation. */
-void ac_rodas_tell(ac_rodas *r, int last) {
-    ac_progress *p = &r->progress;
-    p->left = 0;
-    if (last && r->of.nz) {
-        ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
-        p->values++;
-        gather_residuals(r);
-    }
-    for (int32_t k = 0; k < r->of.nz; k++) {
-        const double part = r->left[k] == 0 ? 0 : r->left[k] / r->terms[k];
-        if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY;
-    }
-}
-
-/* Whether it is in doubt after a step that the algebraic equations were followed; each doubt is told once. */
-int ac_rodas_doubts(ac_rodas *r) {
-    ac_progress *p = &r->progress;
-    ac_rodas_tell(r, 1);
-    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !p->turned) return 0;
-    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
-    p->turned = r->sign = 0;
-    return 1;
 }

@@ -20,8 +20,7 @@
 #define MOST_SHORTENED 12
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define LOST 1e-4             /* of the tolerance, which the factors lose at most */
-#define LOOKS 4                /* steps from one look at the terms of equations to the next, but for the first ones */
-#define FIRST_LOOKS 16
+#define BESIDE 0.5            /* of a step behind which the algebraic unknowns are not near where it leads */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
@@ -39,6 +38,14 @@ void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const 
     ac_tape_run(tape, w, tape->early, tape->runs);
 }
 
+/* Values of the equations. */
+void ac_rodas_values(ac_rodas *r, const double *y, double t, double *found) {
+    const ac_tape *tape = r->of.values;
+    ac_rodas_evaluate(r, tape, r->values, y, t);
+    for (int32_t k = 0; k < r->n; k++) found[k] = r->values[tape->output[k]];
+    r->progress.values++;
+}
+
 /* Where an integration begins; nothing is computed yet. */
 void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p, const double *c) {
     r->request = *request;
@@ -50,14 +57,12 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     prepare(r, r->of.powers, r->powers, p, c);
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
-    r->gathered[0] = r->gathered[1] = 0;
-    r->begun = r->refused = r->unsolved = r->sign = 0;
-    r->look = 2;
+    r->gathered[0] = r->gathered[1] = r->trusted = 0;
+    r->begun = r->refused = r->unsolved = r->sign = r->known = 0;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;
-    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
-    memset(r->terms, 0, (size_t)r->of.nz * sizeof *r->terms);
+    ac_rodas_forget(r);
 }
 
 /* Go on from other values at the time that was reached, near those that were. */
@@ -65,13 +70,14 @@ void ac_rodas_move(ac_rodas *r, const double *x, const double *z) {
     if (r->of.nx) memcpy(r->y, x, (size_t)r->of.nx * sizeof *x);
     if (r->of.nz) memcpy(r->y + r->of.nx, z, (size_t)r->of.nz * sizeof *z);
     r->stale = 1;
+    r->known = 0;
 }
 
 /* Take so many steps between two outputs at most from now on. */
 void ac_rodas_allow(ac_rodas *r, int64_t most) { r->request.most = most; }
 
 /* Changes of the states over tolerance (size + |x|): their root mean square, or the largest. */
-static double norm(const ac_rodas *r, const double *change) {
+double ac_rodas_norm(const ac_rodas *r, const double *change) {
     double sum = 0, largest = 0;
     for (int32_t k = 0; k < r->of.nx; k++) {
         const double most = fmax(fabs(r->y[k]), fabs(r->next[k]));
@@ -170,17 +176,21 @@ static int32_t stills(ac_rodas *r, const double *slope) {
     return slope && unresolved(r, left, NULL) > 1;
 }
 
+/* Values of the equations where a step begins. */
+static void find_here(ac_rodas *r) {
+    if (!r->known) ac_rodas_values(r, r->y, r->t, r->here);
+    r->known = 1;
+}
+
 /* Shorten the first step until it resolves what moves; begin with the one that is given, else with a long one. */
 static void begin(ac_rodas *r) {
     const ac_request *q = &r->request;
     const double span = q->time[q->outputs] - r->t, output = q->time[q->outputs > 0] - r->t;
-    double *slope = NULL;
+    const double *slope = NULL;
     if (!(r->h > 0)) {
         r->h = fmin(FIRST * span, fmax(output, FIRST * FIRST * span));
-        ac_rodas_evaluate(r, r->of.values, r->values, r->y, r->t);
-        r->progress.values++;
-        slope = r->next;
-        for (int32_t k = 0; k < r->of.nx; k++) slope[k] = r->values[r->of.values->output[k]];
+        find_here(r);
+        slope = r->here;
     }
     r->h = r->h < span ? measured(r->h) : span;
     for (int tries = 0; tries < MOST_SHORTENED && stills(r, slope); tries++) r->h = measured(SHORTENED * r->h);
@@ -190,29 +200,28 @@ static void begin(ac_rodas *r) {
 /* All stages, and where they lead. */
 static void stages(ac_rodas *r, double h) {
     const int32_t n = r->n, nx = r->of.nx;
-    const int32_t *value = r->of.values->output;
+    find_here(r);
     for (int32_t i = 0; i < STAGES; i++) {
         double *u = r->u + (size_t)i * (size_t)n;
         memcpy(r->stage, r->y, (size_t)n * sizeof *u);
-        memset(r->b, 0, (size_t)n * sizeof *u);
+        memset(r->b, 0, (size_t)nx * sizeof *u);
         for (int32_t j = 0; j < i; j++) {
             const double *before = r->u + (size_t)j * (size_t)n, a = A[i][j], c = C[i][j] / h;
             for (int32_t k = 0; k < n; k++) r->stage[k] += a * before[k];
             for (int32_t k = 0; k < nx; k++) r->b[k] += c * before[k];
         }
-        ac_rodas_evaluate(r, r->of.values, r->values, r->stage, r->t + ALPHA[i] * h);
-        for (int32_t k = 0; k < n; k++) u[k] = r->values[value[k]] + r->b[k];
+        if (i) ac_rodas_values(r, r->stage, r->t + ALPHA[i] * h, u);
+        else memcpy(u, r->here, (size_t)n * sizeof *u);
+        for (int32_t k = 0; k < nx; k++) u[k] += r->b[k];
         if (r->timely && GAMMAS[i] != 0) {
             const int32_t *slope = r->of.slopes->output + r->of.start[n];
             for (int32_t k = 0; k < n; k++) u[k] += h * GAMMAS[i] * r->slopes[slope[k]];
         }
         ac_lu_solve(r->lu, u);
-        if (!i && r->look) ac_rodas_look(r);
     }
     /* The last stage starts from y + sum a_8j u_j: the solution is that and u_8, which is the error estimate. */
     const double *last = r->u + (size_t)(STAGES - 1) * (size_t)n;
     for (int32_t k = 0; k < n; k++) r->next[k] = r->stage[k] + last[k];
-    r->progress.values += STAGES;
 }
 
 /* Keep where a step ended. */
@@ -257,10 +266,14 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         double error = INFINITY;
         if (!failed) {
             stages(r, h);
-            if (ac_all_finite(r->next, r->n)) error = norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
+            if (ac_all_finite(r->next, r->n)) error = ac_rodas_norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
         }
         r->unsolved = !isfinite(error);
-        const double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
+        double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
+        if (error <= 1 && !ac_rodas_follows(r, h)) {
+            r->unsolved = 1;
+            error = INFINITY, change = BESIDE;
+        }
         if (!(error <= 1)) {
             r->progress.refused++;
             r->refused = 1;
@@ -271,16 +284,16 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         ac_rodas_write(r, h, last);
         if (r->progress.written > written) r->written_at = r->progress.steps;
         memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
+        memcpy(r->here, r->there, (size_t)r->n * sizeof *r->here);
         r->t = last ? end : r->t + h;
         r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : MOST));
         r->refused = 0;
         r->progress.steps++;
         r->stale = 1;
-        r->look = 1 + (r->progress.steps < FIRST_LOOKS || r->progress.steps % LOOKS == 0);
         keep(r);
     }
     r->progress.time = r->t;
-    ac_rodas_tell(r, found == AC_DONE);
+    ac_rodas_tell(r);
     *progress = r->progress;
     return found;
 }

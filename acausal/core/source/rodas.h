@@ -15,20 +15,25 @@ struct ac_rodas {
     double *block;                              /* all the memory */
     double *values, *slopes, *powers;           /* arrays of the tapes */
     double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */
-    double *left, *terms;                       /* (nz) most that each algebraic equation left, and most of its terms */
+    double *here, *there;                       /* values of the equations where a step begins and ends */
+    double *left, *most, *terms;                /* (nz) most that each algebraic equation left, and of its terms; terms of all */
+    double trusted; /* what steps may leave of the terms, as one left it whose unknowns were near enough */
     double t, h, factored, gathered[2]; /* factored: step whose factors stand in the LU, 0 for none */
     int64_t written_at; /* steps at the last output */
     int32_t begun, refused, unsolved, stale; /* first step is chosen; last step was; equations had no value there; slopes are not those of y */
-    int32_t look;                            /* whether residuals are looked at before the next step; 2: their terms as well */
-    int32_t sign;                            /* of the determinant at the first look, -1 or 1; 0: there was none */
+    int32_t known; /* whether `here` stands */
+    int32_t sign;  /* of the determinant at the first step, -1 or 1; 0: there was none */
     ac_request request;
     ac_progress progress;
 };
 
 void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const double *y, double t);
+void ac_rodas_values(ac_rodas *r, const double *y, double t, double *found);
+double ac_rodas_norm(const ac_rodas *r, const double *change);
 void ac_rodas_write(ac_rodas *r, double h, int last);
-void ac_rodas_look(ac_rodas *r);
-void ac_rodas_tell(ac_rodas *r, int last);
+void ac_rodas_forget(ac_rodas *r);
+int ac_rodas_follows(ac_rodas *r, double h);
+void ac_rodas_tell(ac_rodas *r);
 int ac_rodas_doubts(ac_rodas *r);
 void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,
                     int32_t count, double *y);

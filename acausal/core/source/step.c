@@ -38,7 +38,7 @@ static int32_t begin(ac_instance *i, double to) {
     const int damps = i->now.damping > 0;
     const ac_request request = {
         .tolerance = i->now.tolerance, .first_step = kept, .rate = m->rate,
-        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps,
+        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
         .most = INT64_MAX / 4, .outputs = 1, .time = i->ends, .room = 1,
         .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
     };
@@ -53,6 +53,7 @@ static int32_t begin(ac_instance *i, double to) {
     if (goes_on) {
         i->rodas->h = kept;
         i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
+        i->rodas->trusted = i->now.trusted;
     }
     if (!goes_on) i->now.looked = i->now.taken = 0;
     i->now.integrates = 1, i->going = 1;
@@ -89,7 +90,7 @@ static int32_t advance(ac_instance *i, double *left) {
     memcpy(i->before, i->after, n * sizeof *i->before);
     memcpy(i->after, i->step_y, n * sizeof *i->after);
     i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h;
-    i->now.refused = i->rodas->refused, i->now.unsolved = i->rodas->unsolved;
+    i->now.refused = i->rodas->refused, i->now.unsolved = i->rodas->unsolved, i->now.trusted = i->rodas->trusted;
     i->now.curved = 1, i->now.event = INFINITY;
     return AC_OK;
 }

@@ -46,7 +46,7 @@ def are_rates(problem: Problem) -> np.ndarray:
 
 
 def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, Any]:
-    """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth and largest.
+    """Return how the core tests the error of a step: what `Rodas.begin` takes as size, rate, smooth, largest and singular.
 
     Parameters
     ----------
@@ -59,7 +59,8 @@ def error_test(problem: Problem, settings: Settings, damps: bool) -> dict[str, A
     """
     nominal = settings.nominal
     size = sizes(problem, nominal, settings.spectrum.vibration) if damps else nominal[: problem.nx]
-    return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps}
+    singular = damps and problem.compiled.constraints.size > 0
+    return {"size": size, "rate": are_rates(problem), "smooth": not damps, "largest": damps, "singular": singular}
 
 
 def at_once(equations: Equations) -> int:

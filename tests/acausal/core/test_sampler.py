@@ -47,7 +47,8 @@ def sampler(room: int = 100) -> Sampler:
     return Sampler(
         *(sampled(), room, limits | {"reach": 3.0, "error": 3.0, "enough": 1e-7}),
         **{"p": np.zeros(0), "times": np.linspace(0, 10, 41), "nominal": np.ones(1), "declared": np.zeros(0)},
-        **{"size": np.ones(1), "rate": np.zeros(1), "tolerance": 1e-6, "smooth": True, "largest": False, "fine": 8},
+        **{"size": np.ones(1), "rate": np.zeros(1), "tolerance": 1e-6, "smooth": True, "largest": False},
+        **{"singular": False, "fine": 8},
     )
 
 

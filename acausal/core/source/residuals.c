@@ -1,0 +1,116 @@
+/* What steps leave of the algebraic equations. The method sees errors of the states alone. Where unknowns are steep, as beside a kink,
+   or where a solution ends, it goes on with others than those of the equations, all stages alike. */
+#include "lu.h"
+#include "rodas.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NOISE 1e-9      /* of the largest algebraic unknown: what is smaller may be rounding */
+#define LEFT 30         /* tolerances, of the terms: steps that leave no more are near enough whatever follows */
+#define LEAST_LEFT 1e-6 /* of the terms, likewise: what noise leaves is less */
+#define CLOSE_LEFT 1e-3 /* of the terms, at most */
+#define REST 1e-12      /* error of the states over the tolerance that is none */
+#define ALIKE 1.5       /* times what was left where corrections came to little: as near, whatever follows, in some steps */
+#define FADES 0.8       /* what is left of that after each step */
+#define TOLERANCES 1000 /* over which, and of the most of the terms, residuals are in doubt: as `Calls.left` of Python */
+#define MOST_LEFT 0.015
+
+/* Forget what was left. */
+void ac_rodas_forget(ac_rodas *r) {
+    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    memset(r->most, 0, (size_t)r->of.nz * sizeof *r->most);
+}
+
+/* Terms of each algebraic equation, added up, by the slopes where the step begins. Unknowns far below the largest are rounding,
+   with terms as small. */
+static void find_terms(ac_rodas *r, const double *y) {
+    const int32_t nx = r->of.nx;
+    double *terms = r->terms, noise = 0;
+    memset(terms, 0, (size_t)r->n * sizeof *terms);
+    for (int32_t j = nx; j < r->n; j++) noise = fmax(noise, NOISE * fabs(y[j]));
+    for (int32_t j = 0; j < r->n; j++) {
+        const double size = fmax(fabs(y[j]), noise);
+        for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->matrix[e]) * size;
+    }
+    for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], terms[nx + k]);
+}
+
+/* The largest of some residuals over the terms of its equation. */
+static double largest(const ac_rodas *r, const double *residual) {
+    double most = 0;
+    for (int32_t k = r->of.nx; k < r->n; k++) {
+        if (!(fabs(residual[k]) <= most * r->terms[k])) most = fabs(residual[k]) / r->terms[k];
+    }
+    return most;
+}
+
+/* Error of the states by what the algebraic equations leave, over tolerance; in b: how it is corrected. */
+static double correction(ac_rodas *r, const double *residual) {
+    memset(r->b, 0, (size_t)r->of.nx * sizeof *r->b);
+    memcpy(r->b + r->of.nx, residual + r->of.nx, (size_t)r->of.nz * sizeof *r->b);
+    ac_lu_solve(r->lu, r->b);
+    return ac_rodas_norm(r, r->b);
+}
+
+/* Whether corrections of what a step leaves change the states by little, the second or third one by far less: beside a kink, or on the
+   way to another solution, they would not. */
+static int converges(ac_rodas *r, double end) {
+    static const double nearer[] = {0.25, 0.1}; /* as Newton's method in IDAS; less where the first two are as large */
+    double error = correction(r, r->there), least = error;
+    if (!(error <= 1)) return 0;
+    memcpy(r->stage, r->next, (size_t)r->n * sizeof *r->stage);
+    for (int tries = 0; error > REST && tries < 2; tries++) {
+        for (int32_t k = 0; k < r->n; k++) r->stage[k] += r->b[k];
+        ac_rodas_values(r, r->stage, end, r->terms);
+        error = correction(r, r->terms);
+        if (error <= nearer[tries] * least) return 1;
+        least = fmin(least, error);
+    }
+    return error <= REST;
+}
+
+/* Whether the algebraic equations are solved where a step leads, near enough for its tolerance. */
+int ac_rodas_follows(ac_rodas *r, double h) {
+    const double end = r->t + h;
+    ac_rodas_values(r, r->next, end, r->there);
+    if (!ac_all_finite(r->there, r->n)) return 0;
+    if (!r->of.nz) return 1;
+    const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->trusted);
+    find_terms(r, r->y);
+    double most = largest(r, r->there);
+    if (!(most <= enough)) {
+        find_terms(r, r->next);
+        most = fmin(most, largest(r, r->there));
+    }
+    r->trusted *= FADES;
+    if (!(most <= enough) && !r->request.singular) {
+        if (!converges(r, end)) return 0;
+        r->trusted = ALIKE * most;
+    }
+    for (int32_t k = 0; k < r->of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->of.nx + k]));
+    const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;
+    r->progress.turned += sign == -r->sign;
+    if (!r->sign) r->sign = sign;
+    return 1;
+}
+
+/* Tell the most of the residuals after steps, over the most of the terms of its equation. */
+void ac_rodas_tell(ac_rodas *r) {
+    ac_progress *p = &r->progress;
+    p->left = 0;
+    for (int32_t k = 0; k < r->of.nz; k++) {
+        const double part = r->left[k] == 0 ? 0 : r->left[k] / r->most[k];
+        if (!(part <= p->left)) p->left = isfinite(part) ? part : INFINITY;
+    }
+}
+
+/* Whether it is in doubt after a step that the algebraic equations were followed; each doubt is told once. */
+int ac_rodas_doubts(ac_rodas *r) {
+    ac_progress *p = &r->progress;
+    ac_rodas_tell(r);
+    if (p->left <= fmin(TOLERANCES * r->request.tolerance, MOST_LEFT) && !p->turned) return 0;
+    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    p->turned = r->sign = 0;
+    return 1;
+}
