@@ -48,7 +48,8 @@ class Guards:
         changing = reduced.flat.discontinuities
         self.reduced, self.guards, self._start = reduced, changing.guards, start
         self._dependence = reduced.dependence
-        self.n_switches, self.n_discretes = len(changing.switches), len(changing.discretes)
+        self.n_switches = len(changing.switches)
+        self.n_discretes = sum(int(symbol.numel()) for symbol, _ in changing.discretes)
         self.arguments = [reduced.x, reduced.z, reduced.p, time.sx, reduced.constants]
         self.excess = self._resolve([g.excess for g in self.guards])
         known = {s.element_hash() for s in scalars(ca.vertcat(*self.arguments))}

@@ -48,6 +48,11 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     return kept(problem.compiled, numbers.tobytes(), initial)
 
 
+def forget(compiled: CompiledModel) -> None:
+    """Let the next run find where it starts anew, and measure what that takes."""
+    compiled.kept.pop(kept.__wrapped__, None)
+
+
 @latest(1)
 def kept(compiled: CompiledModel, numbers: bytes, initial: str) -> Beginning:
     """Return the beginning of runs with the same feedback, start time, first instant and parameters, given as bytes."""
