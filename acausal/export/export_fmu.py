@@ -45,6 +45,9 @@ def export_fmu(
     parameters: Mapping[str, Any] | None = None,
     platforms: Sequence[str] = ("own",),
     free: Sequence[str] = (),
+    stop_time: float | None = None,
+    tolerance: float | None = None,
+    initial: str | None = None,
 ) -> None:
     """Write a model as a Functional Mock-up Unit, for Model Exchange and Co-Simulation.
 
@@ -62,6 +65,8 @@ def export_fmu(
         Names of platforms for which libraries are enclosed, "own" or "all".
     free : sequence of str
         Parameters that stay in the equations although they are 0.
+    stop_time, tolerance, initial : optional
+        As of `simulate`: the default experiment, and how it starts. A stop time is 1 s where the model declares none either.
 
     Raises
     ------
@@ -69,6 +74,7 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
+    given_ = {"stop_time": stop_time, "tolerance": tolerance, "initial": initial}
     compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
     settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
     span = float(settings["stop_time"] or 1.0)

@@ -70,6 +70,8 @@ class Study:
     # Refinements that are tried, and the least tolerance of a reference.
     rounds: int = 6
     least: float = 1e-12
+    # Errors of runs are rarely more tolerances than this; docs/methods.md has those of the scenes.
+    most: float = 100.0
     # Ratio of the tolerance of a reference to the next, and of a run's to the one that tells its error.
     tighter: float = 10.0
     # The finest of a series is compared with the one before it, whose error is larger: that of a method of order 2 goes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -19,11 +19,13 @@ from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
+from acausal.solve.opening import opening
 from acausal.solve.problem import Problem
-from acausal.solve.start.start import start
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
+SPLIT = 1e-7  # of the largest eigenvalue: rounding splits a double zero, as of a free coordinate, by the root of its size
+ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
 
 
@@ -58,7 +60,7 @@ class Linearization:
     def _oscillations(self) -> np.ndarray:
         values = self.eigenvalues
         size = np.abs(values).max(initial=0.0)
-        pairs = values[(np.imag(values) > 0) & (np.imag(values) > 1e-9 * size)]
+        pairs = values[(np.imag(values) > 0) & (np.imag(values) > SPLIT * size)]
         return pairs[np.argsort(np.imag(pairs))]
 
     @property
@@ -86,7 +88,7 @@ def linearize(
     initial: str | None = None,
     time: float = 0.0,
 ) -> Linearization:
-    """Linearise a model about its consistent initial point.
+    """Linearise a model about the point at which its runs begin, after what happens at that instant.
 
     Parameters
     ----------
@@ -105,14 +107,15 @@ def linearize(
 
     Notes
     -----
-    `feedback`, which keeps invariants in a run, is 1/s here: the norm of the quaternion of a freely turning body adds an
-    eigenvalue of -2 1/s that no input moves and no output shows.
+    `feedback`, which keeps invariants in a run, is 1/s here where it is apart from all motion: the norm of the quaternion of a
+    body at rest that turns freely adds an eigenvalue of -2 1/s that no input moves and no output shows. Where it is not, as
+    for a body that turns, there is none.
     """
     how = settled(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
-    at = start(problem, time, time, how).point
+    at = opening(problem, time, how)
     inputs = _inputs(compiled)
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
     u = ca.vertcat(*[sx for _, sx in inputs])
@@ -120,25 +123,30 @@ def linearize(
     column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
     linear = Call(ca.Function("linear", compiled.arguments, [J]))
-    values = linear(at.x, at.z, p, time, at.constants.vector, 0.0)[0]
+    kept, free = (
+        linear(at.x, at.z, p, time, replace(at.constants, feedback=f).vector, 0.0)[0].copy()
+        for f in (problem.feedback, 0.0)
+    )
     nx, nz = compiled.nx, compiled.nz
-    if not np.all(np.isfinite(values)):
+    if not np.all(np.isfinite(kept)):
         raise InitializationError(
             f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
         )
     pattern = linear.function.sparsity_out(0)
-    M = scipy.sparse.csc_matrix((values.copy(), pattern.row(), pattern.colind()), shape=J.shape)
+    M = scipy.sparse.csc_matrix((free, pattern.row(), pattern.colind()), shape=J.shape)
     states, unknowns, rest = np.split(np.arange(max(M.shape)), [nx, nx + nz])
     rows, columns = (np.append(states, rest[: n - nx - nz]) for n in M.shape)
     try:
-        slopes = Elimination.of(M, rows, columns, unknowns, unknowns).matrix(M.data)
+        eliminated = Elimination.of(M, rows, columns, unknowns, unknowns)
+        slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
     except RuntimeError:
         raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
+    slopes = returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
     N, chosen = tangent(problem, at)
     # By the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
     (A, B), (C, D) = (np.split(rows, [len(chosen)], axis=1) for rows in (slopes[chosen], slopes[nx:]))
-    names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name).sx)]
+    names = [n for name in compiled.outputs for n in _entries(name, getattr(compiled.tree, name))]
     return Linearization(
         A=A,
         B=B,
@@ -156,5 +164,13 @@ def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:
     return [(n, s) for n, s in zip(own.names, scalars(own.symbols), strict=True) if s.element_hash() in inputs]
 
 
-def _entries(name: str, sx: ca.SX) -> list[str]:
-    return [name] if sx.numel() == 1 else [f"{name}[{k}]" for k in range(sx.numel())]
+def _entries(name: str, value: Any) -> list[str]:
+    """Names of the entries in the order of columns."""
+    places = sorted(np.ndindex(*value.shape), key=lambda index: index[::-1])
+    return [name + (f"[{','.join(map(str, index))}]" if index else "") for index in places]
+
+
+def _apart(A: np.ndarray, feedback: np.ndarray) -> bool:
+    """Whether what the feedback changes takes no part in the motion: it acts along states that neither move others nor are moved."""
+    size = np.abs(A).max(initial=0.0) * np.abs(feedback).max(initial=0.0)
+    return max(np.abs(A @ feedback).max(initial=0.0), np.abs(feedback @ A).max(initial=0.0)) <= ALONE * size

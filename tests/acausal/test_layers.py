@@ -43,6 +43,7 @@ SOLVE = (
     "checks",
     "failed",
     "beginning",
+    "opening",
     "given",
     "run",
 )

@@ -24,7 +24,8 @@ void ac_rodas_forget(ac_rodas *r) {
 
 /* Terms of each algebraic equation, added up, by the slopes where the step begins. Unknowns far below the largest are rounding,
    with terms as small. */
-static void find_terms(ac_rodas *r, const double *y) {
+static void find_terms(ac_rodas *r) {
+    const double *y = r->y;
     const int32_t nx = r->of.nx;
     double *terms = r->terms, noise = 0;
     memset(terms, 0, (size_t)r->n * sizeof *terms);
@@ -33,7 +34,6 @@ static void find_terms(ac_rodas *r, const double *y) {
         const double size = fmax(fabs(y[j]), noise);
         for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->matrix[e]) * size;
     }
-    for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], terms[nx + k]);
 }
 
 /* The largest of some residuals over the terms of its equation. */
@@ -77,16 +77,13 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     if (!ac_all_finite(r->there, r->n)) return 0;
     if (!r->of.nz) return 1;
     const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->trusted);
-    find_terms(r, r->y);
-    double most = largest(r, r->there);
-    if (!(most <= enough)) {
-        find_terms(r, r->next);
-        most = fmin(most, largest(r, r->there));
-    }
+    find_terms(r);
+    for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], r->terms[r->of.nx + k]);
+    const double most = largest(r, r->there);
     r->trusted *= FADES;
     if (!(most <= enough) && !r->request.singular) {
         if (!converges(r, end)) return 0;
-        r->trusted = ALIKE * most;
+        r->trusted = fmin(ALIKE * most, MOST_LEFT);
     }
     for (int32_t k = 0; k < r->of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->of.nx + k]));
     const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;

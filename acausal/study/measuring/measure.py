@@ -16,8 +16,7 @@ from acausal.errors import AcausalError, AcausalWarning
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.result import Result
-from acausal.simulation import simulate
-from acausal.solve.beginning import forget
+from acausal.simulation import forget, simulate
 from acausal.study.measuring.case import Job, Measurement
 from acausal.study.measuring.limit import TooLong, stopping_after
 from acausal.study.measuring.own_run import take

@@ -18,6 +18,7 @@ STUDY = POLICY.study
 
 # What limits the accuracy of a case.
 TOLERANCE, STEP, ELEMENTS, MODEL, REFERENCE = "tolerance", "step", "elements", "model", "reference"
+UNKNOWN = "unknown"  # a single tolerance or step tells nothing about its part
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,8 @@ class StudyRow:
         Largest and root mean square error of each output, as fractions of its range.
     limit : str
         What limits the accuracy: "tolerance", "step" (of a run with steps of its own), "elements" (of which there are too
-        few), "model" (the formulation has another limit than the reference), or "reference" (which is not known better).
+        few), "model" (the formulation has another limit than the reference), "reference" (which is not known better), or
+        "unknown" (one of them, but with a single tolerance or step nothing tells which).
     front : bool
         Whether no other case is both faster and more accurate.
     remark : str
@@ -135,10 +137,16 @@ def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms:
     exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:
         return REFERENCE
-    if _tolerance_error(row, good, reference) > half:
-        return TOLERANCE if row.case.dt is None else STEP
-    if form.refine and (exact or _elements_error(row, good, form, reference) > half):
+    accuracy, known = TOLERANCE if row.case.dt is None else STEP, True
+    by_accuracy = _tolerance_error(row, good, reference)
+    if by_accuracy is None:
+        known = row.case.dt is None and STUDY.most * row.case.tolerance <= half
+    elif by_accuracy > half:
+        return accuracy
+    if form.refine and ((exact and known) or _elements_error(row, good, form, reference) > half):
         return ELEMENTS
+    if not known:
+        return accuracy if exact and not form.refine else UNKNOWN
     return REFERENCE if exact else MODEL
 
 
@@ -153,12 +161,12 @@ def _has_its_limit(case: Case, form: Formulation, reference: Reference) -> bool:
     )
 
 
-def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float:
-    """Estimate what the tolerance or the step does, from the same equations at another one."""
+def _tolerance_error(row: StudyRow, good: Sequence[StudyRow], reference: Reference) -> float | None:
+    """Estimate what the tolerance or the step does, from the same equations at another one; None where there is no other."""
     own = row.case.refined(0.0)
     series = sorted((r for r in good if r.case.refined(0.0) == own), key=lambda r: r.case.control)
     if len(series) < 2:
-        return 0.0
+        return None
     if row.case != series[0].case:
         return _between(row, series[0], reference)
     ratio = row.case.control / series[1].case.control

@@ -39,6 +39,16 @@ def test_errors_and_limits():
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("form", "error", "limit"),
+    [("whole", 5e-3, "tolerance"), ("other", 5e-3, "unknown"), ("other", 0.5, "model"), ("other", 1e-6, "reference")],
+)
+def test_a_single_tolerance_does_not_tell_its_part(form, error, limit):
+    forms = (Formulation("whole", {}, exact=True), Formulation("other", {}))
+    (row,) = rows_of([measured(form, 2, 1e-3, error, 1e-3)], REFERENCE, forms)
+    assert row.limit == limit
+
+
 def test_what_diverged_is_marked():
     assert ROWS[7].remark == "it diverged: 1e+06 times the range away from the reference"
     assert ROWS[8].remark == "it was stopped after 60 s"
