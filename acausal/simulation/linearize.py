@@ -24,7 +24,9 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
-SPLIT = 1e-7  # of the largest eigenvalue: rounding splits a double zero, as of a free coordinate, by the root of its size
+SPLIT = (
+    1e-7  # of the largest eigenvalue: rounding splits a double zero, as of a free coordinate, by the root of its size
+)
 ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
 

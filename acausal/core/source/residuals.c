@@ -9,7 +9,7 @@
 #define NOISE 1e-9      /* of the largest algebraic unknown: what is smaller may be rounding */
 #define LEFT 30         /* tolerances, of the terms: steps that leave no more are near enough whatever follows */
 #define LEAST_LEFT 1e-6 /* of the terms, likewise: what noise leaves is less */
-#define CLOSE_LEFT 1e-3 /* of the terms, at most */
+#define CLOSE_LEFT 3e-4 /* of the terms, at most */
 #define REST 1e-12      /* error of the states over the tolerance that is none */
 #define ALIKE 1.5       /* times what was left where corrections came to little: as near, whatever follows, in some steps */
 #define FADES 0.8       /* what is left of that after each step */
@@ -57,14 +57,18 @@ static double correction(ac_rodas *r, const double *residual) {
    way to another solution, they would not. */
 static int converges(ac_rodas *r, double end) {
     static const double nearer[] = {0.25, 0.1}; /* as Newton's method in IDAS; less where the first two are as large */
-    double error = correction(r, r->there), least = error;
+    double error = correction(r, r->there), least = error, *left = r->dense; /* the step has none yet */
     if (!(error <= 1)) return 0;
     memcpy(r->stage, r->next, (size_t)r->n * sizeof *r->stage);
     for (int tries = 0; error > REST && tries < 2; tries++) {
         for (int32_t k = 0; k < r->n; k++) r->stage[k] += r->b[k];
-        ac_rodas_values(r, r->stage, end, r->terms);
-        error = correction(r, r->terms);
-        if (error <= nearer[tries] * least) return 1;
+        ac_rodas_values(r, r->stage, end, left);
+        error = correction(r, left);
+        if (error <= nearer[tries] * least) {
+            memcpy(r->next, r->stage, (size_t)r->n * sizeof *r->next);
+            memcpy(r->there, left, (size_t)r->n * sizeof *r->there);
+            return 1;
+        }
         least = fmin(least, error);
     }
     return error <= REST;
@@ -90,6 +94,15 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     r->progress.turned += sign == -r->sign;
     if (!r->sign) r->sign = sign;
     return 1;
+}
+
+/* Bring the unknowns where a step begins nearer to their equations: where these bend, what the last step left may be far from them. */
+void ac_rodas_return(ac_rodas *r) {
+    if (!r->of.nz || !(largest(r, r->here) > LEAST_LEFT)) return;
+    correction(r, r->here);
+    if (!ac_all_finite(r->b, r->n)) return;
+    for (int32_t k = r->of.nx; k < r->n; k++) r->y[k] += r->b[k];
+    r->stale = 1, r->known = 0;
 }
 
 /* Tell the most of the residuals after steps, over the most of the terms of its equation. */

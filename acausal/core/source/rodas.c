@@ -21,6 +21,8 @@
 #define GRID 1024             /* parts of a power of 2 in which steps are measured */
 #define LOST 1e-4             /* of the tolerance, which the factors lose at most */
 #define BESIDE 0.5            /* of a step behind which the algebraic unknowns are not near where it leads */
+#define SLOWLY 1.5            /* change of some steps after that at most, as the next ones come to the same bend */
+#define SOME 4
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
@@ -58,7 +60,7 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
     r->gathered[0] = r->gathered[1] = r->trusted = 0;
-    r->begun = r->refused = r->unsolved = r->sign = r->known = 0;
+    r->begun = r->refused = r->unsolved = r->sign = r->known = r->slow = 0;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;
@@ -271,7 +273,8 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->unsolved = !isfinite(error);
         double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
         if (error <= 1 && !ac_rodas_follows(r, h)) {
-            r->unsolved = 1;
+            if (r->refused) ac_rodas_return(r);
+            r->unsolved = 1, r->slow = SOME;
             error = INFINITY, change = BESIDE;
         }
         if (!(error <= 1)) {
@@ -286,7 +289,8 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
         memcpy(r->here, r->there, (size_t)r->n * sizeof *r->here);
         r->t = last ? end : r->t + h;
-        r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : MOST));
+        r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : r->slow ? SLOWLY : MOST));
+        r->slow -= r->slow > 0;
         r->refused = 0;
         r->progress.steps++;
         r->stale = 1;

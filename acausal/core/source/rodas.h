@@ -22,6 +22,7 @@ struct ac_rodas {
     int64_t written_at; /* steps at the last output */
     int32_t begun, refused, unsolved, stale; /* first step is chosen; last step was; equations had no value there; slopes are not those of y */
     int32_t known; /* whether `here` stands */
+    int32_t slow;  /* so many of the next steps grow slowly */
     int32_t sign;  /* of the determinant at the first step, -1 or 1; 0: there was none */
     ac_request request;
     ac_progress progress;
@@ -33,6 +34,7 @@ double ac_rodas_norm(const ac_rodas *r, const double *change);
 void ac_rodas_write(ac_rodas *r, double h, int last);
 void ac_rodas_forget(ac_rodas *r);
 int ac_rodas_follows(ac_rodas *r, double h);
+void ac_rodas_return(ac_rodas *r);
 void ac_rodas_tell(ac_rodas *r);
 int ac_rodas_doubts(ac_rodas *r);
 void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,

@@ -53,7 +53,7 @@ static int32_t begin(ac_instance *i, double to) {
     if (goes_on) {
         i->rodas->h = kept;
         i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
-        i->rodas->trusted = i->now.trusted;
+        i->rodas->trusted = i->now.trusted, i->rodas->slow = i->now.slow;
     }
     if (!goes_on) i->now.looked = i->now.taken = 0;
     i->now.integrates = 1, i->going = 1;
@@ -91,6 +91,7 @@ static int32_t advance(ac_instance *i, double *left) {
     memcpy(i->after, i->step_y, n * sizeof *i->after);
     i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h;
     i->now.refused = i->rodas->refused, i->now.unsolved = i->rodas->unsolved, i->now.trusted = i->rodas->trusted;
+    i->now.slow = i->rodas->slow;
     i->now.curved = 1, i->now.event = INFINITY;
     return AC_OK;
 }

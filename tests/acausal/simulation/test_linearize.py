@@ -94,7 +94,9 @@ class Spinning(Floating):
 
 @pytest.mark.parametrize("w", [(0, 0, 1.0), (0, 0, 5.0), (0.3, -2.0, 1.0)])
 def test_a_free_body_that_turns_has_no_damped_modes(w):
-    found = ac.linearize(Spinning(body=Body(m=2.0, I=np.eye(3), angles_fixed=True, r_0=NOTHING, v_0=NOTHING, w_a=fixed(w))))
+    found = ac.linearize(
+        Spinning(body=Body(m=2.0, I=np.eye(3), angles_fixed=True, r_0=NOTHING, v_0=NOTHING, w_a=fixed(w)))
+    )
     np.testing.assert_allclose(found.eigenvalues.real, 0, atol=1e-6)
 
 
