@@ -6,6 +6,7 @@ import hashlib
 import re
 import uuid
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -29,9 +30,10 @@ from acausal.language.docstring import first_line
 from acausal.language.functions import time
 from acausal.locks import alone
 from acausal.policy import POLICY
+from acausal.simulation.asked import planned
 from acausal.simulation.settings import settled
 from acausal.solve.problem import Problem
-from acausal.solve.run import Task, sizes_of_run
+from acausal.solve.run import sizes_of_run
 from acausal.symbols import picked, scalars, stacked
 
 
@@ -74,17 +76,19 @@ def export_fmu(
         If the file cannot be written, or the model cannot be exported.
     """
     check_fmu(path, fmi_version, platforms)
-    given_ = {"stop_time": stop_time, "tolerance": tolerance, "initial": initial}
     compiled, p = _freed(model, parameters, free) if free else ready(model, parameters)
-    settings = settled(compiled, None, {"stop_time": None, "tolerance": None, "initial": None})
-    span = float(settings["stop_time"] or 1.0)
-    tolerance = float(settings["tolerance"] or POLICY.defaults.tolerance)
+    own = settled(compiled, None, {"stop_time": stop_time})["stop_time"]
+    asked = {"stop_time": 1.0 if own is None else own, "tolerance": tolerance, "initial": initial, "accuracy": None}
+    others = dict.fromkeys(("intervals", "method", "constraints", "max_order"))
+    task, _ = planned(compiled, None, asked | others)
+    span, tolerance = float(task.stop_time), float(task.tolerance)
     problem = Problem(compiled, p, POLICY.loops.feedback / span)
     breaks = [b for b in compiled.guards.breaks(p)[0].tolist() if 0 < b < span]
-    beginning = begin(problem, 0.0, min(breaks, default=span) / 2, settings["initial"])
+    beginning = begin(problem, 0.0, min(breaks, default=span) / 2, task.initial)
     known = given(compiled, p, beginning)
     guards = watched(compiled, known)
-    nominal = _sizes(compiled, p, span, tolerance, settings["initial"])
+    # As a run finds them: an importer cannot go back where states turn out to be small.
+    nominal = sizes_of_run(compiled, p, replace(task, tolerance=max(tolerance, POLICY.sizes.looking)))
     table = Table(compiled, known, beginning, nominal, tolerance, guards)
     variables = table.variables()
     content = Content(problem, beginning, known, nominal, guards, stacked(table.shown), span, tolerance)
@@ -121,14 +125,6 @@ def _described(content: Content, table: Table, variables: tuple[Variable, ...], 
         step_size=content.span / POLICY.defaults.intervals,
         completes=bool(compiled.constraints.size),
         sources=source_names(),
-    )
-
-
-def _sizes(compiled: CompiledModel, p: np.ndarray, span: float, tolerance: float, initial: str) -> np.ndarray:
-    """Sizes that a run finds: an importer cannot go back where states turn out to be small."""
-    loose = max(tolerance, POLICY.sizes.looking)
-    return sizes_of_run(
-        compiled, p, Task(0.0, span, loose, POLICY.defaults.intervals, initial, "auto", "auto", None, False, None)
     )
 
 

@@ -33,6 +33,8 @@ MEANT = {
     **dict.fromkeys(("params", "parameter", "values", "settings"), ("parameters",)),
     **dict.fromkeys(("file", "filename", "file_name", "fname"), ("path",)),
 }
+# Arguments of `simulate` that a model may declare.
+SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")
 MARKS = ("part", "parts", "ports", "observed")
 
 
@@ -101,10 +103,11 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
         near = "".join(meant[:1]) if unknown in MEANT else likeliest(unknown, [*places, *other])
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
         if "parameters" in parameters:
-            value = f"parameters={{{unknown!r}: {short(named[unknown])}}}"
-            known = (
-                f"a value of the model is given by its path, {value}. The arguments are {', '.join([*places, *other])}."
-            )
+            value = short(named[unknown])
+            way = f"a value of the model is given by its path, parameters={{{unknown!r}: {value}}}"
+            if unknown in SETTINGS:
+                way = f"the model may declare it, {unknown} = {value} in its class"
+            known = f"{way}. The arguments are {', '.join([*places, *other])}."
         return f"{name}() has no argument `{unknown}`; {f'did you mean `{near}`?' if near else known}"
     if name == "der" and len(given) > 1:
         order = "the second derivative is" if given[1] == 2 else "a further derivative is a der() around it, as"

@@ -173,6 +173,6 @@ def _entries(name: str, value: Any) -> list[str]:
 
 
 def _apart(A: np.ndarray, feedback: np.ndarray) -> bool:
-    """Whether what the feedback changes takes no part in the motion: it acts along states that neither move others nor are moved."""
+    """Whether what the feedback changes takes no part in the motion: neither moves the other."""
     size = np.abs(A).max(initial=0.0) * np.abs(feedback).max(initial=0.0)
     return max(np.abs(A @ feedback).max(initial=0.0), np.abs(feedback @ A).max(initial=0.0)) <= ALONE * size

@@ -107,24 +107,23 @@ def constrain(extension: Extension) -> Constrained:
             over=(Subsystem.of(selection.left, (v for e in selection.left for v in extension.rows[e])),)
         )
     constraints, seen = [], set()
-    holding: dict[int, list[int]] = {}
+    holding: dict[int, list[tuple[int, int]]] = {}
     written = list(extension.rows)
     for base in sorted(bases):
         *rows, top = extension.levels[base]
         multipliers = tuple(extension.add_variable() for _ in rows)
-        for row, multiplier, coordinates in zip(
-            rows, multipliers, _coordinates(extension, selection, rows), strict=True
-        ):
+        held = _coordinates(extension, selection, rows)
+        for order, row, multiplier, coordinates in zip(range(len(rows), 0, -1), rows, multipliers, held, strict=True):
             seen |= reach(extension.rows[row], written, selection.equation_of)
             extension.rows[row] += (multiplier,)
             extension.explicit[row] = extension.monic[row] = frozenset()
             for x in coordinates:
-                holding.setdefault(x, []).append(multiplier)
+                holding.setdefault(x, []).append((order, multiplier))
         constraints.append(Constraint(base, tuple(rows), multipliers, top))
     if not constraints:
         return Constrained()
     following = _following(extension, written, selection)
-    projections = tuple(_project(extension, x, holding[x]) for x in sorted(holding))
+    projections = tuple(_project(extension, x, _lowest(holding[x])) for x in sorted(holding))
     reached = tuple(sorted(v for v in seen if selection.equation_of[v] >= 0))
     return Constrained(tuple(constraints), projections, reached, following)
 
@@ -167,6 +166,16 @@ def reach(start: Iterable[int], rows: list[tuple[int, ...]], equation_of: list[i
                 seen.add(u)
                 stack.append(u)
     return seen
+
+
+def _lowest(holding: list[tuple[int, int]]) -> list[int]:
+    """Multipliers of the rows of the lowest level, those that are differentiated most often up to the top.
+
+    One that holds a coordinate at its own level may depend on it at a higher one of another constraint, as a velocity does that
+    is resolved in the axes of a ball, whose place does not depend on how it is turned.
+    """
+    lowest = max(order for order, _ in holding)
+    return [multiplier for order, multiplier in holding if order == lowest]
 
 
 def _project(extension: Extension, x: int, multipliers: list[int]) -> Projection:

@@ -166,3 +166,30 @@ def test_an_exported_model_ends_where_its_solution_does(case, intervals, tmp_pat
     )
     with pytest.raises(Exception, match=r"DoStep failed"):
         simulated(path, "CoSimulation", 5.0, intervals)
+
+
+class Settling(Model):
+    """A mass that a spring and a damper hold."""
+
+    x: Scalar = variable("position", start=5)
+    v: Scalar = variable("speed")
+
+    def equations(self):
+        yield der(self.x) == self.v
+        yield der(self.v) == 2 - self.x - self.v
+
+
+def test_default_experiment_and_start_may_be_given(tmp_path):
+    import fmpy
+
+    path = tmp_path / "a.fmu"
+    ac.export_fmu(Settling(), path, initial="steady", stop_time=3.0, tolerance=1e-8)
+    told = fmpy.read_model_description(str(path)).defaultExperiment
+    assert (float(told.stopTime), float(told.tolerance)) == (3.0, 1e-8)
+    np.testing.assert_allclose(fmpy.simulate_fmu(str(path), output=["x"])["x"], 2.0, atol=1e-9)
+    with pytest.raises(ac.DeclarationError, match=r"initial is 'still'; it must be one of fixed, guesses, steady"):
+        ac.export_fmu(Settling(), path, initial="still")
+    with pytest.raises(
+        ac.DeclarationError, match=r"has no argument `method`; the model may declare it, method = 'idas'"
+    ):
+        ac.export_fmu(Settling(), path, method="idas")  # pyright: ignore[reportCallIssue]

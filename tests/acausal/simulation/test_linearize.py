@@ -166,22 +166,23 @@ def test_a_free_coordinate_is_no_vibration():
         np.testing.assert_allclose(found.frequencies_hz, np.sqrt(squares) / (2 * np.pi), rtol=1e-6)
 
 
-class Table(Model):
+class Shown(Model):
     """A matrix that is shown."""
 
     u: Vector3 = input("first row", start=(1.0, 2, 3))
     x: Scalar = variable("factor of the second row", fixed=True, start=1)
-    M = output("matrix", shape=(2, 3))
+    table = output("matrix", shape=(2, 3))
 
     def equations(self):
         yield der(self.x) == -self.x
-        yield self.M == [[self.u[0], self.u[1], self.u[2]], [self.x, 2 * self.x, 3 * self.x]]
+        rows = [[self.u[0], self.u[1], self.u[2]], [self.x, 2 * self.x, 3 * self.x]]
+        yield self.table == rows
 
 
 def test_entries_of_matrices_are_named_as_in_results():
-    found = ac.linearize(Table())
+    found = ac.linearize(Shown())
     assert found.inputs == ("u[0]", "u[1]", "u[2]")
     by_name = {name: (c, d.tolist()) for name, (c,), d in zip(found.outputs, found.C, found.D, strict=True)}
-    assert set(by_name) == {series.name for series in ac.simulate(Table(), stop_time=1.0).series()}
-    assert by_name["M[0,2]"] == (0, [0, 0, 1])
-    assert by_name["M[1,2]"] == (3, [0, 0, 0])
+    assert set(by_name) == {series.name for series in ac.simulate(Shown(), stop_time=1.0).series()}
+    assert by_name["table[0,2]"] == (0, [0, 0, 1])
+    assert by_name["table[1,2]"] == (3, [0, 0, 0])
