@@ -24,6 +24,7 @@ from acausal.solve.start.newton import algebraic, terms
 from acausal.solve.start.parts import part_of
 
 CONSISTENT = POLICY.consistent
+CANCELS = 16 * np.finfo(float).eps
 ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 
 
@@ -148,12 +149,19 @@ class Consistent:
         # These terms are never more than those, which take longer.
         if (left <= tolerance * local.magnitudes(np.abs(y))[own]).all():
             return True
-        return bool((left <= tolerance * terms(local, y, c.nominal)[own]).all())
+        # Terms of states that cancel show in no slope; what is left of them is rounding beside nominal sizes.
+        nominal = np.append(np.zeros(c.nx), c.nominal[c.nx :])
+        rest = np.maximum(tolerance * terms(local, y, c.nominal), CANCELS * local.magnitudes(nominal))
+        return bool((left <= rest[own]).all())
 
     def sizes(self, values: np.ndarray) -> np.ndarray:
-        """Sizes of algebraic unknowns of some values at n times, shape (n, nz): what is far below the largest is rounding."""
+        """Sizes of algebraic unknowns of some values at n times, shape (n, nz): what is far below the largest is rounding.
+
+        So is what is far below the nominal value: it may be what is left of terms that cancel.
+        """
         nominal = self.compiled.nominal[self.compiled.nx :]
-        return np.maximum(values, CONSISTENT.noise * np.max(values / nominal, axis=1, keepdims=True) * nominal)
+        least = np.maximum(CONSISTENT.noise * np.max(values / nominal, axis=1, keepdims=True), ROUNDING)
+        return np.maximum(values, least * nominal)
 
     def solve(self, rows: Rows) -> tuple[Rows, np.ndarray]:
         """Return rows as a call does, all of them solved, and whether the equations hold in each to rounding.

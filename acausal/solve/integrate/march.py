@@ -124,7 +124,7 @@ class March:
         if flat is not None and flat <= kept.times[-1]:
             self.integrator.trace.flat.append(flat)
         k = int(np.searchsorted(self._curve.times, min(time, leg.times[-1])))
-        self.step = float(np.max(np.diff(self._curve.times[max(k - 2, 0) : k + 1])))
+        self.step = float(np.max(np.diff(self._curve.times[max(k - 2, 0) : max(k, 1) + 1])))
         self._at = kept.end(self._at)
         shown = np.concatenate([self._outputs, self._curve.times[:: LOOKS.steps_a_row], kept.times[-1:]])
         some = np.isin(kept.times, shown)

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, atan2, cos, der, fixed, guess, parameter, sin, time, variable
+from acausal import Model, Scalar, atan2, chain, cos, der, fixed, guess, parameter, sin, time, variable
 from acausal.core import library
 from acausal.solve.integrate import by_core
 from acausal.solve.integrate.by_core import ByCore
+from components import Body, Revolute, World
 
 CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
@@ -176,3 +177,23 @@ def test_an_interrupt_while_steps_are_looked_at_keeps_what_was_computed(monkeypa
     found = caught.value.result  # type: ignore[attr-defined]
     assert found.time[-1] == 5.0
     assert found.stats.stopped == "interrupted"
+
+
+class Rotor(Model):
+    """A body out of balance that turns freely about an oblique hinge: terms of its acceleration cancel, and rounding is left."""
+
+    world = World(gravity=None)
+    hinge = Revolute(n=(1, 2, 3), phi=fixed(0.77), w=fixed(-1.84))
+    body = Body(m=3.6, r_CM=(0.05, 0.23, 0.1), I=np.diag([0.4, 0.45, 0.5]))
+
+    def connections(self):
+        yield chain(self.world, self.hinge, self.body)
+
+
+@CORE
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
+def test_what_is_left_of_terms_that_cancel_is_no_jump(method: str, tolerance: float) -> None:
+    run = ac.simulate(Rotor(), stop_time=2.0, method=method, tolerance=tolerance)
+    assert run.stats.method == "rosenbrock"
+    np.testing.assert_allclose(run["hinge.phi"], 0.77 - 1.84 * run.time, atol=1e-12)
