@@ -11,6 +11,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.once import latest, making
 from acausal.solve.checks.validity import check_start
 from acausal.solve.integrate.order import Spectrum
+from acausal.solve.opening import Opening
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import Start
@@ -69,6 +70,8 @@ def _found(problem: Problem, time: float, later: float, initial: str) -> Beginni
     started, made = clock.perf_counter(), making(problem.compiled)
     begun = start(problem, time, later, initial)
     check_start(problem, begun.point)
+    if initial == "steady":
+        Opening(problem, time, later).refuse_passing(begun.point)
     at = go_on(problem, begun)
     spectrum, building = Spectrum(problem, at), making(problem.compiled) - made
     return Beginning(begun, at, spectrum, clock.perf_counter() - started - building)

@@ -1,4 +1,4 @@
-"""Where the runs from a time on begin: consistent values, after what happens at that very instant."""
+"""What happens at the very instant at which a run starts."""
 
 from __future__ import annotations
 
@@ -12,9 +12,64 @@ from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.start import start
+from acausal.solve.start.at_rest import at_rest
+from acausal.solve.start.start import places_text, start
 
 SPAN = 1.0  # s: conditions by the clock that change later do not matter at the start
+
+
+class Opening:
+    """Events at the start.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    time, later : float
+        Start, and a time before conditions of time alone change next, in s.
+    """
+
+    def __init__(self, problem: Problem, time: float, later: float) -> None:
+        self.problem, self.later = problem, later
+        self.instants = Instants(problem, POLICY.defaults.tolerance, SPAN, problem.nominal)
+        self.agenda = Agenda(problem.compiled.guards, problem.p, np.array([time, time + SPAN]))
+
+    def after(self, at: Point) -> Point:
+        """Return the first point of a run, from consistent values.
+
+        Raises
+        ------
+        InitializationError
+            If what happens does not settle.
+        """
+        at, acts = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
+        return self._settled(at, acts)
+
+    def refuse_passing(self, at: Point) -> None:
+        """Raise InitializationError where an equilibrium does not last: what its states set off at once moves it.
+
+        What the clock or a planned instant sets off may well move it.
+        """
+        guards = self.problem.compiled.guards
+        before, _ = self.agenda.at_start(at, self.agenda.on(self.later), self.instants)
+        if not len(before.truth):
+            return
+        planned = {k for k, _ in guards.plans}
+        holds = self.instants.holds(before, np.zeros(len(before.truth), dtype=bool))
+        begins = holds & ~before.truth & ~self.instants.is_switch
+        acts = [k for k in self.instants.watched[begins].tolist() if k not in planned]
+        if acts and not at_rest(self.problem, self._settled(before, [])):
+            raise InitializationError(
+                f"the equilibrium at t = {at.time:g} s does not last, as this condition is true there, and what it does sets "
+                f"off a motion:\n{places_text(self.problem.compiled, acts)}\nGive guesses near another one, or hold the model."
+            )
+
+    def _settled(self, at: Point, acts: list[int]) -> Point:
+        try:
+            return self.instants.settle(at, fired=acts)[0]
+        except Cycling as cycling:
+            text = str(Chattering(self.problem.compiled, at.time, cycling.guards, "switch back and forth"))
+            raise InitializationError(text) from None
 
 
 def opening(problem: Problem, time: float, initial: str) -> Point:
@@ -36,13 +91,9 @@ def opening(problem: Problem, time: float, initial: str) -> Point:
     """
     guards, p, stop = problem.compiled.guards, problem.p, time + SPAN
     changes = [*guards.breaks(p)[0].tolist(), *clock_times(problem.compiled, p, time, stop)]
-    end = min((t for t in changes if time < t < stop), default=stop)
-    instants = Instants(problem, POLICY.defaults.tolerance, SPAN, problem.nominal)
-    agenda = Agenda(guards, p, np.array([time, stop]))
-    at = start(problem, time, (time + end) / 2, initial).point
-    at, acts = agenda.at_start(at, agenda.between(time, end), instants)
-    try:
-        return instants.settle(at, fired=acts)[0]
-    except Cycling as cycling:
-        text = str(Chattering(problem.compiled, time, cycling.guards, "switch back and forth"))
-        raise InitializationError(text) from None
+    later = (time + min((t for t in changes if time < t < stop), default=stop)) / 2
+    at = start(problem, time, later, initial).point
+    opened = Opening(problem, time, later)
+    if initial == "steady":
+        opened.refuse_passing(at)
+    return opened.after(at)

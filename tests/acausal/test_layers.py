@@ -42,8 +42,8 @@ SOLVE = (
     "events",
     "checks",
     "failed",
-    "beginning",
     "opening",
+    "beginning",
     "given",
     "run",
 )

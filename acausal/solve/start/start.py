@@ -20,6 +20,7 @@ from acausal.solve.start.determined import undetermined
 from acausal.solve.start.initialize import Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
+from acausal.solve.start.steady import Restless
 from acausal.solve.undecided import undecided
 
 STAGES = (EQUATION, START)
@@ -52,8 +53,10 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     while head is not None and tried.count <= MOST:
         try:
             begun = _begun(problem, time, head, initial)
-        except InitializationError:
+        except InitializationError as error:
             there = _at_guesses(problem, time, head) if initial == "steady" and tried.count == 1 else None
+            if there is None and isinstance(error, Restless):
+                there = _other(_found(problem, error.at, head), head)
             if there is None and not tried.cycle:
                 raise
             head = tried.then(head, head if there is None else there)
@@ -82,9 +85,12 @@ def _found(problem: Problem, at: Point, head: np.ndarray) -> np.ndarray:
 def _at_guesses(problem: Problem, time: float, head: np.ndarray) -> np.ndarray | None:
     """Return the switches of the guessed states, where what follows from these had other guesses; None for the same ones."""
     try:
-        found = _found(problem, _begun(problem, time, head, "guesses").point, head)
+        return _other(_found(problem, _begun(problem, time, head, "guesses").point, head), head)
     except InitializationError:
         return None
+
+
+def _other(found: np.ndarray, head: np.ndarray) -> np.ndarray | None:
     return None if np.array_equal(found, head) else found
 
 

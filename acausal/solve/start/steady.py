@@ -26,6 +26,14 @@ from acausal.solve.start.words import unstable_text
 REST = POLICY.rest
 
 
+class Restless(InitializationError):
+    """Nothing comes to rest; `at` is where the motion leads."""
+
+    def __init__(self, text: str, at: Point) -> None:
+        super().__init__(text)
+        self.at = at
+
+
 @dataclass
 class Linearized:
     """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated."""
@@ -89,7 +97,10 @@ class Equilibrium:
             growth, attempts = 1 + (growth - 1) / 2, attempts - 1
         if found is None:
             self._at(self.guess)  # the cause may be there
-            refuse_motion(self.problem, self._nearly(relaxed))
+            try:
+                refuse_motion(self.problem, self._nearly(relaxed))
+            except InitializationError as error:
+                raise Restless(str(error), relaxed) from None
         if rate:
             caution(unstable_text(self.problem.compiled, self.guess.time, rate))
         return found.point
