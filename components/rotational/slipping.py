@@ -12,7 +12,8 @@ class Slipping(Compliant):
     """Base of dry friction: sticks up to one torque, slides against another.
 
     While it sticks, tau is what keeps w_rel constant; it breaks away where that exceeds `holding()`. So nothing determines
-    tau where both ends have a given motion that comes to rest, as between a `Speed` and a wall.
+    tau where both ends have a given motion that comes to rest, as between a `Speed` and a wall, or at a joint that the rest of
+    a machine carries through a dead centre.
     """
 
     mode: Scalar = discrete("1 slides forward, 0 sticks, -1 slides backward", unit="1", start=sign(Compliant.w_rel))
