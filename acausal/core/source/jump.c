@@ -8,7 +8,6 @@
 
 #define HALVINGS 24 /* of the step, at most: a law may be as steep as a ten-millionth of it */
 #define SLIGHT 0.01 /* change of an unknown over its size that counts */
-#define NOISE 1e-9  /* of the largest unknown: what is smaller may be rounding */
 
 /* The algebraic unknowns at a time in the step, from a guess, or from those of the interpolant. */
 static int32_t solved(ac_instance *i, double time, const double *guess, double *z) {

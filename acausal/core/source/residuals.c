@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define NOISE 1e-9      /* of the largest algebraic unknown: what is smaller may be rounding */
 #define LEFT 30         /* tolerances, of the terms: steps that leave no more are near enough whatever follows */
 #define LEAST_LEFT 1e-6 /* of the terms, likewise: what noise leaves is less */
 #define CLOSE_LEFT 3e-4 /* of the terms, at most */
@@ -40,7 +39,8 @@ static void find_terms(ac_rodas *r) {
 static double largest(const ac_rodas *r, const double *residual) {
     double most = 0;
     for (int32_t k = r->of.nx; k < r->n; k++) {
-        if (!(fabs(residual[k]) <= most * r->terms[k])) most = fabs(residual[k]) / r->terms[k];
+        const double part = residual[k] == 0 ? 0 : fabs(residual[k]) / r->terms[k];
+        if (part > most) most = part;
     }
     return most;
 }

@@ -5,7 +5,8 @@
 #include "core.h"
 #include "rodas5p.h"
 
-#define KEPT 3 /* choices of pivots: most runs take no more, and a run like it takes the same ones */
+#define NOISE 1e-9 /* of the largest algebraic unknown: what is smaller may be rounding */
+#define KEPT 3     /* choices of pivots: most runs take no more, and a run like it takes the same ones */
 
 struct ac_rodas {
     ac_equations of;
