@@ -97,6 +97,9 @@ class Calls:
     holds: float = 1e-3
     # Steps after which loops are looked at for flat positions: a few turns.
     steps: int = 64
+    # Of the most that some steps of the core brought a loop forward: where they bring less it creeps towards a flat position, as
+    # n-four-bar does at 1e-7, whose unknowns grow there without end.
+    creeps: float = 1e-3
     # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may
     # leave; tolerances below the second come near it.
     rounding: float = 1e-14

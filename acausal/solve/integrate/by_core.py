@@ -44,7 +44,7 @@ class ByCore(Integration):
         self._ringing = None if damps else way.ringing
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
-        self.ended, self._keeps = False, loops or request.curves
+        self.ended, self._keeps, self._stride = False, loops or request.curves, 0.0
         self._again: ByCore | None = None
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
@@ -106,15 +106,21 @@ class ByCore(Integration):
         steps = min(steps, self._at_once) if self._keeps else steps
         if self._returns and self._rodas.progress.steps:
             self._return()
+        before = self.reached
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
+        self._stride = max(self._stride, time - before)
         if end == End.MANY and self._ringing:
             rings = self.request.settings.rings(self._ringing.interval)
             self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
             self._ringing, end = None, End.MORE
         if self._loops and self._damps:
             self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
-        elif self._loops and (self._passed_flat() or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))):
+        elif self._loops and (
+            self._passed_flat()
+            or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))
+            or (end == End.MORE and time - before < POLICY.calls.creeps * self._stride)
+        ):
             return Refusal(Kind.FLAT, time)
         return Refusal(REFUSALS[end], time) if end in REFUSALS else None
 
