@@ -24,9 +24,8 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
-SPLIT = (
-    1e-7  # of the largest eigenvalue: rounding splits a double zero, as of a free coordinate, by the root of its size
-)
+# Of the largest singular value: what a free coordinate leaves is some rounding errors.
+NOTHING = 1e-12
 ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
 
@@ -54,7 +53,7 @@ class Linearization:
     @property
     def eigenvalues(self) -> np.ndarray:
         """Eigenvalues of A in 1/s, by size, then by imaginary part."""
-        values = np.asarray(np.linalg.eigvals(self.A), dtype=complex)
+        values = _eigenvalues(self.A)
         size = np.abs(values) / (np.max(np.abs(values), initial=0.0) or 1.0)
         return values[np.lexsort((np.imag(values), np.round(size, 9)))]
 
@@ -62,7 +61,7 @@ class Linearization:
     def _oscillations(self) -> np.ndarray:
         values = self.eigenvalues
         size = np.abs(values).max(initial=0.0)
-        pairs = values[(np.imag(values) > 0) & (np.imag(values) > SPLIT * size)]
+        pairs = values[(np.imag(values) > 0) & (np.imag(values) > 1e-9 * size)]
         return pairs[np.argsort(np.imag(pairs))]
 
     @property
@@ -170,6 +169,22 @@ def _entries(name: str, value: Any) -> list[str]:
     """Names of the entries in the order of columns."""
     places = sorted(np.ndindex(*value.shape), key=lambda index: index[::-1])
     return [name + (f"[{','.join(map(str, index))}]" if index else "") for index in places]
+
+
+def _eigenvalues(A: np.ndarray) -> np.ndarray:
+    """Eigenvalues, with those of free coordinates 0: as double zeros they would be split by the root of rounding.
+
+    In the axes of its null space N and what is at right angles to that, Q, a matrix has the zeros of N and the eigenvalues of
+    Q' A Q.
+    """
+    A, zeros = scipy.linalg.matrix_balance(A, permute=False)[0] if A.size else A, 0
+    while A.size:
+        _, s, V = np.linalg.svd(A)
+        rank = int(np.sum(s > NOTHING * s[0]))
+        if rank == len(s):
+            break
+        zeros, A = zeros + len(s) - rank, V[:rank] @ A @ V[:rank].T
+    return np.concatenate([np.linalg.eigvals(A).astype(complex), np.zeros(zeros)])
 
 
 def _apart(A: np.ndarray, feedback: np.ndarray) -> bool:
