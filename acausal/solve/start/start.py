@@ -58,6 +58,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             if there is None and isinstance(error, Restless):
                 there = _other(_found(problem, error.at, head), head)
             if there is None and not tried.cycle:
+                if isinstance(error, Restless):
+                    raise InitializationError(str(error)) from None
                 raise
             head = tried.then(head, head if there is None else there)
             continue
