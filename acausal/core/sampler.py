@@ -230,7 +230,12 @@ class Sampler:
         self._rate, self._found = rate, [np.empty((room, n)) for n in (1, e.nx, e.nz, e.nc, 1)]
         self._peak = np.empty(len(sampled.is_switch))
         steps = RequestData(
-            *(tolerance, 0.0, size.ctypes.data, rate.ctypes.data), smooth=smooth, largest=largest, singular=singular
+            tolerance=tolerance,
+            size=size.ctypes.data,
+            rate=rate.ctypes.data,
+            smooth=smooth,
+            largest=largest,
+            singular=singular,
         )
         found = dict(zip(("row_time", "row_x", "row_z", "row_c", "row_event"), self._found, strict=True))
         arrays = {"p": p, "time": times, "nominal": nominal, "declared": declared, "peak": self._peak, **found}

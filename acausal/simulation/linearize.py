@@ -20,6 +20,7 @@ from acausal.locks import alone
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
+from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
@@ -117,32 +118,8 @@ def linearize(
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
     at = opening(problem, time, how)
-    inputs = _inputs(compiled)
-    outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
-    u = ca.vertcat(*[sx for _, sx in inputs])
-    r = compiled.reduced
-    column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
-    J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
-    linear = Call(ca.Function("linear", compiled.arguments, [J]))
-    kept, free = (
-        linear(at.x, at.z, p, time, replace(at.constants, feedback=f).vector, 0.0)[0].copy()
-        for f in (problem.feedback, 0.0)
-    )
-    nx, nz = compiled.nx, compiled.nz
-    if not np.all(np.isfinite(kept)):
-        raise InitializationError(
-            f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
-        )
-    pattern = linear.function.sparsity_out(0)
-    M = scipy.sparse.csc_matrix((free, pattern.row(), pattern.colind()), shape=J.shape)
-    states, unknowns, rest = np.split(np.arange(max(M.shape)), [nx, nx + nz])
-    rows, columns = (np.append(states, rest[: n - nx - nz]) for n in M.shape)
-    try:
-        eliminated = Elimination.of(M, rows, columns, unknowns, unknowns)
-        slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
-    except RuntimeError:
-        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
-    slopes = returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
+    inputs, nx = _inputs(compiled), compiled.nx
+    slopes = _slopes(problem, at, ca.vertcat(*[sx for _, sx in inputs]))
     N, chosen = tangent(problem, at)
     # By the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
@@ -157,6 +134,34 @@ def linearize(
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
     )
+
+
+def _slopes(problem: Problem, at: Point, u: ca.SX) -> np.ndarray:
+    """Derivatives of the rates and the outputs by the states and the inputs, the algebraic unknowns eliminated."""
+    compiled, nx, nz = problem.compiled, problem.nx, problem.nz
+    r = compiled.reduced
+    outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
+    column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
+    J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
+    linear = Call(ca.Function("linear", compiled.arguments, [J]))
+    kept, free = (
+        linear(at.x, at.z, problem.p, at.time, replace(at.constants, feedback=f).vector, 0.0)[0].copy()
+        for f in (problem.feedback, 0.0)
+    )
+    if not np.all(np.isfinite(kept)):
+        raise InitializationError(
+            f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
+        )
+    pattern = linear.function.sparsity_out(0)
+    M = scipy.sparse.csc_matrix((free, pattern.row(), pattern.colind()), shape=J.shape)
+    states, unknowns, rest = np.split(np.arange(max(M.shape)), [nx, nx + nz])
+    rows, columns = (np.append(states, rest[: n - nx - nz]) for n in M.shape)
+    try:
+        eliminated = Elimination.of(M, rows, columns, unknowns, unknowns)
+        slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
+    except RuntimeError:
+        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
+    return returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
 
 
 def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:

@@ -131,6 +131,13 @@ typedef struct {
     int64_t turned;        /* how often the determinant of the matrix had another sign than at first */
 } ac_progress;
 
+/* What the next step takes over from the ones before. */
+typedef struct {
+    double trusted;             /* what steps may leave of the terms, as one left it whose unknowns were near enough */
+    int32_t refused, unsolved;  /* the last step was; the equations were not solved where it led */
+    int32_t slow;               /* so many of the next steps grow slowly */
+} ac_pace;
+
 typedef struct ac_rodas ac_rodas;
 
 AC_PUBLIC ac_rodas *ac_rodas_make(const ac_equations *equations);

@@ -69,8 +69,7 @@ typedef struct {
     double crowd;                          /* since when events follow one another closely */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
-    double trusted;                        /* as in the integrator */
-    int32_t refused, unsolved, slow;       /* as in the integrator */
+    ac_pace pace;                          /* of the integration */
     int32_t crowded;                       /* events of the crowd */
     int32_t given;                         /* values were set since the last step, by which conditions may change at once */
     int32_t sure;                          /* whether there is such a point, with these parameters */

@@ -15,20 +15,13 @@
 #define TOLERANCES 1000 /* over which, and of the most of the terms, residuals are in doubt: as `Calls.left` of Python */
 #define MOST_LEFT 0.015
 
-/* Forget what was left. */
-void ac_rodas_forget(ac_rodas *r) {
-    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
-    memset(r->most, 0, (size_t)r->of.nz * sizeof *r->most);
-}
-
 /* Terms of each algebraic equation, added up, by the slopes where the step begins. Unknowns far below the largest are rounding,
    with terms as small. */
 static void find_terms(ac_rodas *r) {
     const double *y = r->y;
-    const int32_t nx = r->of.nx;
     double *terms = r->terms, noise = 0;
     memset(terms, 0, (size_t)r->n * sizeof *terms);
-    for (int32_t j = nx; j < r->n; j++) noise = fmax(noise, NOISE * fabs(y[j]));
+    for (int32_t j = r->of.nx; j < r->n; j++) noise = fmax(noise, NOISE * fabs(y[j]));
     for (int32_t j = 0; j < r->n; j++) {
         const double size = fmax(fabs(y[j]), noise);
         for (int32_t e = r->of.start[j]; e < r->of.start[j + 1]; e++) terms[r->of.row[e]] += fabs(r->matrix[e]) * size;
@@ -80,14 +73,14 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     ac_rodas_values(r, r->next, end, r->there);
     if (!ac_all_finite(r->there, r->n)) return 0;
     if (!r->of.nz) return 1;
-    const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->trusted);
+    const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->pace.trusted);
     find_terms(r);
     for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], r->terms[r->of.nx + k]);
     const double most = largest(r, r->there);
-    r->trusted *= FADES;
+    r->pace.trusted *= FADES;
     if (!(most <= enough) && !r->request.singular) {
         if (!converges(r, end)) return 0;
-        r->trusted = fmin(ALIKE * most, MOST_LEFT);
+        r->pace.trusted = fmin(ALIKE * most, MOST_LEFT);
     }
     for (int32_t k = 0; k < r->of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->of.nx + k]));
     const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;

@@ -59,12 +59,14 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     prepare(r, r->of.powers, r->powers, p, c);
     r->t = r->progress.time = request->time[0];
     r->h = request->first_step;
-    r->gathered[0] = r->gathered[1] = r->trusted = 0;
-    r->begun = r->refused = r->unsolved = r->sign = r->known = r->slow = 0;
+    r->gathered[0] = r->gathered[1] = 0;
+    r->pace = (ac_pace){0};
+    r->begun = r->sign = r->known = 0;
     r->stale = 1;
     r->factored = 0;
     r->written_at = 0;
-    ac_rodas_forget(r);
+    memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
+    memset(r->most, 0, (size_t)r->of.nz * sizeof *r->most);
 }
 
 /* Go on from other values at the time that was reached, near those that were. */
@@ -257,7 +259,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         const int last = r->h >= left * (1 - 1e-10);
         const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : measured(r->h);
         if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
-            found = r->unsolved ? AC_UNSOLVED : AC_SHORT;
+            found = r->pace.unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
         }
         const int32_t failed = factorise(r, h);
@@ -270,16 +272,16 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             stages(r, h);
             if (ac_all_finite(r->next, r->n)) error = ac_rodas_norm(r, smoothed(r, r->u + (size_t)(STAGES - 1) * (size_t)r->n, h));
         }
-        r->unsolved = !isfinite(error);
-        double change = !r->unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
+        r->pace.unsolved = !isfinite(error);
+        double change = !r->pace.unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
         if (error <= 1 && !ac_rodas_follows(r, h)) {
-            if (r->refused) ac_rodas_return(r);
-            r->unsolved = 1, r->slow = SOME;
+            if (r->pace.refused) ac_rodas_return(r);
+            r->pace.unsolved = 1, r->pace.slow = SOME;
             error = INFINITY, change = BESIDE;
         }
         if (!(error <= 1)) {
             r->progress.refused++;
-            r->refused = 1;
+            r->pace.refused = 1;
             r->h = h * fmax(LEAST, fmin(change, SAFETY));
             continue;
         }
@@ -287,11 +289,12 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         ac_rodas_write(r, h, last);
         if (r->progress.written > written) r->written_at = r->progress.steps;
         memcpy(r->y, r->next, (size_t)r->n * sizeof *r->y);
-        memcpy(r->here, r->there, (size_t)r->n * sizeof *r->here);
+        double *const before = r->here;
+        r->here = r->there, r->there = before;
         r->t = last ? end : r->t + h;
-        r->h = h * fmax(LEAST, fmin(change, r->refused ? 1 : r->slow ? SLOWLY : MOST));
-        r->slow -= r->slow > 0;
-        r->refused = 0;
+        r->h = h * fmax(LEAST, fmin(change, r->pace.refused ? 1 : r->pace.slow ? SLOWLY : MOST));
+        r->pace.slow -= r->pace.slow > 0;
+        r->pace.refused = 0;
         r->progress.steps++;
         r->stale = 1;
         keep(r);

@@ -18,12 +18,11 @@ struct ac_rodas {
     double *y, *next, *u, *stage, *b, *matrix, *dense; /* u: (STAGES, n), dense: (3, n) */
     double *here, *there;                       /* values of the equations where a step begins and ends */
     double *left, *most, *terms;                /* (nz) most that each algebraic equation left, and of its terms; terms of all */
-    double trusted; /* what steps may leave of the terms, as one left it whose unknowns were near enough */
     double t, h, factored, gathered[2]; /* factored: step whose factors stand in the LU, 0 for none */
     int64_t written_at; /* steps at the last output */
-    int32_t begun, refused, unsolved, stale; /* first step is chosen; last step was; equations had no value there; slopes are not those of y */
+    ac_pace pace;
+    int32_t begun, stale; /* first step is chosen; slopes are not those of y */
     int32_t known; /* whether `here` stands */
-    int32_t slow;  /* so many of the next steps grow slowly */
     int32_t sign;  /* of the determinant at the first step, -1 or 1; 0: there was none */
     ac_request request;
     ac_progress progress;
@@ -33,7 +32,6 @@ void ac_rodas_evaluate(const ac_rodas *r, const ac_tape *tape, double *w, const 
 void ac_rodas_values(ac_rodas *r, const double *y, double t, double *found);
 double ac_rodas_norm(const ac_rodas *r, const double *change);
 void ac_rodas_write(ac_rodas *r, double h, int last);
-void ac_rodas_forget(ac_rodas *r);
 int ac_rodas_follows(ac_rodas *r, double h);
 void ac_rodas_return(ac_rodas *r);
 void ac_rodas_tell(ac_rodas *r);

@@ -52,8 +52,7 @@ static int32_t begin(ac_instance *i, double to) {
     ac_rodas_begin(i->rodas, &request, y, y + ac_states(i), i->p, i->c);
     if (goes_on) {
         i->rodas->h = kept;
-        i->rodas->begun = 1, i->rodas->refused = i->now.refused, i->rodas->unsolved = i->now.unsolved;
-        i->rodas->trusted = i->now.trusted, i->rodas->slow = i->now.slow;
+        i->rodas->begun = 1, i->rodas->pace = i->now.pace;
     }
     if (!goes_on) i->now.looked = i->now.taken = 0;
     i->now.integrates = 1, i->going = 1;
@@ -89,9 +88,7 @@ static int32_t advance(ac_instance *i, double *left) {
     if (!done.kept) return ac_fail(i, AC_FAILED, why[end]);
     memcpy(i->before, i->after, n * sizeof *i->before);
     memcpy(i->after, i->step_y, n * sizeof *i->after);
-    i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h;
-    i->now.refused = i->rodas->refused, i->now.unsolved = i->rodas->unsolved, i->now.trusted = i->rodas->trusted;
-    i->now.slow = i->rodas->slow;
+    i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h, i->now.pace = i->rodas->pace;
     i->now.curved = 1, i->now.event = INFINITY;
     return AC_OK;
 }

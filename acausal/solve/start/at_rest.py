@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -11,7 +11,6 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.once import once
-from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
@@ -59,8 +58,8 @@ def at_rest(problem: Problem, at: Point) -> bool:
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
 
 
-def refuse_motion(problem: Problem, at: Point) -> NoReturn:
-    """Raise InitializationError: what moves where everything else has come to rest, or which conditions prevent it."""
+def motion_text(problem: Problem, at: Point) -> str:
+    """Say what moves where everything else has come to rest, or which conditions prevent it."""
     compiled, nx, nz, t = problem.compiled, problem.nx, problem.nz, at.time
     moving = _moving(problem, at)
     if moving:
@@ -70,7 +69,7 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
             "Something drives it endlessly, such as weight that nothing carries or a torque that nothing brakes: hold it, "
             "brake it, or stop the drive; or give guesses closer to rest."
         )
-        raise InitializationError("\n".join(lines))
+        return "\n".join(lines)
     local = problem.local(at)
     value, allowed = local.value, _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     lines = [f"at t = {t:g} s the model can rest, but not where its initial conditions hold:"]
@@ -81,7 +80,7 @@ def refuse_motion(problem: Problem, at: Point) -> NoReturn:
     wrong = [k for k in range(nx, nx + nz) if abs(value[k]) > allowed[k]]
     lines += [f"  {equation_text(compiled, k - nx)}: off by {value[k]:.4g}" for k in wrong[:5]]
     lines.append("Make them guesses, guess(...) instead of fixed(...), or leave the initial equations out.")
-    raise InitializationError("\n".join(lines))
+    return "\n".join(lines)
 
 
 def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:

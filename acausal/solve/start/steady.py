@@ -15,7 +15,7 @@ from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.at_rest import at_rest, kinematic, meters, refuse_motion
+from acausal.solve.start.at_rest import at_rest, kinematic, meters, motion_text
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
 from acausal.solve.start.newton import Lost, algebraic
@@ -97,10 +97,7 @@ class Equilibrium:
             growth, attempts = 1 + (growth - 1) / 2, attempts - 1
         if found is None:
             self._at(self.guess)  # the cause may be there
-            try:
-                refuse_motion(self.problem, self._nearly(relaxed))
-            except InitializationError as error:
-                raise Restless(str(error), relaxed) from None
+            raise Restless(motion_text(self.problem, self._nearly(relaxed)), relaxed)
         if rate:
             caution(unstable_text(self.problem.compiled, self.guess.time, rate))
         return found.point

@@ -137,12 +137,11 @@ def _limit(row: StudyRow, good: Sequence[StudyRow], reference: Reference, forms:
     exact = _has_its_limit(row.case, form, reference)
     if reference.floor > half:
         return REFERENCE
-    accuracy, known = TOLERANCE if row.case.dt is None else STEP, True
-    by_accuracy = _tolerance_error(row, good, reference)
-    if by_accuracy is None:
-        known = row.case.dt is None and STUDY.most * row.case.tolerance <= half
-    elif by_accuracy > half:
+    steps = row.case.dt is not None
+    accuracy, by_accuracy = STEP if steps else TOLERANCE, _tolerance_error(row, good, reference)
+    if by_accuracy is not None and by_accuracy > half:
         return accuracy
+    known = by_accuracy is not None or (not steps and STUDY.most * row.case.tolerance <= half)
     if form.refine and ((exact and known) or _elements_error(row, good, form, reference) > half):
         return ELEMENTS
     if not known:
