@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, fixed, structural
-from components import Body, World
+from acausal import Model, Scalar, fixed, parameter, quantity, sin, structural, tanh, time
+from acausal.core import library
+from acausal.solve.integrate import by_core
+from components import Body, Revolute, World
 from components.rotational import Damper
 from models import Bricard, FourBar, NFourBar, SimplePendulum
+from tests.hard.driven import DrivenFourBar
 from tests.hard.measure import within
 from tests.reference import bricard, four_bar, free_body, n_four_bar, pendulum
 
@@ -186,3 +189,28 @@ def test_bricard_against_its_reference():
     within(
         "point, m", np.abs(np.array([result[n] for n in ("x", "y", "z")]).T - bricard.point(result.time)).max(), 1e-4
     )
+
+
+class Rests(DrivenFourBar):
+    """A four-bar without gravity that is shaken, or pushed, after a long rest."""
+
+    begin: Scalar = parameter("when it begins", unit="s", default=1000.0)
+    shaken: bool = structural("whether it is shaken", default=False, choices=(True, False))
+    world = World(gravity=None)
+    hinge = Revolute(phi=fixed(1.0), w=fixed(0), use_axis_flange=True)
+
+    def equations(self):
+        s = (time - self.begin) / quantity(1.0, "s")
+        push = sin(200 * np.pi * s) if self.shaken else 0.1
+        yield self.torque.tau == quantity(50.0, "N.m") * (1 + tanh(8 * s)) * push
+
+
+@pytest.mark.skipif(library() is None, reason="needs the core")
+@pytest.mark.parametrize("calls", [None, 1])
+@pytest.mark.parametrize("shaken", [False, True])
+def test_a_loop_that_moves_after_a_long_rest_creeps_nowhere(shaken, calls, monkeypatch):
+    """However few steps a call of the core takes, as of large models."""
+    if calls:
+        monkeypatch.setattr(by_core, "at_once", lambda equations: calls)
+    run = ac.simulate(Rests(shaken=shaken), stop_time=1001.0, intervals=2002)
+    assert run.stats.method == "rosenbrock"

@@ -57,7 +57,7 @@ static int converges(ac_rodas *r, double end) {
         for (int32_t k = 0; k < r->n; k++) r->stage[k] += r->b[k];
         ac_rodas_values(r, r->stage, end, left);
         error = correction(r, left);
-        if (error <= nearer[tries] * least) {
+        if (error <= nearer[tries] * least && ac_all_finite(left, r->n)) {
             memcpy(r->next, r->stage, (size_t)r->n * sizeof *r->next);
             memcpy(r->there, left, (size_t)r->n * sizeof *r->there);
             return 1;
@@ -70,11 +70,11 @@ static int converges(ac_rodas *r, double end) {
 /* Whether the algebraic equations are solved where a step leads, near enough for its tolerance. */
 int ac_rodas_follows(ac_rodas *r, double h) {
     const double end = r->t + h;
+    find_terms(r);
     ac_rodas_values(r, r->next, end, r->there);
     if (!ac_all_finite(r->there, r->n)) return 0;
     if (!r->of.nz) return 1;
     const double least = fmax(fmin(LEFT * r->request.tolerance, CLOSE_LEFT), LEAST_LEFT), enough = fmax(least, r->pace.trusted);
-    find_terms(r);
     for (int32_t k = 0; k < r->of.nz; k++) r->most[k] = fmax(r->most[k], r->terms[r->of.nx + k]);
     const double most = largest(r, r->there);
     r->pace.trusted *= FADES;
@@ -91,7 +91,7 @@ int ac_rodas_follows(ac_rodas *r, double h) {
 
 /* Bring the unknowns where a step begins nearer to their equations: where these bend, what the last step left may be far from them. */
 void ac_rodas_return(ac_rodas *r) {
-    if (!r->of.nz || !(largest(r, r->here) > LEAST_LEFT)) return;
+    if (!r->of.nz || r->request.singular || !(largest(r, r->here) > LEAST_LEFT)) return;
     correction(r, r->here);
     if (!ac_all_finite(r->b, r->n)) return;
     for (int32_t k = r->of.nx; k < r->n; k++) r->y[k] += r->b[k];

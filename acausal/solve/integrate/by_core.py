@@ -44,7 +44,8 @@ class ByCore(Integration):
         self._ringing = None if damps else way.ringing
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
-        self.ended, self._keeps, self._stride = False, loops or request.curves, 0.0
+        self.ended, self._keeps = False, loops or request.curves
+        self._window, self._stride = (0, 0, at.time), 0.0
         self._again: ByCore | None = None
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
@@ -106,10 +107,8 @@ class ByCore(Integration):
         steps = min(steps, self._at_once) if self._keeps else steps
         if self._returns and self._rodas.progress.steps:
             self._return()
-        before = self.reached
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
         self.ended = end == End.DONE
-        self._stride = max(self._stride, time - before)
         if end == End.MANY and self._ringing:
             rings = self.request.settings.rings(self._ringing.interval)
             self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
@@ -119,7 +118,7 @@ class ByCore(Integration):
         elif self._loops and (
             self._passed_flat()
             or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))
-            or (end == End.MORE and time - before < POLICY.calls.creeps * self._stride)
+            or (end == End.MORE and self._creeps())
         ):
             return Refusal(Kind.FLAT, time)
         return Refusal(REFUSALS[end], time) if end in REFUSALS else None
@@ -139,6 +138,15 @@ class ByCore(Integration):
         """Whether loops may have passed a flat position in the last steps."""
         problem, times, y, constants = self._last_steps
         return passes_flat(problem, times, y[:, : problem.nx], constants)
+
+    def _creeps(self) -> bool:
+        """Whether some steps bring it hardly forward, and many of them are taken again, shorter."""
+        done, calls, (steps, refused, time) = self._rodas.progress, POLICY.calls, self._window
+        taken, again, forward = done.steps - steps, done.refused - refused, done.time - time
+        if taken + again < calls.steps:
+            return False
+        self._window, self._stride = (done.steps, done.refused, done.time), max(self._stride, forward)
+        return forward < calls.creeps * self._stride and again > calls.often * (taken + again)
 
     @property
     def _last_steps(self) -> tuple[Problem, np.ndarray, np.ndarray, Constants]:

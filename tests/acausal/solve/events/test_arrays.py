@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Model, Scalar, chain, connect, der, discrete, fixed, guess, reinit, sin, time, variable, when
+from acausal import Model, Scalar, der, discrete, reinit, sin, time, variable, when
 from acausal.core import library
-from components import BodyRod, FixedTranslation, Revolute, World
-from components.rotational import Torque
+from tests.hard.driven import DrivenFourBar
 
 METHODS = ("auto", "idas", "rosenbrock", "resolve")
 
@@ -73,28 +72,12 @@ def test_an_array_is_as_many_scalars(method: str, energy: bool) -> None:
     assert one["count"][-1] == other["count"][-1] == 100
 
 
-class Loop(Model):
+class Loop(DrivenFourBar):
     """A four-bar with a sampled torque, and a table beside it that never changes."""
 
     due: Scalar = discrete("time of the next sample", unit="s", start=0.1)
     held: Scalar = discrete("torque", unit="N.m")
     table = discrete("not used", shape=(4,), start=(5.0, -3.0, 2.0, 7.0))
-    world = World()
-    hinge = Revolute(phi=fixed(1.0), w=fixed(1.3), use_axis_flange=True)
-    torque = Torque()
-    crank = BodyRod(r=(0.5, 0, 0), m=1.0)
-    pin = Revolute(phi=guess(-0.8))
-    coupler = BodyRod(r=(1.5, 0, 0), m=2.0)
-    joint = Revolute(phi=guess(-1.5))
-    rocker = BodyRod(r=(-1.0, 0, 0), m=1.5)
-    last = Revolute(phi=guess(0))
-    base = FixedTranslation(r=(1.4, 0.1, 0))
-
-    def connections(self):
-        yield chain(self.world, self.hinge, self.crank, self.pin, self.coupler, self.joint, self.rocker, self.last)
-        yield connect(self.last.frame_b, self.base.frame_b)
-        yield connect(self.world.frame_b, self.base.frame_a)
-        yield connect(self.torque.flange, self.hinge.axis)
 
     def equations(self):
         yield when(time >= self.due, reinit(self.due, self.due + 0.1), reinit(self.held, 3 * sin(self.hinge.phi)))
