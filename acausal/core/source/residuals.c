@@ -1,5 +1,6 @@
 /* What steps leave of the algebraic equations. The method sees errors of the states alone. Where unknowns are steep, as beside a kink,
    or where a solution ends, it goes on with others than those of the equations, all stages alike. */
+#include "file.h"
 #include "lu.h"
 #include "rodas.h"
 
