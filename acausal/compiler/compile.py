@@ -98,6 +98,6 @@ def ready(
 ) -> tuple[CompiledModel, np.ndarray]:
     """Compile a model that is not compiled yet; return it with the values of its free parameters after some changes."""
     if isinstance(model, CompiledModel):
-        return model, model.parameter_values(values_of(parameters))
+        return model, model.settable.values(values_of(parameters))
     compiled = compile(model, parameters)
-    return compiled, compiled.parameter_values(None)
+    return compiled, compiled.settable.values(None)

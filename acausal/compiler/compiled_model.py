@@ -276,18 +276,19 @@ class CompiledModel:
     @alone
     def parameter_values(self, changes: Mapping[str, Any] | None) -> np.ndarray:
         """Return the values of all free parameters after some changes; see `Settable`."""
-        return self._settable.values(changes)
+        return self.settable.values(changes)
 
     @alone
     def value(self, path: str) -> Any:
         """Return the value with which a parameter, structural parameter or effect was compiled; see `Settable`."""
-        return self._settable.value(path)
+        return self.settable.value(path)
 
     @property
     def requirements(self) -> Requirements:
         """What components require of parameters, and of variables at the start."""
-        return self._settable.requirements
+        return self.settable.requirements
 
     @cached_property
-    def _settable(self) -> Settable:
+    def settable(self) -> Settable:
+        """Its parameters, for callers that let no other thread in."""
         return Settable(self.reduced.flat)

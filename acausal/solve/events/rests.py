@@ -34,7 +34,10 @@ def ends_of_rests(integrator: Integrator, at: Point, end: float, outputs: np.nda
     compiled, span, run = integrator.compiled, end - at.time, float(outputs[-1] - outputs[0])
     if not compiled.nx:
         return []
-    found = np.union1d(_after_rests(integrator, at, end, run), _short_cases(integrator.problem, at, end, run))
+    rests, short = _after_rests(integrator, at, end, run), _short_cases(integrator.problem, at, end, run)
+    if not (rests or short.size):
+        return []
+    found = np.union1d(rests, short)
     near = outputs[np.clip(np.searchsorted(outputs, found - span * RESTS.near), 0, len(outputs) - 1)]
     return np.where(np.abs(near - found) <= span * RESTS.near, near, found).tolist()
 
@@ -54,6 +57,8 @@ def _after_rests(integrator: Integrator, at: Point, end: float, run: float) -> t
 def _short_cases(problem: Problem, at: Point, end: float, run: float) -> np.ndarray:
     """Instants around the short cases of laws that are declared smooth."""
     instants, apart = problem.compiled.guards.smooth(problem.p, at.constants.vector)[0], RESTS.near * (end - at.time)
+    if not instants.size:
+        return instants
     inside = np.unique(instants[(instants > at.time + apart) & (instants < end - apart)])
     short = np.diff([at.time, *inside, np.inf]) <= RESTS.short * run
     return inside[short[:-1] | short[1:]]

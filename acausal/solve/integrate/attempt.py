@@ -228,7 +228,7 @@ class Integrator:
                 return Refusal(Kind.UNSOLVABLE, float(given.times[k]))
         # From far away, unknowns may come to rest where the equations do not hold.
         ends = (last, given[-1:])
-        if not (iterates or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
+        if not (sure or self.loops or any(self.consistent.holds(row, 0, POLICY.calls.holds) for row in ends)):
             return Refusal(Kind.UNSOLVABLE, end.time)
         jump = None if sure or leaps else integration.jump(self.consistent)
         if jump is not None and jump <= end.time:

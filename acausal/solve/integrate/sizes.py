@@ -34,8 +34,7 @@ def smaller_sizes(
         Relative tolerance, and length of the run in s.
     """
     groups, rates = _undeclared(problem.compiled)
-    ends = [end for x in rows if len(x) for end in (x.max(axis=0), -x.min(axis=0))]
-    reach = np.maximum.reduce(ends)
+    reach = np.maximum.reduce([np.abs(x).max(axis=0) for x in rows if len(x)])
     fitting = nominal.copy()
     for members in groups:
         most = float(reach[members].max())

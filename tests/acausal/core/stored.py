@@ -30,7 +30,7 @@ def scene(name: str) -> StoredModel:
     """Return a scene as it starts; projections of its closed loops move."""
     model, span = compiled(SCENES[name]), SPANS[name]
     problem = Problem(model, model.parameter_values(None), POLICY.loops.feedback / span)
-    at = go_on(problem, start(problem, 0.0, span / 2, "fixed"))
+    at = go_on(problem, start(problem, 0.0, span / 20, "fixed"))  # before anything changes by the clock
     moves = bool(model.constraints.size)
     if moves:
         at = problem.projected(at)

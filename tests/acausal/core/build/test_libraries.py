@@ -54,7 +54,9 @@ def test_sources_have_no_warnings():
     # What one compiler warns of, as a function that is not declared, another one refuses.
     strict = [flag for flag in FLAGS if flag != "-shared"]
     sources = map(str, SOURCE.glob("*.c"))
-    done = subprocess.run([*own_compiler(), *strict, "-Werror", "-fsyntax-only", *sources], capture_output=True, text=True)
+    done = subprocess.run(
+        [*own_compiler(), *strict, "-Werror", "-fsyntax-only", *sources], capture_output=True, text=True
+    )
     assert not done.returncode, done.stderr
 
 
