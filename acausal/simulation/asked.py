@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,8 @@ def planned(
     _check(task, accuracy)
     for name in CHOOSE:
         check_choice(name, getattr(task, name))
-    return task, accuracy
+    numbers = {name: float(getattr(task, name)) for name in ("start_time", "stop_time", "tolerance")}
+    return replace(task, **numbers), accuracy  # a comparison of numbers of numpy is no bool
 
 
 def check_choice(name: str, value: Any) -> None:

@@ -92,7 +92,7 @@ def _cause(problem: Problem, at: Point, stopped: float, begun: float) -> str:
         try:
             algebraic(problem, later)
         except Lost as lost:
-            return f"from there on these equations have no solution:\n{lost.worst}\n{LIMITS}"
+            return f"from there on no solution of these equations is found:\n{lost.worst}\n{LIMITS}"
     return ""
 
 

@@ -136,6 +136,7 @@ typedef struct {
     double trusted;             /* what steps may leave of the terms, as one left it whose unknowns were near enough */
     int32_t refused, unsolved;  /* the last step was; the equations were not solved where it led */
     int32_t slow;               /* so many of the next steps grow slowly */
+    int32_t bent;               /* so many of the next steps may begin beside a bend */
 } ac_pace;
 
 typedef struct ac_rodas ac_rodas;

@@ -73,3 +73,14 @@ void ac_rodas_write(ac_rodas *r, double h, int last) {
     }
     if (r->of.powers && from < 1) gather(r, from, 1, h);
 }
+
+/* Keep where a step ended. */
+void ac_rodas_keep(ac_rodas *r) {
+    const ac_request *q = &r->request;
+    const size_t n = (size_t)r->n, k = (size_t)r->progress.kept;
+    if (r->progress.kept == q->room) return;
+    q->step_time[k] = r->t;
+    memcpy(q->step_y + k * n, r->y, n * sizeof(double));
+    if (q->step_dense) memcpy(q->step_dense + 3 * k * n, r->dense, 3 * n * sizeof(double));
+    r->progress.kept++;
+}

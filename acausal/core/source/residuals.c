@@ -11,6 +11,11 @@
 #define LEAST_LEFT 1e-6 /* of the terms, likewise: what noise leaves is less */
 #define CLOSE_LEFT 3e-4 /* of the terms, at most */
 #define REST 1e-12      /* error of the states over the tolerance that is none */
+#define SOLVED 1e-12    /* of the terms, where a step begins: those of other unknowns may be far larger than what is left of a steep one */
+#define RETURNS 50      /* corrections of unknowns where a step begins: by halves they come from 1 to the width of tanh(1e6 z) */
+#define HALVINGS 20     /* of a correction that leaves more than there was */
+#define FURTHER 10      /* times as far as the rates at both ends: where they change much in a step */
+#define LEAP 0.1        /* tolerances beyond that */
 #define ALIKE 1.5       /* times what was left where corrections came to little: as near, whatever follows, in some steps */
 #define FADES 0.8       /* what is left of that after each step */
 #define TOLERANCES 1000 /* over which, and of the most of the terms, residuals are in doubt: as `Calls.left` of Python */
@@ -47,25 +52,42 @@ static double correction(ac_rodas *r, const double *residual) {
     return ac_rodas_norm(r, r->b);
 }
 
+/* Whether what is left matters to no state: rates that differ so, were they to last, change none by more than its tolerance. Slopes alone
+   do not tell: a law that has saturated where it does not belong has none. */
+static int idles(ac_rodas *r, const double *left) {
+    const double *time = r->request.time, span = time[r->request.outputs] - time[0];
+    for (int32_t k = 0; k < r->of.nx; k++) r->b[k] = span * (left[k] - r->there[k]);
+    return ac_rodas_norm(r, r->b) <= 1;
+}
+
 /* Whether corrections of what a step leaves change the states by little, the second or third one by far less: beside a kink, or on the
    way to another solution, they would not. */
-static int converges(ac_rodas *r, double end) {
+static int converges(ac_rodas *r, double end, double most) {
     static const double nearer[] = {0.25, 0.1}; /* as Newton's method in IDAS; less where the first two are as large */
     double error = correction(r, r->there), least = error, *left = r->dense; /* the step has none yet */
     if (!(error <= 1)) return 0;
     memcpy(r->stage, r->next, (size_t)r->n * sizeof *r->stage);
-    for (int tries = 0; error > REST && tries < 2; tries++) {
+    for (int tries = 0; tries < 2; tries++) {
         for (int32_t k = 0; k < r->n; k++) r->stage[k] += r->b[k];
         ac_rodas_values(r, r->stage, end, left);
+        if (!tries && error <= REST && idles(r, left)) return 1;
         error = correction(r, left);
-        if (error <= nearer[tries] * least && ac_all_finite(left, r->n)) {
+        if (error <= nearer[tries] * least && (error > REST || largest(r, left) <= nearer[tries] * most) && ac_all_finite(left, r->n)) {
             memcpy(r->next, r->stage, (size_t)r->n * sizeof *r->next);
             memcpy(r->there, left, (size_t)r->n * sizeof *r->there);
             return 1;
         }
         least = fmin(least, error);
     }
-    return error <= REST;
+    return 0;
+}
+
+/* Whether a step takes states further than their rates at its ends allow: beside a bend stages may lead unknowns far away, and what that
+   does to the states is as large as the tolerance at most, but again in each of many short steps. */
+static int leaps(ac_rodas *r, double h) {
+    for (int32_t k = 0; k < r->of.nx; k++)
+        r->b[k] = fmax(0, fabs(r->next[k] - r->y[k]) - FURTHER * h * fmax(fabs(r->here[k]), fabs(r->there[k])));
+    return ac_rodas_norm(r, r->b) > LEAP;
 }
 
 /* Whether the algebraic equations are solved where a step leads, near enough for its tolerance. */
@@ -80,9 +102,10 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     const double most = largest(r, r->there);
     r->pace.trusted *= FADES;
     if (!(most <= enough) && !r->request.singular) {
-        if (!converges(r, end)) return 0;
+        if (!converges(r, end, most)) return 0;
         r->pace.trusted = fmin(ALIKE * most, MOST_LEFT);
     }
+    if (r->pace.bent && leaps(r, h)) return 0;
     for (int32_t k = 0; k < r->of.nz; k++) r->left[k] = fmax(r->left[k], fabs(r->there[r->of.nx + k]));
     const int32_t sign = ac_lu_is_negative(r->lu) ? -1 : 1;
     r->progress.turned += sign == -r->sign;
@@ -90,13 +113,34 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     return 1;
 }
 
-/* Bring the unknowns where a step begins nearer to their equations: where these bend, what the last step left may be far from them. */
-void ac_rodas_return(ac_rodas *r) {
-    if (!r->of.nz || r->request.singular || !(largest(r, r->here) > LEAST_LEFT)) return;
+/* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and are not near enough. Where these bend,
+   what the last step left may be far from them, and a whole correction may lead further away. */
+static int returns(ac_rodas *r) {
+    if (!r->of.nz || r->request.singular) return 0;
+    find_terms(r);
+    const double left = largest(r, r->here);
+    if (!(left > SOLVED)) return 0;
     correction(r, r->here);
-    if (!ac_all_finite(r->b, r->n)) return;
-    for (int32_t k = r->of.nx; k < r->n; k++) r->y[k] += r->b[k];
-    r->stale = 1, r->known = 0;
+    if (!ac_all_finite(r->b, r->n)) return 0;
+    double part = 1, *found = r->dense; /* the step has none */
+    for (int tries = 0; tries <= HALVINGS; tries++, part /= 2) {
+        memcpy(r->stage, r->y, (size_t)r->n * sizeof *r->stage);
+        for (int32_t k = r->of.nx; k < r->n; k++) r->stage[k] += part * r->b[k];
+        ac_rodas_values(r, r->stage, r->t, found);
+        if (ac_all_finite(found, r->n) && largest(r, found) < left) {
+            memcpy(r->y, r->stage, (size_t)r->n * sizeof *r->y);
+            memcpy(r->here, found, (size_t)r->n * sizeof *r->here);
+            r->stale = 1;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Solve for the algebraic unknowns where a step of length h begins, as far as that goes. */
+void ac_rodas_return(ac_rodas *r, double h) {
+    int tries = 0;
+    while (tries++ < RETURNS && returns(r) && !ac_rodas_factorise(r, h)) {}
 }
 
 /* Tell the most of the residuals after steps, over the most of the terms of its equation. */

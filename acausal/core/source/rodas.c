@@ -23,6 +23,7 @@
 #define BESIDE 0.5            /* of a step behind which the algebraic unknowns are not near where it leads */
 #define SLOWLY 1.5            /* change of some steps after that at most, as the next ones come to the same bend */
 #define SOME 4
+#define MANY 30               /* steps that may begin beside that bend again */
 #define SHORTEST (16 * DBL_EPSILON) /* of the time: below it t + h is rounding */
 
 /* Write parameters and constants of a segment, and evaluate what follows from them alone. */
@@ -131,7 +132,7 @@ static int32_t factors(ac_rodas *r) {
 }
 
 /* Factors of M/(h gamma) - J here. */
-static int32_t factorise(ac_rodas *r, double h) {
+int32_t ac_rodas_factorise(ac_rodas *r, double h) {
     const ac_tape *tape = r->of.slopes;
     const int32_t entries = r->of.start[r->n];
     if (r->stale) {
@@ -173,7 +174,7 @@ static double unresolved(ac_rodas *r, double *left, const int32_t *some) {
 static int32_t stills(ac_rodas *r, const double *slope) {
     const int32_t nx = r->of.nx, *rate = r->request.rate;
     double *left = r->stage;
-    if (factorise(r, r->h)) return 0;
+    if (ac_rodas_factorise(r, r->h)) return 0;
     for (int32_t k = 0; k < nx; k++) left[k] = rate && rate[k] ? r->y[k] : 0;
     if (rate && unresolved(r, left, rate) > 1) return 1;
     for (int32_t k = 0; slope && k < nx; k++) left[k] = r->h * GAMMA * slope[k];
@@ -228,17 +229,6 @@ static void stages(ac_rodas *r, double h) {
     for (int32_t k = 0; k < n; k++) r->next[k] = r->stage[k] + last[k];
 }
 
-/* Keep where a step ended. */
-static void keep(ac_rodas *r) {
-    const ac_request *q = &r->request;
-    const size_t n = (size_t)r->n, k = (size_t)r->progress.kept;
-    if (r->progress.kept == q->room) return;
-    q->step_time[k] = r->t;
-    memcpy(q->step_y + k * n, r->y, n * sizeof(double));
-    if (q->step_dense) memcpy(q->step_dense + 3 * k * n, r->dense, 3 * n * sizeof(double));
-    r->progress.kept++;
-}
-
 /* Go on for some steps at most; AC_MORE where there is more to do. */
 int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
     const double end = r->request.time[r->request.outputs];
@@ -262,7 +252,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
             found = r->pace.unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
         }
-        const int32_t failed = factorise(r, h);
+        const int32_t failed = ac_rodas_factorise(r, h);
         if (failed < 0) {
             found = AC_MEMORY;
             break;
@@ -275,8 +265,8 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->pace.unsolved = !isfinite(error);
         double change = !r->pace.unsolved ? SAFETY * pow(fmax(error, 1e-10), -0.2) : AFTER_REFUSAL;
         if (error <= 1 && !ac_rodas_follows(r, h)) {
-            if (r->pace.refused) ac_rodas_return(r);
-            r->pace.unsolved = 1, r->pace.slow = SOME;
+            if (r->pace.refused) ac_rodas_return(r, h);
+            r->pace.unsolved = 1, r->pace.slow = SOME, r->pace.bent = MANY;
             error = INFINITY, change = BESIDE;
         }
         if (!(error <= 1)) {
@@ -293,11 +283,11 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         r->here = r->there, r->there = before;
         r->t = last ? end : r->t + h;
         r->h = h * fmax(LEAST, fmin(change, r->pace.refused ? 1 : r->pace.slow ? SLOWLY : MOST));
-        r->pace.slow -= r->pace.slow > 0;
+        r->pace.slow -= r->pace.slow > 0, r->pace.bent -= r->pace.bent > 0;
         r->pace.refused = 0;
         r->progress.steps++;
         r->stale = 1;
-        keep(r);
+        ac_rodas_keep(r);
     }
     r->progress.time = r->t;
     ac_rodas_tell(r);

@@ -33,7 +33,9 @@ void ac_rodas_values(ac_rodas *r, const double *y, double t, double *found);
 double ac_rodas_norm(const ac_rodas *r, const double *change);
 void ac_rodas_write(ac_rodas *r, double h, int last);
 int ac_rodas_follows(ac_rodas *r, double h);
-void ac_rodas_return(ac_rodas *r);
+int32_t ac_rodas_factorise(ac_rodas *r, double h);
+void ac_rodas_keep(ac_rodas *r);
+void ac_rodas_return(ac_rodas *r, double h);
 void ac_rodas_tell(ac_rodas *r);
 int ac_rodas_doubts(ac_rodas *r);
 void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,

@@ -28,6 +28,8 @@ def first_jump(consistent: Consistent, curve: Curve, constants: np.ndarray) -> f
     constants : array
         Constants of the segment.
     """
+    if len(curve.times) == 1:  # all steps were refused
+        return None
     nx, parts = consistent.problem.nx, np.linspace(0, 1, BRANCHES.parts + 1)
 
     def solved(times: np.ndarray, *guesses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

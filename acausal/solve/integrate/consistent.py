@@ -149,9 +149,12 @@ class Consistent:
         # These terms are never more than those, which take longer.
         if (left <= tolerance * local.magnitudes(np.abs(y))[own]).all():
             return True
-        # Terms of states that cancel show in no slope; what is left of them is rounding beside nominal sizes.
+        # Terms of states that cancel show in no slope; what is left of them is rounding beside nominal sizes. Nor do
+        # terms of time and parameters alone: they are left where all unknowns are 0.
         nominal = np.append(np.zeros(c.nx), c.nominal[c.nx :])
-        rest = np.maximum(tolerance * terms(local, y, c.nominal), CANCELS * local.magnitudes(nominal))
+        constant = np.abs(self.problem.values(at.with_y(np.zeros(len(y)))))
+        cancel = np.fmax(local.magnitudes(nominal), np.where(np.isfinite(constant), constant, 0.0))
+        rest = np.maximum(tolerance * terms(local, y, c.nominal), CANCELS * cancel)
         return bool((left <= rest[own]).all())
 
     def sizes(self, values: np.ndarray) -> np.ndarray:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import acausal as ac
 from acausal import DeclarationError, Model, Scalar, der, output, parameter, piecewise, structural
 from acausal.cli.app import app
+from acausal.simulation.asked import planned
+from acausal.simulation.settings import DEFAULTS
 
 
 class Decay(Model):
@@ -257,3 +260,10 @@ def test_command_line_with_parameters(tmp_path):
 
     assert (last("Decay"), last("Decay", "tt=0.7"), last("Decay", "stop_time=0.9")) == (0.5, 0.7, 0.9)
     assert (last("Twice"), last("Twice", "tt=0.7")) == (1.0, 1.4)
+
+
+def test_numbers_of_numpy_are_settings():
+    given = {"stop_time": np.float64(0.5), "tolerance": np.float64(1e-4), "intervals": np.int64(4)}
+    task = planned(ac.compile(Decay()), None, dict.fromkeys(DEFAULTS) | given)[0]
+    assert [type(number) for number in (task.start_time, task.stop_time, task.tolerance)] == [float] * 3
+    assert told(Decay(), **given)[:3] == (0.5, 5, 1e-4)

@@ -7,9 +7,12 @@ import pytest
 
 import acausal as ac
 from acausal import Model, Scalar, atan2, chain, cos, der, fixed, guess, parameter, sin, time, variable
-from acausal.core import library
+from acausal.core import Curve, library
 from acausal.solve.integrate import by_core
+from acausal.solve.integrate.branches import first_jump
 from acausal.solve.integrate.by_core import ByCore
+from acausal.solve.integrate.consistent import Consistent
+from acausal.solve.problem import Problem
 from components import Body, Revolute, World
 
 CORE = pytest.mark.skipif(library() is None, reason="needs the core")
@@ -197,3 +200,11 @@ def test_what_is_left_of_terms_that_cancel_is_no_jump(method: str, tolerance: fl
     run = ac.simulate(Rotor(), stop_time=2.0, method=method, tolerance=tolerance)
     assert run.stats.method == "rosenbrock"
     np.testing.assert_allclose(run["hinge.phi"], 0.77 - 1.84 * run.time, atol=1e-12)
+
+
+@CORE
+def test_steps_that_were_all_refused_show_no_jump() -> None:
+    compiled = ac.compile(Sine())
+    problem = Problem(compiled, compiled.parameter_values(None))
+    none = Curve(np.zeros(1), np.zeros((1, problem.nx + problem.nz)), np.empty((0, 3, problem.nx + problem.nz)))
+    assert first_jump(Consistent(problem), none, np.zeros(0)) is None
