@@ -34,7 +34,8 @@ def smaller_sizes(
         Relative tolerance, and length of the run in s.
     """
     groups, rates = _undeclared(problem.compiled)
-    reach = np.maximum.reduce([np.abs(x).max(axis=0) for x in rows if len(x)])
+    # Without a copy of all rows.
+    reach = np.maximum.reduce([end for x in rows if len(x) for end in (x.max(axis=0), -x.min(axis=0))])
     fitting = nominal.copy()
     for members in groups:
         most = float(reach[members].max())
