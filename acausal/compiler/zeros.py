@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time as clock
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
+from acausal.language.expression import Expr
 from acausal.reduce import plan_of
 from acausal.symbols import scalars, vec
 
@@ -25,9 +27,10 @@ SHORT = 3  # unknowns that are named
 
 @dataclass(frozen=True)
 class _Zero:
-    """A parameter that is 0: who has it, another value, and the remedy."""
+    """A parameter that is 0, as a whole or on its diagonal: who has it, another value, and the remedy."""
 
     component: Component
+    whole: bool
     other: np.ndarray
     mend: str
 
@@ -74,18 +77,19 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
             needed = rest
     ways = [(path,) for path in alone] or [tuple(needed)]
     gained = [_gained(flat, completed[way], [zeros[path] for path in way]) for way in ways]
-    return _told([zeros[path].mend for path in alone or needed], bool(alone), gained)
+    return _told([zeros[path] for path in alone or needed], bool(alone), gained)
 
 
-def _told(mends: list[str], alone: bool, gained: list[dict[str, str]]) -> str:
-    """The message: what each way gained that all of them did, and the mends, of which one is enough if `alone`."""
+def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
+    """The message: what each way gained that all of them did, and the remedies, of which one is enough if `alone`."""
     common = [words for name, words in gained[0].items() if all(name in other for other in gained)]
     what = ", ".join(list(dict.fromkeys(common or gained[0].values()))[:SHORT])
     head = f"Nothing determines {what}: a" if what else "A"
-    which = "this" if len(mends) == 1 else "one of these" if alone else "these"
-    lines = "\n".join(f"  {mend}" for mend in mends)
+    which = "this" if len(zeros) == 1 else "one of these" if alone else "these"
+    where = "is 0" if any(zero.whole for zero in zeros) else "has a 0 on its diagonal"
+    lines = "\n".join(f"  {zero.mend}" for zero in zeros)
     return (
-        f"{head} parameter is 0, so the terms that it multiplies were removed. Give {which}:\n{lines}\n"
+        f"{head} parameter {where}, so the terms that it multiplies were removed. Give {which}:\n{lines}\n"
         "or a connection or an equation that determines it."
     )
 
@@ -118,12 +122,16 @@ def _inside(flat: FlatModel) -> dict[str, set[str]]:
 
 
 def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
-    """Paths of parameters near under-determined parts that are 0 as a whole, each with another value and the remedy."""
+    """Paths of parameters near under-determined parts that are 0, or matrices with a 0 on the diagonal, each with a remedy."""
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}
-    set_ = {name.partition("[")[0] for name in flat.parameters.structural_zeros}
-    some = {name.rpartition("[")[0] for name in flat.parameters.names}
+    set_, some = (
+        {re.sub(r"\[[\d,]+\]$", "", name) for name in own}  # parameters of entries
+        for own in (flat.parameters.structural_zeros, flat.parameters.names)
+    )
+    # Where no equation is missing, terms of single unknowns are not what is.
+    lacks = not parts or any(len(part.equations) < len(part.variables) for part in parts)
     found = {}
     for component in walk(flat.tree):
         path = component._path
@@ -131,11 +139,30 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
             continue
         for name, declared in component.fields.items():
             whole = join(path, name)
-            if isinstance(declared, f.Parameter) and whole in set_ and whole not in some and len(found) < MOST:
+            if not isinstance(declared, f.Parameter) or len(found) == MOST:
+                continue
+            zero = whole in set_ and whole not in some
+            if (zero and lacks) or (_is_singular(getattr(component, name)) and not _follows(whole, found)):
                 where = f"{Origin.of(component)}: " if path else ""
                 mend = f"{where}{type(component).__name__}({name}=...), {declared.description}"
-                found[whole] = _Zero(component, _other(getattr(component, name).shape), mend)
+                found[whole] = _Zero(component, zero, _other(getattr(component, name).shape), mend)
     return found
+
+
+def _is_singular(value: Any) -> bool:
+    """Whether a value is a matrix with a 0 on its diagonal, as the inertia of a thin rod is."""
+    if not isinstance(value, Expr) or len(value.shape) != 2 or value.sx.size1() != value.sx.size2():
+        return False
+    return any(value.sx[k, k].is_zero() for k in range(value.sx.size1()))
+
+
+def _follows(path: str, found: Mapping[str, _Zero]) -> bool:
+    """Whether a parameter of a part is given by one of the same name that was found."""
+    name = path.rpartition(".")[2]
+    return any(
+        path.startswith(f"{zero.component._path}.") and whole.rpartition(".")[2] == name
+        for whole, zero in found.items()
+    )
 
 
 def _other(shape: tuple[int, ...]) -> np.ndarray:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from acausal.errors import StructurallySingularError
 from acausal.flatten import FlatModel
 from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
@@ -69,7 +68,6 @@ def constrain(
     projections = plan.constrained.projections
     coordinates = stacked([elements[p.coordinate] for p in projections])
     states = stacked([elements[p.state] for p in projections])
-    _refuse_implicit(flat, plan)
     bare, following = _bare(plan, elements, residuals, explicit)
     counts = _counting(flat, plan, elements, residuals)
     bare, following = ca.substitute([bare, following], [coordinates], [states])
@@ -90,26 +88,6 @@ def constrain(
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
     choice = ca.vertcat(*counts, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
     return Projections(bare, choice, coordinates, states, following, moves)
-
-
-def _refuse_implicit(flat: FlatModel, plan: Plan) -> None:
-    """Refuse constraints through variables that do not follow explicitly from states, and name the equations of the first."""
-    implicit = set(plan.constrained.reached).difference(v for v, _ in plan.constrained.following)
-    if not implicit:
-        return
-    block = next(block for block in plan.blocks if implicit.intersection(block.variables))
-    origins, names = flat.equations.origins, flat.unknowns.names
-    said = dict.fromkeys(str(origins[e]) for e in sorted(block.equations) if e < len(origins))
-    what = [f"`{names[v]}`" for v in sorted(block.variables) if v < len(names)]
-    raise StructurallySingularError(
-        "\n".join(
-            [
-                f"the motion is constrained through {', '.join(what[:MOST])}, which these equations give together only:",
-                *(f"  {line}" for line in list(said)[:MOST]),
-                "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
-            ]
-        )
-    )
 
 
 def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:

@@ -18,6 +18,7 @@ from acausal.structure import StructuralSingularity, Subsystem
 from acausal.symbols import scalars
 
 MOST, SHORT = 5, 3
+UNDETERMINED = "the model has as many equations as unknowns, but they cannot determine all of them."
 UNCONNECTED = "Not connected"
 KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
 DECLARED = "What an equation is to determine is declared variable(...)."
@@ -40,7 +41,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     elif surplus < 0:
         head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
     else:
-        head = "the model has as many equations as unknowns, but they cannot determine all of them."
+        head = UNDETERMINED
     over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
     lines = [head]
     if over and under and not _hints(flat, under):
@@ -51,6 +52,29 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     if under:
         lines += _too_few(flat, under)
     return "\n".join(lines)
+
+
+def explain_implicit(flat: FlatModel, part: Subsystem) -> str:
+    """Return the message where a motion is constrained through variables that equations give together only.
+
+    Parameters
+    ----------
+    flat : FlatModel
+        The model.
+    part : Subsystem
+        These equations and variables.
+    """
+    origins, names = flat.equations.origins, flat.unknowns.names
+    said = dict.fromkeys(str(origins[e]) for e in part.equations if e < len(origins))
+    what = [f"`{names[v]}`" for v in part.variables if v < len(names)]
+    return "\n".join(
+        [
+            UNDETERMINED,
+            f"The motion is constrained through {', '.join(what[:MOST])}, which these equations give together only:",
+            *(f"  {line}" for line in list(said)[:MOST]),
+            "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
+        ]
+    )
 
 
 def _one_of(flat: FlatModel, part: Subsystem) -> str:

@@ -37,7 +37,8 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
     others : casadi.SX
         What else a coefficient must not depend on: time, constants.
     """
-    pattern = ca.jacobian(residuals, unknowns)
+    # Equal moments of inertia, each a product of its own, cancel where they are one.
+    pattern = ca.jacobian(ca.cse(residuals), unknowns)
     J = ca.sparsify(pattern)
     entries: list[Any] = J.nonzeros()
     row, column = (np.array(i) for i in J.sparsity().get_triplet())

@@ -9,12 +9,12 @@ from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce.constrain import constrain
-from acausal.reduce.explain import explain
+from acausal.reduce.explain import explain, explain_implicit
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.incidence import Linear, jacobian, system_of
 from acausal.reduce.inputs import refuse_unknown_rates
 from acausal.reduce.reduced_model import ReducedModel
-from acausal.structure import Plan, StructuralSingularity, analyse
+from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
 from acausal.symbols import scalars
 
 
@@ -38,8 +38,24 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
         surplus = len(flat.equations.origins) - (len(flat.unknowns.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
+    if part := implicit_part(plan):
+        error = StructurallySingularError(explain_implicit(flat, part))
+        error.__context__ = StructuralSingularity(under=(part,))
+        raise error
     refuse_unknown_rates(flat, plan)
     return plan, linear
+
+
+def implicit_part(plan: Plan) -> Subsystem | None:
+    """Return the first equations that give variables together through which a motion is constrained, None if there are none.
+
+    Constraints have to follow explicitly from states.
+    """
+    implicit = set(plan.constrained.reached).difference(v for v, _ in plan.constrained.following)
+    if not implicit:
+        return None
+    block = next(block for block in plan.blocks if implicit.intersection(block.variables))
+    return Subsystem.of(block.equations, block.variables)
 
 
 def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:

@@ -14,6 +14,10 @@ from acausal.solve.there import There, of_zeros, zeros_in
 
 CAUSES = POLICY.causes
 ANOTHER = "Replace one of them by an equation that says something new."
+NO_INERTIA = (
+    " Or what multiplies it is 0 in one direction, as the moment of inertia of a thin rod about its own axis: give it another "
+    "value."
+)
 SIDE_BY_SIDE = (
     "Nothing divides a load between parts that hold the same side by side: take one of them out, or let one of them be "
     "elastic."
@@ -46,9 +50,9 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     if zeros:
         return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
     if len(inside) > 1 and _same(there):
-        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n" + (
-            SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
-        )
+        rates = all(name.startswith("`der(") for name in open_)
+        mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 and not rates else ANOTHER
+        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}{NO_INERTIA * rates}"
     if len(inside) > 1:
         return (
             f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
@@ -86,7 +90,7 @@ def _null(there: There) -> tuple[np.ndarray, np.ndarray]:
     none = np.zeros((0, 0)), np.zeros((0, 0))
     if not 0 < len(solved) <= CAUSES.largest:
         return none
-    J = there.whole.jacobian(*there.arguments)
+    J = there.jacobian()
     if J.shape[0] != J.shape[1] or not np.all(np.isfinite(J)):
         return none
     for _ in range(CAUSES.balancing):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import casadi as ca
@@ -15,6 +16,7 @@ from acausal.solve.problem import Problem
 from acausal.symbols import scalars
 
 CAUSES = POLICY.causes
+ROUNDING = POLICY.newton.terms * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,11 @@ class There:
         wrong = ~np.isfinite(self.whole.values(*self.arguments)[0])
         return [row for row, fails in zip(self.whole.rows, wrong, strict=True) if fails]
 
+    def jacobian(self) -> np.ndarray:
+        """Jacobian of the equations by the unknowns that are solved for; entries that are rounding are 0."""
+        J, changed = (self.whole.jacobian(*at.arguments) for at in (self, replace(self, p=beside(self.p))))
+        return np.where(is_rounding(J, changed), 0.0, J)
+
     def with_parameter(self, k: int, value: float) -> There:
         """The same point with another parameter."""
         p = self.p.copy()
@@ -67,3 +74,24 @@ def of_zeros(names: list[str]) -> str:
     shown = " and ".join(f"`{name}`" for name in names[: CAUSES.shown])
     verb = "is" if len(names) == 1 else "are"
     return f"{shown} {verb} 0, which the equations do not allow. Give another value."
+
+
+def beside(p: np.ndarray) -> np.ndarray:
+    """Return parameters that are changed by rounding."""
+    return p * _changes(len(p))
+
+
+@cache
+def _changes(n: int) -> np.ndarray:
+    return 1 + ROUNDING * np.random.default_rng(0).standard_normal(n)
+
+
+def is_rounding(entries: np.ndarray, beside: np.ndarray) -> np.ndarray:
+    """Return which entries parameters change altogether where they change by rounding.
+
+    Parameters
+    ----------
+    entries, beside : arrays of the same shape
+        Of a Jacobian, and what they are for the changed parameters.
+    """
+    return (entries != 0) & (np.abs(beside - entries) >= np.abs(entries))

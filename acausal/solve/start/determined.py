@@ -8,7 +8,6 @@ stiff too, no pivot is less than 1e-5 of its terms.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import scipy
@@ -21,8 +20,7 @@ from acausal.solve.dependent import said_twice
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part, part_of
-
-ROUNDING = POLICY.newton.terms * np.finfo(float).eps
+from acausal.solve.there import ROUNDING, beside, is_rounding
 
 
 def undetermined(problem: Problem, at: Point) -> str:
@@ -37,31 +35,16 @@ def _sure(problem: Problem, at: Point) -> bool:
     if least <= POLICY.ranks.rank:
         return False
     square = core_square(problem.compiled, tuple(range(problem.nz)))
-    p = np.array([problem.p, _beside(problem.p)])
+    p = np.array([problem.p, beside(problem.p)])
     values = square.tape.rows(p, at.constants.vector, at.x, at.z, np.array([at.time]))
-    return not np.any(_is_rounding(*values[:, problem.nz :]))
-
-
-def _beside(p: np.ndarray) -> np.ndarray:
-    """Parameters that are changed by rounding."""
-    return p * _changes(len(p))
-
-
-@cache
-def _changes(n: int) -> np.ndarray:
-    return 1 + ROUNDING * np.random.default_rng(0).standard_normal(n)
-
-
-def _is_rounding(entries: np.ndarray, beside: np.ndarray) -> np.ndarray:
-    """Which entries parameters change altogether where they change by rounding."""
-    return (entries != 0) & (np.abs(beside - entries) >= np.abs(entries))
+    return not np.any(is_rounding(*values[:, problem.nz :]))
 
 
 def _without_rounding(problem: Problem, at: Point) -> scipy.sparse.csc_matrix:
     """Jacobian of the algebraic equations; entries that are rounding are 0."""
-    inner, beside = _inner(problem.compiled), replace(problem, p=_beside(problem.p))
-    J, changed = (inner.sparse(own.local(at).entries) for own in (problem, beside))
-    J.data[_is_rounding(J.data, changed.data)] = 0.0
+    inner, changed = _inner(problem.compiled), replace(problem, p=beside(problem.p))
+    J, other = (inner.sparse(own.local(at).entries) for own in (problem, changed))
+    J.data[is_rounding(J.data, other.data)] = 0.0
     return J
 
 

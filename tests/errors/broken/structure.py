@@ -19,7 +19,7 @@ from acausal import (
     time,
     variable,
 )
-from components import Body, FixedTranslation, Revolute, World, rotational
+from components import Body, BodyBox, BodyCylinder, BodyRod, FixedTranslation, Revolute, Spherical, World, rotational
 from tests.errors.broken.models import Decay, Pendulum, Rotor
 
 
@@ -279,6 +279,36 @@ def point_mass_in_free_flight(repaired):
     class M(Model):
         world = World()
         ball = Body(m=1, I=((1, 0, 0), (0, 1, 0), (0, 0, 1))) if repaired else Body(m=1)
+
+    ac.compile(M())
+
+
+def thin_rod_in_free_flight(repaired):
+    class M(Model):
+        world = World()
+        rod = BodyCylinder(r=(1, 0, 0), diameter=0.1) if repaired else BodyRod(r=(1, 0, 0), m=1)
+
+    ac.compile(M())
+
+
+def thin_rod_on_a_ball(repaired):
+    class M(Model):
+        world, hinge, arm, ball = World(), Revolute(), BodyBox(r=(1, 0, 0), width=0.1, height=0.1), Spherical()
+        rod = BodyCylinder(r=(1, 0, 0), diameter=0.1) if repaired else BodyRod(r=(1, 0, 0), m=1)
+
+        def connections(self):
+            yield chain(self.world, self.hinge, self.arm, self.ball, self.rod)
+
+    ac.compile(M())
+
+
+def point_mass_on_a_ball(repaired):
+    class M(Model):
+        world, ball = World(), Spherical()
+        mass = Body(m=1, r_CM=(1, 0, 0), I=((1, 0, 0), (0, 1, 0), (0, 0, 1))) if repaired else Body(m=1, r_CM=(1, 0, 0))
+
+        def connections(self):
+            yield chain(self.world, self.ball, self.mass)
 
     ac.compile(M())
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -24,7 +26,7 @@ from acausal import (
     variable,
     when,
 )
-from components import Revolute, rotational
+from components import BodyRod, Revolute, Spherical, World, rotational
 from components.rotational import Inertia
 from tests.acausal.solve.start.test_gears import Gear, GearedLoop, Rods
 
@@ -267,3 +269,21 @@ class Turned(Model):
 def test_a_discrete_variable_leaves_unknowns_open(method: str) -> None:
     with pytest.raises(ac.SimulationError, match=r"t = 0\.5 s: .*say the same"):
         ac.simulate(Turned(), stop_time=1, method=method)
+
+
+def on(hinge: Any, r: tuple[float, float, float]) -> Model:
+    class OnJoint(Model):
+        world, joint, rod = World(), hinge, BodyRod(r=r, m=1)
+
+        def connections(self):
+            yield chain(self.world, self.joint, self.rod)
+
+    return OnJoint()
+
+
+@pytest.mark.parametrize("r", [(0.3, 0.1, 0.2), (0.3, 0.1, 0), (0.7, 0.1, 0.2), (-0.2, 0.5, 0.6)])
+def test_a_thin_rod_that_turns_about_its_own_axis_is_refused(r):
+    for hinge in (Revolute(n=r, phi=fixed(0.1), w=fixed(1)), Spherical()):
+        with pytest.raises(ac.InitializationError, match="thin rod about its own axis"):
+            ac.simulate(on(hinge, r), stop_time=0.1, initial="guesses")
+    ac.simulate(on(Revolute(n=(0, 0, 1), phi=fixed(0.1), w=fixed(1)), r), stop_time=0.1)
