@@ -22,6 +22,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.reduce import plan_of, reduce
+from acausal.reduce.explain import UNCONNECTED
 
 
 @fitting
@@ -70,8 +71,9 @@ def compile(
         plan, linear = plan_of(flat)
     except (UnbalancedModelError, StructurallySingularError) as error:
         what, _, why = str(error).partition("\n")
-        mend = mend_of_zeros(model, parameters, flat, error)
-        raise type(error)("\n".join(filter(None, (what, mend or why)))) from None
+        if mend := mend_of_zeros(model, parameters, flat, error):
+            why = "\n".join([*(line for line in why.splitlines() if line.startswith(UNCONNECTED)), mend])
+        raise type(error)("\n".join(filter(None, (what, why)))) from None
     lap("analyse")
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")

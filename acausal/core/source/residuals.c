@@ -113,8 +113,8 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     return 1;
 }
 
-/* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and are not near enough. Where these bend,
-   what the last step left may be far from them, and a whole correction may lead further away. */
+/* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and are not near enough.
+   Where these bend, what the last step left may be far from them, and a whole correction may lead further away. */
 static int returns(ac_rodas *r) {
     if (!r->of.nz || r->request.singular) return 0;
     find_terms(r);

@@ -283,6 +283,16 @@ def point_mass_in_free_flight(repaired):
     ac.compile(M())
 
 
+def hinge_on_nothing(repaired):
+    class M(Model):
+        world, hinge, arm = World(), Revolute(phi=fixed(0), w=fixed(0)), BodyBox(r=(1, 0, 0), width=0.1, height=0.1)
+
+        def connections(self):
+            yield chain(self.world, self.hinge, self.arm) if repaired else chain(self.hinge, self.arm)
+
+    ac.compile(M())
+
+
 def thin_rod_in_free_flight(repaired):
     class M(Model):
         world = World()
