@@ -49,14 +49,15 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
         return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
+    inertia = NO_INERTIA if all(name.startswith("`der(") for name in open_) else ""
     if len(inside) > 1 and _same(there):
-        rates = all(name.startswith("`der(") for name in open_)
-        mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 and not rates else ANOTHER
-        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}{NO_INERTIA * rates}"
+        mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 and not inertia else ANOTHER
+        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}{inertia}"
     if len(inside) > 1:
         return (
             f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"
             "Give other guesses; if none helps, they say the same or contradict each other: replace one of them."
+            + inertia
         )
     k = int(there.whole.solved[_heavy(right)[0]])
     here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"

@@ -16,6 +16,7 @@ from acausal.flatten.tree import walk
 from components import (
     Body,
     BodyBox,
+    BodyCylinder,
     BodyRod,
     Revolute,
     Spherical,
@@ -399,7 +400,7 @@ def test_lists_of_parts_and_absent_ones():
 
         @ac.parts
         def teeth(self):
-            return [BodyRod(r=(0, -1, 0), m=1, r_0=fixed((k, 0, 0))) for k in range(3)]
+            return [BodyCylinder(r=(0, -1, 0), diameter=0.1, r_0=fixed((k, 0, 0))) for k in range(3)]
 
         @part
         def absent(self) -> Any:
