@@ -9,7 +9,11 @@
 
 #define MOST 30      /* iterations: from far away they converge slowly at first */
 #define LOST 1e-6    /* relative error of a solution at most: growth of both factors, see lu.c, and some condition */
+#define MOST_DAMPED 100 /* iterations that leave less each: by halves they come from 1 to the width of tanh(1e6 z), and on */
+#define HALVINGS 30  /* of a step that leaves more */
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
+#define LEAST 1e-9   /* of the size of an unknown: what is less may be rounding */
+#define LEFT 1e-6    /* of the terms, there: beside a bend more is left */
 
 /* Mark the places of a tape on which its outputs from one on depend. */
 static void mark(const ac_tape *tape, int32_t from, char *marked) {
@@ -27,7 +31,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     const ac_tape *tape = square->tape;
     const size_t length = ac_tape_length(tape);
     s->lu = ac_lu_make(square->n, square->start, square->row);
-    s->w = calloc(length + (size_t)tape->outputs + 3 * (size_t)square->n + 1, sizeof *s->w);
+    s->w = calloc(length + (size_t)tape->outputs + 5 * (size_t)square->n + 1, sizeof *s->w);
     s->bends = calloc(length, sizeof *s->bends);
     if (!s->lu || !s->w || !s->bends) {
         ac_settler_free(s);
@@ -36,6 +40,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     mark(tape, square->n, s->bends);
     s->step = s->w + length, s->entries = s->step + square->n;
     s->size = s->step + tape->outputs, s->wide = s->size + square->n, s->terms = s->wide + square->n;
+    s->first = s->terms + square->n, s->from = s->first + square->n;
     memcpy(s->w, tape->constant, (size_t)tape->constants * sizeof *s->w);
     return s;
 }
@@ -53,15 +58,21 @@ void ac_settler_free(ac_settler *s) {
     free(s);
 }
 
-/* The sizes of the unknowns, but at least what changes an equation by as much as its terms: what is far below is rounding. */
-static void widen(ac_settler *s) {
+/* Terms of each equation in the unknowns, added up. */
+static void find_terms(ac_settler *s) {
     const ac_square *q = &s->of;
     const double *input = s->w + q->tape->constants;
     memset(s->terms, 0, (size_t)q->n * sizeof *s->terms);
     for (int32_t k = 0; k < q->n; k++) {
-        const double z = fabs(input[q->unknown[k]]);
+        const double z = fmax(fabs(input[q->unknown[k]]), LEAST * s->size[k]);
         for (int32_t e = q->start[k]; e < q->start[k + 1]; e++) s->terms[q->row[e]] += fabs(s->entries[e]) * z;
     }
+}
+
+/* The sizes of the unknowns, but at least what changes an equation by as much as its terms: what is far below is rounding. */
+static void widen(ac_settler *s) {
+    const ac_square *q = &s->of;
+    find_terms(s);
     for (int32_t k = 0; k < q->n; k++) {
         double least = INFINITY;
         for (int32_t e = q->start[k]; e < q->start[k + 1]; e++) {
@@ -84,12 +95,26 @@ static double change_of(const ac_settler *s, const double *size, double *bent) {
     return change;
 }
 
+/* The largest residual over the terms of its equation, nan where one is. */
+static double left_of(const ac_settler *s) {
+    const ac_tape *tape = s->of.tape;
+    double most = 0;
+    for (int32_t k = 0; k < s->of.n; k++) {
+        const double residual = fabs(s->w[tape->output[k]]), part = residual == 0 ? 0 : residual / s->terms[k];
+        if (part > most || isnan(part)) most = part;
+    }
+    return most;
+}
+
 /* Whether a step is the last one. What is left of the error is what the factors lost, and the product of the changes, in it and
-   to where they were made, of the unknowns on which they depend. */
-static int32_t is_last(const ac_settler *s, const double *size, double enough, const double *made) {
+   to where they were made, of the unknowns on which they depend; unless a law bends within much less than the sizes of unknowns, where
+   the equations were far from holding before. */
+static int is_last(ac_settler *s, const double *size, double enough, const double *made) {
     double bent;
     const double change = change_of(s, size, &bent), left = enough * enough;
-    return (change <= enough || LOST * change <= left) && bent * (made ? *made : bent) <= left;
+    if (!(change <= enough || LOST * change <= left) || !(bent * (made ? *made : bent) <= left)) return 0;
+    find_terms(s);
+    return left_of(s) <= enough;
 }
 
 /* Repeat Newton's step from what stands in w; whether it converged. The first factors are kept if two more steps do not need
@@ -108,7 +133,10 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
         ac_lu_solve(s->lu, s->step);
         const double change = change_of(s, s->size, &bent);
         /* What follows through products moves in the second step first. */
-        if (!(change < before)) return change <= ROUNDED; /* nan is not */
+        if (!(change < before)) {
+            find_terms(s);
+            return change <= ROUNDED && left_of(s) <= LEFT; /* nan is not */
+        }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
         if (is_last(s, s->size, enough, made)) return 1;
         if (!tries) {
@@ -124,6 +152,44 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             }
         }
         before = last, last = change;
+    }
+    return 0;
+}
+
+static void run(ac_settler *s, int64_t *evaluations) {
+    ac_tape_run(s->of.tape, s->w, s->of.tape->early, s->of.tape->runs);
+    ++*evaluations;
+}
+
+static void put(ac_settler *s, const double *unknowns, const double *step, double part) {
+    double *input = s->w + s->of.tape->constants;
+    for (int32_t k = 0; k < s->of.n; k++) input[s->of.unknown[k]] = unknowns[k] - (part > 0 ? part * step[k] : 0);
+}
+
+/* Newton's steps from what was given, as much of each as leaves less: where equations bend, whole ones may lead to and fro. */
+static int damped(ac_settler *s, double enough, int64_t *evaluations) {
+    const ac_square *q = &s->of;
+    const ac_tape *tape = q->tape;
+    const double *input = s->w + tape->constants;
+    put(s, s->first, NULL, 0);
+    run(s, evaluations);
+    for (int tries = 0; tries < MOST_DAMPED; tries++) {
+        for (int32_t k = 0; k < tape->outputs; k++) s->step[k] = s->w[tape->output[k]];
+        for (int32_t k = 0; k < q->n; k++) s->from[k] = input[q->unknown[k]];
+        if (ac_lu_factor(s->lu, s->entries)) return 0;
+        find_terms(s);
+        const double before = left_of(s);
+        double part = 1, bent;
+        ac_lu_solve(s->lu, s->step);
+        const double change = change_of(s, s->size, &bent);
+        if (isnan(change)) return 0;
+        for (int halvings = 0;; halvings++, part /= 2) {
+            if (halvings == HALVINGS) return change <= ROUNDED && before <= LEFT;
+            put(s, s->from, s->step, part);
+            run(s, evaluations);
+            if (left_of(s) < before) break;
+        }
+        if (part == 1 && is_last(s, s->size, enough, NULL)) return 1;
     }
     return 0;
 }
@@ -146,7 +212,8 @@ int64_t ac_settle_rows(ac_settler *s, int32_t rows, int32_t parts, int32_t early
             input += length[j];
         }
         if (fresh) ac_tape_run(tape, s->w, 0, tape->early);
-        settled[i] = settle(s, enough, &evaluations);
+        for (int32_t k = 0; k < s->of.n; k++) s->first[k] = s->w[tape->constants + s->of.unknown[k]];
+        settled[i] = settle(s, enough, &evaluations) || damped(s, enough, &evaluations);
         for (int32_t k = 0; k < s->of.n; k++) *found++ = s->w[tape->constants + s->of.unknown[k]];
     }
     return evaluations;

@@ -115,3 +115,26 @@ def test_whether_equations_hold_is_told_by_the_sizes_of_their_terms() -> None:
     assert hold(z, 1e-14)
     z[0, 3] = 1e-9
     assert hold(z, 1e-8)
+
+
+@pytest.mark.parametrize("steep", [1e3, 1e4, 1e5, 1e6])
+@pytest.mark.parametrize("beside", [1e-3, 0.3])
+def test_bent_laws_are_solved_from_either_side(steep, beside) -> None:
+    """2 tanh(steep z) + beside z = x + w and w = 0.1 z, from guesses on all of its parts."""
+    residuals = ca.vertcat(2 * ca.tanh(steep * Z[1]) + beside * Z[1] - X - Z[3], Z[3] - 0.1 * beside * Z[1])
+    solve = Settler(make_square([P, C, X, Z], 2, residuals, 3, np.array([1, 3])))
+    ends = np.concatenate([np.linspace(-4, 4, 33), [1.999999, 2.000001, -1.9999999, 1e-9]])
+    guesses = np.array([sign * 10.0**k for k in range(-8, 4) for sign in (-1, 1)])
+    x, first = (grid.reshape(-1, 1) for grid in np.meshgrid(ends, guesses))
+    z = np.hstack([np.zeros_like(first), first, np.zeros_like(first), np.zeros_like(first)])
+    found, settled = solve(np.zeros(2), np.zeros(1), x, z, size=np.ones(2), enough=1e-7)
+    left = 2 * np.tanh(steep * found[:, 0]) + 0.9 * beside * found[:, 0] - x[:, 0]
+    assert np.mean(settled) > 0.99
+    np.testing.assert_allclose(left[settled], 0, atol=4e-7)  # of terms up to 4
+
+
+def test_no_solution_is_not_made_up() -> None:
+    """z1^2 + 1 = x has none below 1, whatever the steps."""
+    solve = Settler(make_square([P, C, X, Z], 2, ca.vertcat(Z[1] ** 2 + 1 - X, Z[3] - Z[1]), 3, np.array([1, 3])))
+    x, z = np.linspace(-3, 0.99, 40)[:, None], np.random.default_rng(0).uniform(-2, 2, (40, 4))
+    assert not np.any(solve(np.zeros(2), np.zeros(1), x, z, size=np.ones(2), enough=1e-7)[1])

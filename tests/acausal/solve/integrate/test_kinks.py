@@ -92,3 +92,12 @@ def test_the_error_is_that_of_the_tolerance(law: str, linear: float) -> None:
             )
             error = np.abs(run["x"] - exact(law, linear, pull, run.time)).max()
             assert error < 50 * tolerance, (method, tolerance, error)
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+@pytest.mark.parametrize("law", LAWS)
+def test_what_is_read_satisfies_the_law(law: str, method: str) -> None:
+    given: dict[str, Any] = {"method": method, "tolerance": 1e-7, "parameters": {"linear": 0.02, "pull": 0.8}}
+    run = ac.simulate(type(law, (Kinked,), {"law": law})(), stop_time=3.0, intervals=600, **given)
+    left = LAWS[law](Numeric, run["z"]) + 0.02 * run["z"] - drive(Numeric, run.time) + run["x"]
+    np.testing.assert_allclose(left, 0, atol=4e-7)
