@@ -73,7 +73,12 @@ def exact(law: str, linear: float, pull: float, times: np.ndarray) -> np.ndarray
     return found.y[0]
 
 
-@pytest.mark.skipif(library() is None, reason="needs the core: the one-step method of CasADi does not look")
+CORE = pytest.mark.skipif(
+    library() is None, reason="needs the core: what goes by CasADi does not look at what equations leave"
+)
+
+
+@CORE
 @pytest.mark.parametrize(
     ("law", "linear"), [*((law, linear) for law in LAWS for linear in (0.2, 0.3)), ("saturation", 1e-3)]
 )
@@ -94,6 +99,7 @@ def test_the_error_is_that_of_the_tolerance(law: str, linear: float) -> None:
             assert error < 50 * tolerance, (method, tolerance, error)
 
 
+@CORE
 @pytest.mark.parametrize("method", ["auto", "idas"])
 @pytest.mark.parametrize("law", LAWS)
 def test_what_is_read_satisfies_the_law(law: str, method: str) -> None:
