@@ -113,6 +113,7 @@ static int is_last(ac_settler *s, const double *size, double enough, const doubl
     double bent;
     const double change = change_of(s, size, &bent), left = enough * enough;
     if (!(change <= enough || LOST * change <= left) || !(bent * (made ? *made : bent) <= left)) return 0;
+    if (bent == 0) return 1;
     find_terms(s);
     return left_of(s) <= enough;
 }
