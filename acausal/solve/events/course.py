@@ -60,7 +60,7 @@ class Course:
         settings = integrator.settings
         self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
         self.ahead = Ahead(integrator, self.instants, times)
-        self.agenda = Agenda(self.guards, problem.p, times)
+        self.agenda = Agenda(self.guards, problem.p, np.union1d(times, self.breaks))
         self.sampling = Sampling(self.ahead, self.instants, times)
         self.events: list[float] = []
         self.searched = 0  # those of them that were not passed at one go, which cost a hundred times as much
@@ -156,7 +156,9 @@ class Course:
 
     def _sampled(self, at: Point, end: float) -> Point:
         """Pass planned instants at one go, as many as are sure."""
-        passed = self.sampling.go(at, end)
+        # What is planned a rounding error before a break acts at the break.
+        before = end - (end < self.times[-1]) * POLICY.agenda.added * abs(end)
+        passed = self.sampling.go(at, before) if at.time < before else None
         if not passed:
             return at
         self.integrator.trace.add(passed.leg)

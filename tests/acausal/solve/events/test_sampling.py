@@ -362,3 +362,30 @@ def test_unknowns_that_do_not_fit_are_searched_for_again(monkeypatch: Any) -> No
 def test_energies_are_kept(monkeypatch: Any) -> None:
     stats: Any = ac.simulate(compiled(SampledPendulum), stop_time=0.3, energy=True).stats
     assert abs(stats.energy_method) < 1e-2 * stats.energy_supplied
+
+
+class Beside(Model):
+    """A sample is planned by sums of the period, and a law of time ends where rounding alone is between the two."""
+
+    period: Scalar = parameter("period", unit="s", default=0.1)
+    end: Scalar = parameter("end of the law", unit="s", default=0.9)
+    x: Scalar = variable("state", fixed=True)
+    due: Scalar = discrete("next sample", start=0)
+    n: Scalar = discrete("samples", start=0)
+
+    def equations(self):
+        again = reinit(self.due, self.due + self.period), reinit(self.n, self.n + 1)
+        yield when(time >= self.due, *again, at_start=True)
+        yield der(self.x) == -self.x + piecewise((1, time < self.end), 0)
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
+@pytest.mark.parametrize("intervals", [1, 7, 400])
+def test_a_sample_is_on_a_break_where_rounding_alone_is_between_them(intervals: int, method: Any) -> None:
+    compiled = ac.compile(Beside())
+    for period, ends in ((0.1, (0.8, 0.9, 1.0, 1.1)), (0.05, (0.4, 0.55)), (0.01, (0.1,)), (0.02, (0.2,))):
+        for end in ends:
+            given = {"period": period, "end": end}
+            run = ac.simulate(compiled, stop_time=2.05, intervals=intervals, method=method, parameters=given)
+            assert run["x"][-1] == pytest.approx(np.exp(end - 2.05) - np.exp(-2.05), abs=5e-5)
+            assert abs(run["n"][-1] - (np.floor(2.05 / period + 1e-6) + 1)) <= 1
