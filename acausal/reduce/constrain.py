@@ -12,8 +12,6 @@ from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
 from acausal.symbols import stacked
 
-MOST = 5  # lines and names in a message
-
 
 @dataclass(frozen=True)
 class Projections:

@@ -18,7 +18,6 @@ from acausal.structure import StructuralSingularity, Subsystem
 from acausal.symbols import scalars
 
 MOST, SHORT = 5, 3
-UNDETERMINED = "the model has as many equations as unknowns, but they cannot determine all of them."
 UNCONNECTED = "Not connected"
 KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
 DECLARED = "What an equation is to determine is declared variable(...)."
@@ -41,7 +40,7 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     elif surplus < 0:
         head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
     else:
-        head = UNDETERMINED
+        head = "the model has as many equations as unknowns, but they cannot determine all of them."
     over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
     lines = [head]
     if over and under and not _hints(flat, under):
@@ -50,31 +49,9 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     if over:
         lines += _too_many(flat, over[0])
     if under:
-        lines += _too_few(flat, under)
+        square = len(under.equations) == len(under.variables)
+        lines += _implicit(flat, under) if square else _too_few(flat, under)
     return "\n".join(lines)
-
-
-def explain_implicit(flat: FlatModel, part: Subsystem) -> str:
-    """Return the message where a motion is constrained through variables that equations give together only.
-
-    Parameters
-    ----------
-    flat : FlatModel
-        The model.
-    part : Subsystem
-        These equations and variables.
-    """
-    origins, names = flat.equations.origins, flat.unknowns.names
-    said = dict.fromkeys(str(origins[e]) for e in part.equations if e < len(origins))
-    what = [f"`{names[v]}`" for v in part.variables if v < len(names)]
-    return "\n".join(
-        [
-            UNDETERMINED,
-            f"The motion is constrained through {', '.join(what[:MOST])}, which these equations give together only:",
-            *(f"  {line}" for line in list(said)[:MOST]),
-            "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
-        ]
-    )
 
 
 def _one_of(flat: FlatModel, part: Subsystem) -> str:
@@ -177,6 +154,17 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, mend + zero]
+
+
+def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
+    """Equations that give together only what constrains a motion, and the mend."""
+    names, known = flat.unknowns.names, [v for v in part.variables if v < len(flat.unknowns.names)]
+    return [
+        f"The motion is constrained through {', '.join(f'`{names[v]}`' for v in known[:MOST])}, "
+        "which these equations give together only:",
+        *_equations(flat, part),
+        "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
+    ]
 
 
 def _inherited(flat: FlatModel, origin: Origin) -> str:

@@ -9,7 +9,7 @@ from acausal.flatten import FlatModel
 from acausal.flatten.origin import Origin
 from acausal.language.functions import initial, time
 from acausal.reduce.constrain import constrain
-from acausal.reduce.explain import explain, explain_implicit
+from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.incidence import Linear, jacobian, system_of
 from acausal.reduce.inputs import refuse_unknown_rates
@@ -33,29 +33,22 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Linear]:
     system, linear = system_of(flat)
     try:
         plan = analyse(system)
+        refuse_implicit(plan)
     except StructuralSingularity as singularity:
         chains = sum(d >= 0 for d in flat.unknowns.derivative)
         surplus = len(flat.equations.origins) - (len(flat.unknowns.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
-    if part := implicit_part(plan):
-        error = StructurallySingularError(explain_implicit(flat, part))
-        error.__context__ = StructuralSingularity(under=(part,))
-        raise error
     refuse_unknown_rates(flat, plan)
     return plan, linear
 
 
-def implicit_part(plan: Plan) -> Subsystem | None:
-    """Return the first equations that give variables together through which a motion is constrained, None if there are none.
-
-    Constraints have to follow explicitly from states.
-    """
+def refuse_implicit(plan: Plan) -> None:
+    """Refuse constraints through variables that do not follow explicitly from states: the first block that gives such ones."""
     implicit = set(plan.constrained.reached).difference(v for v, _ in plan.constrained.following)
-    if not implicit:
-        return None
-    block = next(block for block in plan.blocks if implicit.intersection(block.variables))
-    return Subsystem.of(block.equations, block.variables)
+    if implicit:
+        block = next(block for block in plan.blocks if implicit.intersection(block.variables))
+        raise StructuralSingularity(under=(Subsystem.of(block.equations, block.variables),))
 
 
 def reduce(flat: FlatModel, plan: Plan, linear: Linear) -> ReducedModel:

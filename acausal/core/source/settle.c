@@ -106,16 +106,24 @@ static double left_of(const ac_settler *s) {
     return most;
 }
 
-/* Whether a step is the last one. What is left of the error is what the factors lost, and the product of the changes, in it and
-   to where they were made, of the unknowns on which they depend; unless a law bends within much less than the sizes of unknowns, where
-   the equations were far from holding before. */
-static int is_last(ac_settler *s, const double *size, double enough, const double *made) {
-    double bent;
-    const double change = change_of(s, size, &bent), left = enough * enough;
-    if (!(change <= enough || LOST * change <= left) || !(bent * (made ? *made : bent) <= left)) return 0;
+/* Whether a step of such changes may be the last one. What is left of the error is what the factors lost, and the product of the
+   changes, in it and to where they were made, of the unknowns on which they depend. */
+static int is_small(double change, double bent, double enough, const double *made) {
+    const double left = enough * enough;
+    return (change <= enough || LOST * change <= left) && bent * (made ? *made : bent) <= left;
+}
+
+/* Whether what the equations left before a small step is little, too: a law may bend within much less than the sizes of unknowns. What
+   is linear holds after it. */
+static int holds(ac_settler *s, double enough, double bent) {
     if (bent == 0) return 1;
     find_terms(s);
     return left_of(s) <= enough;
+}
+
+static void run(ac_settler *s, int64_t *evaluations) {
+    ac_tape_run(s->of.tape, s->w, s->of.tape->early, s->of.tape->runs);
+    ++*evaluations;
 }
 
 /* Repeat Newton's step from what stands in w; whether it converged. The first factors are kept if two more steps do not need
@@ -126,8 +134,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
     double *input = s->w + tape->constants, before = INFINITY, last = INFINITY, first = 0, bent;
     const double *made = NULL;
     for (int tries = 0; tries < MOST; tries++) {
-        ac_tape_run(tape, s->w, tape->early, tape->runs);
-        ++*evaluations;
+        run(s, evaluations);
         /* The step stands before the entries of the matrix, as the residuals do among the results. */
         for (int32_t k = 0; k < (made ? q->n : tape->outputs); k++) s->step[k] = s->w[tape->output[k]];
         if (!made && ac_lu_factor(s->lu, s->entries)) return 0;
@@ -139,15 +146,18 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             return change <= ROUNDED && left_of(s) <= LEFT; /* nan is not */
         }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
-        if (is_last(s, s->size, enough, made)) return 1;
+        const int small = is_small(change, bent, enough, made);
+        if (small && holds(s, enough, bent)) return 1;
         if (!tries) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
         }
         /* Where more may be left than the factors lose in one step, that is no reason for another one. */
-        if (tries || enough * enough >= LOST) {
+        if (!small && (tries || enough * enough >= LOST)) {
             widen(s);
-            if (is_last(s, s->wide, enough, made)) {
+            double wide;
+            const double widened = change_of(s, s->wide, &wide);
+            if (is_small(widened, wide, enough, made) && holds(s, enough, bent)) {
                 memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */
                 return 1;
             }
@@ -157,22 +167,12 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
     return 0;
 }
 
-static void run(ac_settler *s, int64_t *evaluations) {
-    ac_tape_run(s->of.tape, s->w, s->of.tape->early, s->of.tape->runs);
-    ++*evaluations;
-}
-
-static void put(ac_settler *s, const double *unknowns, const double *step, double part) {
-    double *input = s->w + s->of.tape->constants;
-    for (int32_t k = 0; k < s->of.n; k++) input[s->of.unknown[k]] = unknowns[k] - (part > 0 ? part * step[k] : 0);
-}
-
 /* Newton's steps from what was given, as much of each as leaves less: where equations bend, whole ones may lead to and fro. */
 static int damped(ac_settler *s, double enough, int64_t *evaluations) {
     const ac_square *q = &s->of;
     const ac_tape *tape = q->tape;
-    const double *input = s->w + tape->constants;
-    put(s, s->first, NULL, 0);
+    double *input = s->w + tape->constants;
+    for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] = s->first[k];
     run(s, evaluations);
     for (int tries = 0; tries < MOST_DAMPED; tries++) {
         for (int32_t k = 0; k < tape->outputs; k++) s->step[k] = s->w[tape->output[k]];
@@ -186,11 +186,11 @@ static int damped(ac_settler *s, double enough, int64_t *evaluations) {
         if (isnan(change)) return 0;
         for (int halvings = 0;; halvings++, part /= 2) {
             if (halvings == HALVINGS) return change <= ROUNDED && before <= LEFT;
-            put(s, s->from, s->step, part);
+            for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] = s->from[k] - part * s->step[k];
             run(s, evaluations);
             if (left_of(s) < before) break;
         }
-        if (part == 1 && is_last(s, s->size, enough, NULL)) return 1;
+        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, bent)) return 1;
     }
     return 0;
 }

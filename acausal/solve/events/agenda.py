@@ -23,7 +23,7 @@ class Agenda:
     p : array
         Parameter values.
     times : array
-        Output times.
+        Output times, and breaks.
     """
 
     def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
@@ -82,9 +82,9 @@ class Agenda:
         return at, sorted({*acts, *self.fired(held, on)})
 
     def planned(self, at: Point, since: float) -> tuple[float, float] | None:
-        """Return the next instant later than `since` that discrete variables plan, and the output time that it is on.
+        """Return the next instant later than `since` that discrete variables plan, and the output time or break that it is on.
 
-        That is the instant itself if no output is so near that rounding alone is between them.
+        That is the instant itself if none is so near that rounding alone is between them.
         """
         if not self._plans:
             return None

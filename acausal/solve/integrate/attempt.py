@@ -214,8 +214,7 @@ class Integrator:
         is not sure, some rows tell, and what is between its steps.
         """
         way = integration.request.way
-        iterates = METHODS[way.method].multistep
-        sure = iterates or integration.follows()
+        sure = METHODS[way.method].multistep or integration.follows()
         given = leg.rows[-1:] if sure else leg.rows[spread(len(leg.rows), POLICY.calls.settled)]
         found, lost = self.consistent(given)
         last = found[-1:]
