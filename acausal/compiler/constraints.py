@@ -11,6 +11,7 @@ import scipy
 
 from acausal.compiler.call import Call
 from acausal.compiler.local import with_entries
+from acausal.compiler.rounding import terms
 from acausal.compiler.rowwise import often
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
@@ -104,6 +105,19 @@ class Constraints:
         """Return residuals, and the entries of their Jacobian as `pattern` has them."""
         value, entries = self._call(x, p, t, constants)
         return value.copy(), entries.copy()
+
+    def terms(self, x: np.ndarray, p: np.ndarray, t: float, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the size of what adds up in each residual, and in each entry, as `values` has them: see `rounding.terms`."""
+        value, entries = self._terms(x, p, t, constants)
+        return value.copy(), entries.copy()
+
+    @cached_property
+    def _terms(self) -> Call:
+        r = self._reduced
+        arguments = [r.x, r.p, time.sx, r.constants]
+        value, J = self.function.call(arguments)
+        sizes = [terms(arguments, column) for column in (value, stacked(scalars(J.nz[:])))]
+        return Call(ca.Function("terms", arguments, sizes))
 
     def held(self, x: np.ndarray, p: np.ndarray, t: np.ndarray, constants: np.ndarray) -> np.ndarray:
         """Jacobian of the constraints by the coordinates that each holds at its level, at n points, as `entries` has it.

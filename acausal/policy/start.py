@@ -40,6 +40,8 @@ class Ranks:
     # Singular values, over the number of rows: loops are closed to 1e-9, and so are their directions. So is the length of a row,
     # over that of the longest of its equation: an axis that is off by rounding would lock a four-bar.
     rank: float = 1e-9
+    # Length of the longest row of an equation, over that of all or 1, from which on it may be rounding: that is looked at then.
+    faint: float = 1e-6
     # The least singular value of a loop in which nothing moves that may be meant to: axes of a four-bar that are off by 0.01 rad.
     locked: float = 1e-2
     # Rows up to which matrices are small: they are dense, all in one; rounding of the singular values of others is no more.

@@ -84,17 +84,32 @@ class Problem:
     def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
         """Return the Jacobian of the constraints by the states over their nominal values.
 
-        Rows that are nearly 0 beside others of their equation are 0.
+        Rows are 0 that are nearly so beside others of their equation, or beside what cancels in them.
         """
         J = by_columns(self.constraints(at)[1], self.nominal[: self.nx])
         length = lengths(J)
-        J.data[(length <= POLICY.ranks.rank * self._largest_alike(length))[J.indices]] = 0.0
+        largest = self._largest_alike(length)
+        faint = (largest > 0) & (largest <= POLICY.ranks.faint * max(1.0, np.max(length, initial=0.0)))
+        if faint.any():
+            entries = with_entries(self.compiled.constraints.pattern, self._terms(at)[1])
+            adds_up = self._largest_alike(lengths(by_columns(entries, self.nominal[: self.nx])))
+            largest = np.where(faint, np.maximum(largest, adds_up), largest)
+        J.data[(length <= POLICY.ranks.rank * largest)[J.indices]] = 0.0
         return J
+
+    def _terms(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Size of what adds up in the residuals of the constraints, and in the entries of their Jacobian."""
+        return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
+
+    def rigid(self, at: Point) -> np.ndarray:
+        """Which residuals of the constraints no state changes by more than rounding, nor others of their equation."""
+        return self._largest_alike(lengths(self.gradients(at))) == 0
 
     def gaps(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that nominal values of the states make in them.
 
-        Entries of one equation have one such size: at a dead centre one of them has no gradient.
+        Entries of one equation have one such size: at a dead centre one of them has no gradient. What no state changes, as
+        of parts that are welded to a loop, counts beside what adds up in it.
         """
         return self.constraints(at)[0] / self.sizes(at)
 
@@ -108,6 +123,9 @@ class Problem:
             beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
             own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
         sizes = self._largest_alike(own)
+        rigid = sizes == 0
+        if np.any(self.constraints(at)[0][rigid]):
+            sizes = np.where(rigid, self._largest_alike(self._terms(at)[0]), sizes)
         return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
 
     def _largest_alike(self, own: np.ndarray) -> np.ndarray:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -26,10 +25,11 @@ from acausal import (
 from components.beams.beam import Beam
 from components.beams.element import beam_matrices
 from components.beams.inertia import Inertia
+from components.beams.section_loads import section_loads
 from components.beams.sections import Sections
 from components.beams.strain import Strain, shifted
 from components.frame import Frame, move
-from components.orientation import null_rotation, planar_matrix, planar_rotation, resolve1, resolve2
+from components.orientation import null_rotation, planar_rotation, resolve1, resolve2
 from components.world import World
 
 
@@ -274,27 +274,9 @@ class FlexibleBeam(Beam):
     @observed
     def node_force(self):
         """Force on the part towards frame_a at every node, shape (nodes, 3), resolved in the reference frame, in N."""
-        return as_expr([[force[i] for i in range(3)] for force, _ in self._section_loads()])
+        return as_expr([[force[i] for i in range(3)] for force, _ in section_loads(self)])
 
     @observed
     def node_moment(self):
         """Moment on the part towards frame_a at every node, shape (nodes, 3), resolved in the reference frame, N.m."""
-        return as_expr([[moment[i] for i in range(3)] for _, moment in self._section_loads()])
-
-    def _section_loads(self) -> list[tuple[Any, Any]]:
-        """Force and moment at every node: what is applied at the tip, less the inertia forces beyond the node."""
-        motion, ref, b = self._motion(), self.ref, self.frame_b
-        (U, Ud, Udd), inertia, sections = motion, self._inertia(motion), self._sections(motion)
-        R_b, r_b = planar_matrix(self._strain.angle(U[-1])), self._end(U)
-        a = self._acceleration(inertia)
-        force, moment = R_b.T @ b.f, R_b.T @ b.t + cross(r_b, R_b.T @ b.f)
-        loads = []
-        for k in range(self.elements, -1, -1):
-            at = as_expr((k * self._l + U[3 * k], U[3 * k + 1], 0.0))
-            loads.append((force, moment - cross(at, force)))
-            if k:
-                nodes = slice(3 * k - 3, 3 * k + 3)
-                part, about = inertia.element_forces(k - 1, a, ref.z, ref.R.w)
-                own = replace(sections, elements=1, I=sections.I / self.elements, Ud=Ud[nodes], Udd=Udd[nodes])
-                force, moment = force - part, moment - about - own.moment(ref.z, ref.R.w)
-        return loads[::-1]
+        return as_expr([[moment[i] for i in range(3)] for _, moment in section_loads(self)])

@@ -79,7 +79,7 @@ class Inertia:
         P, Pdd, turning = self.first(), self._moment(Udd), self if self.centrifugal else self._straight()
         x_1, y_1, x_2, y_2 = self._position
         c_1, d_1, c_2, d_2 = turning._position
-        relative = as_expr((0.0, 0.0, mu * (dot(x_2, Udd) - dot(y_1, Udd))))
+        relative = as_expr((0.0, 0.0, self._spin(Udd)))
         force = self.mass * a + cross(z, P) + cross(w, cross(w, turning.first())) + Pdd
         moment = cross(P, a) + self._tensor @ z + cross(w, turning._tensor @ w) + relative
         wx, wy, wz = w
@@ -125,20 +125,26 @@ class Inertia:
 
     def kinetic_energy(self, v: Any, w: Any) -> Any:
         """Kinetic energy in J, with velocity and angular velocity of the frame resolved in it."""
-        mu, Ud, I = self.mu, self.Ud, self._tensor
-        _, y_1, x_2, _ = self._position
-        spin = mu * (dot(x_2, Ud) - dot(y_1, Ud))
+        Ud, I = self.Ud, self._tensor
         own = dot(Ud, self.momentum())
         translation = self.mass * dot(v, v) + 2 * dot(v, cross(w, self.first()) + self._moment(Ud))
-        return (translation + dot(w, I @ w) + 2 * w[2] * spin + own) / 2
+        return (translation + dot(w, I @ w) + 2 * w[2] * self._spin(Ud) + own) / 2
 
-    def element_forces(self, j: int, a: Any, z: Any, w: Any) -> tuple[Any, Any]:
-        """Force and moment about the origin of the inertia of element j alone."""
+    def deforming(self) -> tuple[Any, Any]:
+        """Momentum of the rates of deformation alone in kg.m/s, and its moment about the origin, along z, in kg.m2/s."""
+        return self._moment(self.Ud), self._spin(self.Ud)
+
+    def _spin(self, rates: Any) -> Any:
+        _, y_1, x_2, _ = self._position
+        return self.mu * (dot(x_2, rates) - dot(y_1, rates))
+
+    def element(self, j: int) -> Inertia:
+        """Inertia of element j alone, in the same frame."""
         # An element whose root lies at x = j l is one at the origin with both nodes moved by j l.
         bubble = self.matrices.bubbles > 0
         rest = self.l * np.array([j, 0, 0, j, 0, 0, *[0] * bubble])
         U, Ud, Udd = ([x[k] for k in places(j, self.elements, bubble)] for x in (self.U, self.Ud, self.Udd))
-        own = replace(
+        return replace(
             self,
             matrices=element_matrices(bubble),
             elements=1,
@@ -147,5 +153,3 @@ class Inertia:
             Udd=as_expr(Udd),
             rest=rest,
         )
-        force, moment, _ = own.forces(a, z, w)
-        return force, moment

@@ -75,6 +75,8 @@ class NodalResult:
         self._q, self._qd, self._qdd = (
             result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd")
         )
+        # Stresses go with the stiffness that the model gives the body.
+        self._stiff_q = result[f"{body}.stiffness"][:, None] * self._q
         self._r_0, self._v, self._a, self._z = (result[f"{frame}.{name}"] for name in ("r_0", "v", "a", "z"))
         self._T, self._w = result[f"{frame}.R.T"], result[f"{frame}.R.w"]
         self._nodal: NodalField = found.nodal.first(n)
@@ -129,7 +131,7 @@ class NodalResult:
         Parameters
         ----------
         E, nu : float
-            Modulus of elasticity in Pa and Poisson's ratio, those of the matrices.
+            Modulus of elasticity in Pa and Poisson's ratio, those of the matrices; the factor `stiffness` of the FEBody counts.
         at : "points", "elements" or "nodes"
             At the Barlow points of each element, where they are best; their mean over each element; or at the nodes, linear
             through the points and averaged over the elements of a node.
@@ -148,10 +150,11 @@ class NodalResult:
             raise DeclarationError(f'stresses are given at="points", "elements" or "nodes", not {at!r}')
         modal = self._modal_stress(E, nu)
         if at == "points":
-            return {kind: np.einsum("epsb,tb->teps", m, self._q, optimize=True) for kind, m in modal.items()}
+            return {kind: np.einsum("epsb,tb->teps", m, self._stiff_q, optimize=True) for kind, m in modal.items()}
         if at == "elements":
-            return {kind: np.einsum("esb,tb->tes", m.mean(axis=1), self._q, optimize=True) for kind, m in modal.items()}
-        return np.einsum("ksb,tb->tks", self._at_nodes(modal), self._q, optimize=True)
+            means = {kind: m.mean(axis=1) for kind, m in modal.items()}
+            return {kind: np.einsum("esb,tb->tes", m, self._stiff_q, optimize=True) for kind, m in means.items()}
+        return np.einsum("ksb,tb->tks", self._at_nodes(modal), self._stiff_q, optimize=True)
 
     def write_vtu(
         self,
@@ -216,7 +219,7 @@ class NodalResult:
         velocity = self._v[step] + np.cross(self._w[step], field.nodes + u) + rate
         data = {"displacement": u @ T, "velocity": velocity @ T}
         if stresses is not None:
-            data["stress"] = stresses @ self._q[step]
+            data["stress"] = stresses @ self._stiff_q[step]
             data["von Mises"] = von_mises(data["stress"])
         return self._r_0[step] + (field.nodes + scale * u) @ T, self.cells, data
 

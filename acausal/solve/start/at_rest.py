@@ -11,6 +11,7 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
 from acausal.compiler.once import once
+from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
@@ -86,11 +87,16 @@ def motion_text(problem: Problem, at: Point) -> str:
 def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     """Derivatives that do not vanish, the largest first."""
     names, call, (rows, columns, shape) = _derivatives(problem.compiled)
-    value, entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)
+    given = at.x, at.z, problem.p, at.time, at.constants.vector, 0.0
+    value, entries = call(*given)
     J = scipy.sparse.csr_matrix((entries, (rows, columns)), shape=shape)
     allowed = _allowed(J, at.y, problem.nominal, POLICY.rest.still)
     if not np.all(np.abs(value) <= allowed):
         allowed = allowed + abs(J)[:, problem.nx :] @ _unsure(problem, at)
+        # What moves nothing, as a frame on an axis at the end of a chain, has slopes of rounding.
+        whole = scipy.sparse.csr_matrix((_terms(problem.compiled)(*given)[0], (rows, columns)), shape=shape)
+        most, adds_up = (abs(M) @ problem.nominal for M in (J, whole))
+        allowed += np.where(most <= POLICY.ranks.rank * adds_up, POLICY.rest.still * adds_up, 0.0)
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
     order = wrong[np.argsort(-np.abs(value[wrong]))]
     return [(names[k], float(value[k])) for k in order]
@@ -122,6 +128,13 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))
     rows, columns = (np.array(k, dtype=int) for k in J.sparsity().get_triplet())
     return names, call, (rows, columns, J.shape)
+
+
+@once
+def _terms(compiled: CompiledModel) -> Call:
+    """Sizes of what adds up in the Jacobian of the derivatives, see `rounding.terms`."""
+    J = _derivatives(compiled)[1].function.call(compiled.arguments)[1]
+    return Call(ca.Function("terms", compiled.arguments, [terms(compiled.arguments, stacked(scalars(J.nz[:])))]))
 
 
 def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:

@@ -97,7 +97,11 @@ class Equilibrium:
             growth, attempts = 1 + (growth - 1) / 2, attempts - 1
         if found is None:
             self._at(self.guess)  # the cause may be there
-            raise Restless(motion_text(self.problem, self._nearly(relaxed)), relaxed)
+            nearly = self._nearly(relaxed)
+            if not at_rest(self.problem, nearly):
+                raise Restless(motion_text(self.problem, nearly), relaxed)
+            found = self._at(nearly)
+            rate = self._growing(found)[0]
         if rate:
             caution(unstable_text(self.problem.compiled, self.guess.time, rate))
         return found.point
@@ -177,7 +181,7 @@ class Equilibrium:
             step = self._step(value, J, np.zeros(self.nx))[0]
             if np.max(np.abs(step) / (self.scale + np.abs(here.point.x)), initial=0.0) <= REST.converged:
                 break
-            there = self._go(here, step / max(1.0, self._far(step) / REST.far), value, J, conditions)
+            there = self._go(here, step, value, J, conditions)
             if there is None:
                 break
             here = there
@@ -186,16 +190,16 @@ class Equilibrium:
     def _go(
         self, here: Linearized, step: np.ndarray, value: np.ndarray, J: np.ndarray, conditions: bool
     ) -> Linearized | None:
-        """Shorten a step until the residuals do not grow; None if they always do."""
+        """Shorten a step that leads too far until the residuals do not grow; None if they always do."""
         size = np.linalg.norm(J * self.scale, axis=1)
         weight = 1 / np.where(size > 0, size, 1.0)
-        for shorter in range(REST.halvings):
+        for part in min(1.0, REST.far / (self._far(step) or REST.far)) / 2.0 ** np.arange(REST.halvings):
             try:
-                there = self._at(self._close(_moved(here.point, step / 2**shorter)))
+                there = self._at(self._close(_moved(here.point, part * step)))
             except InitializationError:
                 continue
             left = np.linalg.norm(weight * self._all(there, conditions)[0])
-            if left <= (1 - REST.decrease / 2**shorter) * np.linalg.norm(weight * value) + REST.converged:
+            if left <= (1 - REST.decrease * part) * np.linalg.norm(weight * value) + REST.converged:
                 return there
         return None
 
