@@ -89,7 +89,6 @@ class Settable:
             )
         own = self.own
         index = {name: k for k, name in enumerate(own.names)}
-        array = numeric(value, None, f"`{path}`")
         prefix = path + "["
         entries = [n for n in (*index, *own.structural_zeros) if n == path or n.startswith(prefix)]
         if not entries:
@@ -101,6 +100,7 @@ class Settable:
                 raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
             known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
             raise DeclarationError(not_settable(path, self.tree, known))
+        array = numeric(value, None, f"`{path}`")
         for name in entries:
             at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
             if (

@@ -99,6 +99,7 @@ class Calls:
     steps: int = 64
     # Of the most that so many steps of the core brought a loop forward: where they bring less, and more than this part of them
     # is taken again, it creeps towards a flat position, where unknowns grow without end: of n-four-bar at 1e-7 19 to 48 %.
+    window: int = 32
     creeps: float = 1e-3
     often: float = 0.15
     # Relative rounding error of an equation of some terms, over the part of the tolerance that a Newton iteration may

@@ -49,7 +49,7 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
         return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
-    inertia = NO_INERTIA if all(name.startswith("`der(") for name in open_) else ""
+    inertia = NO_INERTIA if any(name.startswith("`der(") for name in open_) else ""
     if len(inside) > 1 and _same(there):
         mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 and not inertia else ANOTHER
         return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}{inertia}"
@@ -61,7 +61,8 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
         )
     k = int(there.whole.solved[_heavy(right)[0]])
     here = f"cannot be solved for {what} near {names[k]} = {there.unknowns[k]:.4g}, because its slope there is 0"
-    return f"this equation {here}:\n{lines}\n{another_guess(problem, k)}; if none helps, the equation may have no solution."
+    mend = f"{another_guess(problem, k)}; if none helps, the equation may have no solution.{inertia}"
+    return f"this equation {here}:\n{lines}\n{mend}"
 
 
 def said_twice(problem: Problem, at: Point) -> str:

@@ -75,8 +75,9 @@ class NodalResult:
         self._q, self._qd, self._qdd = (
             result[f"{body}.{name}"].reshape(self.time.size, n) for name in ("q", "qd", "qdd")
         )
-        # Stresses go with the stiffness that the model gives the body.
-        self._stiff_q = result[f"{body}.stiffness"][:, None] * self._q
+        # Stresses go with the stiffness that the model gives the body, as FEBody does.
+        stiffness = f"{body}.stiffness"
+        self._stiff_q = self._q * (result[stiffness][:, None] if stiffness in result else 1.0)
         self._r_0, self._v, self._a, self._z = (result[f"{frame}.{name}"] for name in ("r_0", "v", "a", "z"))
         self._T, self._w = result[f"{frame}.R.T"], result[f"{frame}.R.w"]
         self._nodal: NodalField = found.nodal.first(n)

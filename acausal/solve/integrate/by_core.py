@@ -143,7 +143,7 @@ class ByCore(Integration):
         """Whether some steps bring it hardly forward, and many of them are taken again, shorter."""
         done, calls, (steps, refused, time) = self._rodas.progress, POLICY.calls, self._window
         taken, again, forward = done.steps - steps, done.refused - refused, done.time - time
-        if taken + again < calls.steps:
+        if taken + again < calls.window:
             return False
         self._window, self._stride = (done.steps, done.refused, done.time), max(self._stride, forward)
         return forward < calls.creeps * self._stride and again > calls.often * (taken + again)
