@@ -45,7 +45,7 @@ class ByCore(Integration):
         loops = bool(problem.compiled.constraints.size)
         self._loops, self._damps, self._returns = loops, damps, loops and way.moves
         self.ended, self._keeps = False, loops or request.curves
-        self._window, self._stride = (0, 0, at.time), 0.0
+        self._window, self._stride, self._crept = (0, 0, at.time), 0.0, 0
         self._again: ByCore | None = None
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
@@ -140,13 +140,18 @@ class ByCore(Integration):
         return passes_flat(problem, times, y[:, : problem.nx], constants)
 
     def _creeps(self) -> bool:
-        """Whether some steps bring it hardly forward, and many of them are taken again, shorter."""
+        """Whether some steps bring it hardly forward, and many of them are taken again, shorter, twice in a row.
+
+        Once, that may be a long step that is shortened to what begins to move.
+        """
         done, calls, (steps, refused, time) = self._rodas.progress, POLICY.calls, self._window
         taken, again, forward = done.steps - steps, done.refused - refused, done.time - time
         if taken + again < calls.window:
             return False
         self._window, self._stride = (done.steps, done.refused, done.time), max(self._stride, forward)
-        return forward < calls.creeps * self._stride and again > calls.often * (taken + again)
+        creeps = forward < calls.creeps * self._stride and again > calls.often * (taken + again)
+        self._crept = self._crept + 1 if creeps else 0
+        return self._crept > 1
 
     @property
     def _last_steps(self) -> tuple[Problem, np.ndarray, np.ndarray, Constants]:
