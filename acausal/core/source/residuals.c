@@ -12,8 +12,8 @@
 #define CLOSE_LEFT 3e-4 /* of the terms, at most */
 #define REST 1e-12      /* error of the states over the tolerance that is none */
 #define SOLVED 1e-12    /* of the terms, where a step begins: those of other unknowns may be far larger than what is left of a steep one */
-#define NEAR 1e-8       /* of the terms, likewise: from there on a whole correction leaves a part, or what is left is rounding, */
-#define NEARER 0.5      /* as beside flat positions of loops, where it is large */
+#define NEAR 1e-8       /* of the terms, likewise: beside flat positions of loops that may be rounding, */
+#define NEARER 0.5      /* which corrections leave more of */
 #define RETURNS 50      /* corrections of unknowns where a step begins: by halves they come from 1 to the width of tanh(1e6 z) */
 #define HALVINGS 20     /* of a correction that leaves more than there was */
 #define FURTHER 10      /* times as far as the rates at both ends: where they change much in a step */
@@ -115,7 +115,7 @@ int ac_rodas_follows(ac_rodas *r, double h) {
     return 1;
 }
 
-/* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and are not near enough.
+/* Bring the unknowns where a step begins nearer to their equations; return whether they came nearer, and may come nearer still.
    Where these bend, what the last step left may be far from them, and a whole correction may lead further away. */
 static int returns(ac_rodas *r) {
     if (!r->of.nz || r->request.singular) return 0;
@@ -130,12 +130,11 @@ static int returns(ac_rodas *r) {
         for (int32_t k = r->of.nx; k < r->n; k++) r->stage[k] += part * r->b[k];
         ac_rodas_values(r, r->stage, r->t, found);
         const double now = largest(r, found);
-        if (left <= NEAR && !(now <= NEARER * left)) return 0;
         if (ac_all_finite(found, r->n) && now < left) {
             memcpy(r->y, r->stage, (size_t)r->n * sizeof *r->y);
             memcpy(r->here, found, (size_t)r->n * sizeof *r->here);
             r->stale = 1;
-            return 1;
+            return left > NEAR || now <= NEARER * left;
         }
     }
     return 0;
