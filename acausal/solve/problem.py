@@ -101,10 +101,6 @@ class Problem:
         """Size of what adds up in the residuals of the constraints, and in the entries of their Jacobian."""
         return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
 
-    def rigid(self, at: Point) -> np.ndarray:
-        """Which residuals of the constraints no state changes by more than rounding, nor others of their equation."""
-        return self._largest_alike(lengths(self.gradients(at))) == 0
-
     def gaps(self, at: Point) -> np.ndarray:
         """Return the residuals of the constraints, over the change that nominal values of the states make in them.
 
@@ -115,6 +111,10 @@ class Problem:
 
     def sizes(self, at: Point) -> np.ndarray:
         """Return the change that nominal values of the states make in each residual of the constraints, see `gaps`."""
+        return self.sized(at)[0]
+
+    def sized(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
+        """Return the sizes of the residuals, and which of them no state changes by more than rounding."""
         own, c = lengths(self.gradients(at)), self.compiled.constraints
         forces = [row for k, rows in enumerate(c.rows) if k not in c.closures for row in rows]
         if forces:
@@ -126,7 +126,7 @@ class Problem:
         rigid = sizes == 0
         if np.any(self.constraints(at)[0][rigid]):
             sizes = np.where(rigid, self._largest_alike(self._terms(at)[0]), sizes)
-        return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0)
+        return np.where(sizes > 0, sizes, np.max(sizes, initial=0.0) or 1.0), rigid
 
     def _largest_alike(self, own: np.ndarray) -> np.ndarray:
         """Largest of the values of the constraints' residuals, among those of the same equation, for each residual."""

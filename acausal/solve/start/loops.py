@@ -75,8 +75,8 @@ def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
 
 def _residuals(problem: Problem, at: Point, rows: list[int], free: np.ndarray) -> Residuals:
     """Residuals of some rows over their sizes at a point, and their Jacobian, as a function of some states."""
-    c, size = problem.compiled.constraints, problem.sizes(at)
-    part, of_entry = part_of(c.pattern, rows, free), np.where(problem.rigid(at), np.inf, size)[c.pattern.indices]
+    c, (size, rigid) = problem.compiled.constraints, problem.sized(at)
+    part, of_entry = part_of(c.pattern, rows, free), np.where(rigid, np.inf, size)[c.pattern.indices]
     matrix = part.sparse if _are_many(rows) else part.dense
 
     def evaluate(u: np.ndarray) -> tuple[np.ndarray, Matrix]:
