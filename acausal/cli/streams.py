@@ -70,21 +70,30 @@ def _own_descriptor() -> Iterator[IO[str]]:
 
 
 def ended(status: str | int | None) -> str | int | None:
-    """Write what is still to be written on standard output, and return the exit status."""
+    """Write what is still to be written on standard output and standard error, and return the exit status."""
     try:
         if sys.stdout is not None:
             sys.stdout.flush()
     except OSError as error:
-        return unwritten(error)
+        status = unwritten(error)
+    try:
+        if sys.stderr is not None:
+            sys.stderr.flush()
+    except OSError:  # nobody can be told
+        _give_up(sys.stderr)
     return status
 
 
 def unwritten(error: OSError) -> int:
     """Tell why standard output cannot be written, give the rest up, and return the exit status."""
-    # What is left in the buffer would be tried again, and told of, when Python ends.
-    with suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    _give_up(sys.stdout)
     if isinstance(error, BrokenPipeError):
         return UNREAD  # as `head` leaves it: nothing is wrong
     tell(f"Error: cannot write standard output: {error.strerror or error}.")
     return WRONG
+
+
+def _give_up(stream: IO[str]) -> None:
+    """Lose what is left in the buffer: Python would try it again as it ends, and change the exit status."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

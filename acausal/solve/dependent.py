@@ -49,10 +49,14 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:
         return f"{of_zeros(zeros)}\nNothing determines {what} then. The equations:\n{lines}"
-    inertia = NO_INERTIA if any(name.startswith("`der(") for name in open_) else ""
+    rates = [name.startswith("`der(") for name in open_]
+    inertia = NO_INERTIA if any(rates) else ""
     if len(inside) > 1 and _same(there):
-        mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 and not inertia else ANOTHER
-        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}{inertia}"
+        if not all(rates):  # forces among them
+            mend = SIDE_BY_SIDE if len({row.origin.path for row in inside}) > 1 else ANOTHER
+        else:
+            mend = ANOTHER + inertia
+        return f"these equations say the same, so that nothing determines {what}:\n{lines}\n{mend}"
     if len(inside) > 1:
         return (
             f"these equations do not determine {what}: near these values they depend on each other:\n{lines}\n"

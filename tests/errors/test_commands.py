@@ -324,7 +324,8 @@ def test_a_directory_that_is_gone(place):
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 def test_an_interrupt_while_it_loads(place):
     command = [sys.executable, "-X", "importtime", *LIST]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    # Streams are flushed as they are for users, whatever the environment of the tests asks for.
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": ""}
     how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment}
     process = subprocess.Popen(command, preexec_fn=heed_interrupts, **how)
     for line in process.stderr or ():
@@ -348,7 +349,8 @@ def test_no_more_memory(place, monkeypatch):
 
 
 def _shell(line: str) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    # Streams are flushed as they are for users, whatever the environment of the tests asks for.
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": ""}
     how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment, "check": False}
     return subprocess.run(["bash", "-c", line], **how)
 
