@@ -93,7 +93,7 @@ def unwritten(error: OSError) -> int:
     return WRONG
 
 
-def _give_up(stream: IO[str]) -> None:
+def _give_up(stream: Any) -> None:
     """Lose what is left in the buffer: Python would try it again as it ends, and change the exit status."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
