@@ -138,7 +138,7 @@ class Rest:
     signs: int = 8
     # Newton steps, and implicit Euler steps that follow the motion.
     newton: int = 60
-    relaxation: int = 400
+    relaxation: int = 1000
     # Largest change of a state in a step, in nominal values: a joint that turns by no more stays on its branch.
     far: float = 0.3
     # Change of a coordinate beyond which an equilibrium may not be the one that is near: a quarter of a turn, and some.
@@ -148,9 +148,11 @@ class Rest:
     growth: float = 1.5
     last: float = 1e8
     shortest: float = 1e-12
-    # By what a step is shortened that is too long, and one after which the loops do not close.
+    # What a second iteration may change in a step, over the step, and how much more in each attempt.
+    bent: float = 0.2
+    looser: float = 2.5
+    # By what a step is shortened that is too long.
     shrinkage: float = 2.0
-    lost: float = 4.0
     # Change in a step, over the size, that is rounding.
     converged: float = 1e-12
     halvings: int = 6

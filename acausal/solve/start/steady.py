@@ -7,9 +7,12 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
@@ -84,17 +87,17 @@ class Equilibrium:
             found = min(near, key=self._distance, default=None)
         rate, push = (0.0, np.zeros(self.nx)) if found is None else self._growing(found)
         at = relaxed = self.guess
-        growth, attempts = REST.growth, REST.attempts
+        bent, attempts = REST.bent, REST.attempts
         if found is not None and self._is_guess(found):
             attempts = 0
         while attempts and (found is None or rate):
-            relaxed = self._relax(at, growth)
+            relaxed = self._relax(at, bent)
             resting = self._newton(relaxed)
             if resting is not None:
                 found, (rate, push) = resting, self._growing(resting)
                 at = _moved(resting.point, push)
-            # Steps that grow more slowly keep nearer to the motion.
-            growth, attempts = 1 + (growth - 1) / 2, attempts - 1
+            # Longer steps lose more energy where little brakes.
+            bent, attempts = bent * REST.looser, attempts - 1
         if found is None:
             self._at(self.guess)  # the cause may be there
             nearly = self._nearly(relaxed)
@@ -216,6 +219,9 @@ class Equilibrium:
             value, J = np.concatenate([value, off[kept]]), np.vstack([J, M.toarray()[kept]])
         return value, J
 
+    def _size(self, step: np.ndarray) -> float:
+        return float(np.max(np.abs(step) / self.scale, initial=0.0))
+
     def _far(self, step: np.ndarray) -> float:
         """How far a step leads, in nominal values of what has a rate among the states, or whose rate is kinematics."""
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
@@ -234,38 +240,40 @@ class Equilibrium:
         step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
         return size * step, self.scale * _along(free * size / self.scale, way / self.scale)
 
-    def _relax(self, at: Point, growth: float) -> Point:
+    def _relax(self, at: Point, bent: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
-        h, nx, feedback = REST.first / self.problem.feedback, self.nx, self.problem.feedback
+        feedback = self.problem.feedback
+        h = REST.first / feedback
         try:
             here = self._at(self._close(at))
         except InitializationError:
             return at
         for _ in range(REST.relaxation):
-            moving = here.rates.copy()
-            moving[np.setdiff1d(np.arange(nx), self.rows)] = 0.0
-            try:
-                step = np.linalg.solve(np.eye(nx) - h * here.A, h * moving)
-            except np.linalg.LinAlgError:
-                step = np.full(nx, np.nan)
-            if not np.all(np.isfinite(step)) or self._far(step) > REST.far:
+            there = self._euler(here, h, bent)
+            if there is None:
                 h /= REST.shrinkage
                 if h * feedback < REST.shortest:
                     break
                 continue
-            moved = _moved(here.point, step)
-            try:
-                here = self._at(self._close(moved))
-            except InitializationError:
-                h /= REST.lost
-                continue
-            h *= growth
-            if (
-                h * feedback > REST.last
-                or np.max(np.abs(step) / (self.scale + np.abs(moved.x)), initial=0.0) < REST.converged
-            ):
+            moved, here = there.point.x - here.point.x, there
+            h *= REST.growth
+            if h * feedback > REST.last or np.all(np.abs(moved) < REST.converged * (self.scale + np.abs(here.point.x))):
                 break
         return here.point
+
+    def _euler(self, here: Linearized, h: float, bent: float) -> Linearized | None:
+        """Take a step of length h; None where that cannot be, or a second iteration would change it by more than a part."""
+        moves = np.isin(np.arange(self.nx), self.rows)
+        solve = _solver(np.eye(self.nx) - h * here.A)
+        step = solve(np.where(moves, h * here.rates, 0.0))
+        if not np.all(np.isfinite(step)):
+            return None
+        try:
+            there = self._at(self._close(_moved(here.point, step)))
+        except InitializationError:
+            return None
+        left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
+        return there if self._size(solve(left)) <= bent * self._size(step) else None
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
@@ -283,6 +291,14 @@ class Equilibrium:
         return float(real[k]), REST.push * direction / (
             self._far(direction) or float(np.max(np.abs(direction / self.scale)))
         )
+
+
+def _solver(matrix: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """Solve with a matrix many times; nan where it is singular."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
+        factors = scipy.linalg.lu_factor(matrix, check_finite=False)
+    return lambda right: scipy.linalg.lu_solve(factors, right, check_finite=False)
 
 
 def _moved(at: Point, step: np.ndarray) -> Point:
