@@ -242,22 +242,22 @@ class Equilibrium:
 
     def _relax(self, at: Point, bent: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
-        feedback = self.problem.feedback
-        h = REST.first / feedback
         try:
             here = self._at(self._close(at))
         except InitializationError:
             return at
+        fastest = float(np.linalg.norm(here.A * self.scale / self.scale[:, None])) or 1.0
+        h = REST.first / fastest
         for _ in range(REST.relaxation):
             there = self._euler(here, h, bent)
             if there is None:
                 h /= REST.shrinkage
-                if h * feedback < REST.shortest:
+                if h * fastest < REST.shortest:
                     break
                 continue
             moved, here = there.point.x - here.point.x, there
             h *= REST.growth
-            if h * feedback > REST.last or np.all(np.abs(moved) < REST.converged * (self.scale + np.abs(here.point.x))):
+            if h * fastest > REST.last or np.all(np.abs(moved) < REST.converged * (self.scale + np.abs(here.point.x))):
                 break
         return here.point
 
