@@ -143,7 +143,8 @@ class Rest:
     far: float = 0.3
     # Change of a coordinate beyond which an equilibrium may not be the one that is near: a quarter of a turn, and some.
     turn: float = 1.6
-    # Steps of the relaxation over the time of the fastest motion at the guess: the first, their growth, the last, and the shortest.
+    # Steps of the relaxation over the time of the fastest motion at the guess: the first, their growth, the last, and the
+    # shortest.
     first: float = 1e-3
     growth: float = 1.5
     last: float = 1e8

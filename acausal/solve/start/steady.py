@@ -19,10 +19,11 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, kinematic, meters, motion_text
+from acausal.solve.start.least_change import least_change
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import tighten
 from acausal.solve.start.newton import Lost, algebraic
-from acausal.solve.start.rank import factored, scaled
+from acausal.solve.start.rank import factored
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
@@ -154,7 +155,7 @@ class Equilibrium:
             return None
         part = 1.0
         for _ in range(REST.back):
-            back = self._step(*self._all(here, True), self._apart(here))[1]
+            back = least_change(*self._all(here, True), self._apart(here), self.scale)[1]
             if part < REST.short or np.max(np.abs(back) / self.scale, initial=0.0) <= REST.there:
                 break
             there = self._search(_moved(here.point, part * back))
@@ -181,7 +182,7 @@ class Equilibrium:
             return None
         for _ in range(REST.newton):
             value, J = self._all(here, conditions)
-            step = self._step(value, J, np.zeros(self.nx))[0]
+            step = least_change(value, J, np.zeros(self.nx), self.scale)[0]
             if np.max(np.abs(step) / (self.scale + np.abs(here.point.x)), initial=0.0) <= REST.converged:
                 break
             there = self._go(here, step, value, J, conditions)
@@ -225,20 +226,6 @@ class Equilibrium:
     def _far(self, step: np.ndarray) -> float:
         """How far a step leads, in nominal values of what has a rate among the states, or whose rate is kinematics."""
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
-
-    def _step(self, value: np.ndarray, J: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Least squares step for what the rows determine, and the part of a way that they leave free."""
-        # Stiff parts beside others that are held by weight alone: without equilibration these would count as free.
-        size = self.scale
-        for _ in range(2):
-            inside = np.linalg.norm(scaled(J * size), axis=0)
-            size = size / np.where(inside > REST.faint, inside, 1.0)
-        length = np.linalg.norm(J * size, axis=1)
-        U, s, V = np.linalg.svd(scaled(J * size), full_matrices=True)
-        rank = int(np.sum(s > REST.weak))
-        held, free = V[:rank], V[rank:]
-        step = -held.T @ ((U.T[:rank] @ (value / np.where(length > 0, length, 1.0))) / s[:rank])
-        return size * step, self.scale * _along(free * size / self.scale, way / self.scale)
 
     def _relax(self, at: Point, bent: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
@@ -303,8 +290,3 @@ def _solver(matrix: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
 
 def _moved(at: Point, step: np.ndarray) -> Point:
     return replace(at, x=at.x + step)
-
-
-def _along(rows: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """Part of a way in the space that rows span."""
-    return rows.T @ np.linalg.lstsq(rows.T, way, rcond=POLICY.ranks.rank)[0] if len(rows) else np.zeros_like(way)

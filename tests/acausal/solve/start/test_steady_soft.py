@@ -37,9 +37,11 @@ class TwoRods(Model):
         yield chain(self.second.support, self.soft, self.second.axis)
 
 
-@pytest.mark.parametrize("stop_time", [0.01, 0.1, 10.0])
-@pytest.mark.parametrize("stiffness", [0.5, 0.9, 1.2, 2.0])
-def test_soft_rods_sag(stiffness: float, stop_time: float) -> None:
-    result = started(TwoRods(stiffness=stiffness), stop_time)
-    assert -0.4 < result["first.phi"][0] < result["second.phi"][0] < 0
-    assert moved(result, "first.phi", "second.phi", "upper.q", "lower.q") < 1e-6
+@pytest.mark.parametrize("stiffness", [0.05, 0.2, 0.5, 0.9, 1.2, 2.0])
+def test_soft_rods_sag(stiffness: float) -> None:
+    """However soft they are, and whatever the stop time."""
+    names = ("first.phi", "second.phi", "upper.q", "lower.q")
+    runs = [started(TwoRods(stiffness=stiffness), stop_time) for stop_time in (0.01, 10.0)]
+    assert all(moved(run, *names) < 1e-6 for run in runs)
+    assert all(run["first.phi"][0] < -0.01 for run in runs)
+    assert runs[0]["second.phi"][0] == pytest.approx(runs[1]["second.phi"][0], abs=1e-9)
