@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 
 @dataclass(frozen=True)
@@ -149,9 +150,9 @@ class Rest:
     growth: float = 1.5
     last: float = 1e8
     shortest: float = 1e-12
-    # What a second iteration may change in a step, over the step, and how much more in each attempt.
-    bent: float = 0.2
-    looser: float = 2.5
+    # Attempts of the relaxation: how far a step may lead in nominal values, and what a second iteration may change in it, over
+    # it. Soft modes go far by steps that are nearly exact; stiff parts that ring bend each step, though nothing moves far.
+    limits: tuple[tuple[float, float], ...] = ((inf, 0.2), (0.3, inf), (inf, 0.5))
     # By what a step is shortened that is too long.
     shrinkage: float = 2.0
     # Change in a step, over the size, that is rounding.
@@ -174,7 +175,6 @@ class Rest:
     # Growth that is none, over the size of the eigenvalue; and over the root of rounding, by which double zeros split.
     grows: float = 1e-6
     split: float = 10.0
-    attempts: int = 3
 
 
 @dataclass(frozen=True)

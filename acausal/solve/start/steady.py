@@ -88,17 +88,14 @@ class Equilibrium:
             found = min(near, key=self._distance, default=None)
         rate, push = (0.0, np.zeros(self.nx)) if found is None else self._growing(found)
         at = relaxed = self.guess
-        bent, attempts = REST.bent, REST.attempts
-        if found is not None and self._is_guess(found):
-            attempts = 0
-        while attempts and (found is None or rate):
-            relaxed = self._relax(at, bent)
+        for far, bent in () if found is not None and self._is_guess(found) else REST.limits:
+            if found is not None and not rate:
+                break
+            relaxed = self._relax(at, far, bent)
             resting = self._newton(relaxed)
             if resting is not None:
                 found, (rate, push) = resting, self._growing(resting)
                 at = _moved(resting.point, push)
-            # Longer steps lose more energy where little brakes.
-            bent, attempts = bent * REST.looser, attempts - 1
         if found is None:
             self._at(self.guess)  # the cause may be there
             nearly = self._nearly(relaxed)
@@ -227,16 +224,16 @@ class Equilibrium:
         """How far a step leads, in nominal values of what has a rate among the states, or whose rate is kinematics."""
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
 
-    def _relax(self, at: Point, bent: float) -> Point:
+    def _relax(self, at: Point, far: float, bent: float) -> Point:
         """Follow the motion by steps of the linearly implicit Euler method that grow."""
         try:
             here = self._at(self._close(at))
         except InitializationError:
             return at
-        fastest = float(np.linalg.norm(here.A * self.scale / self.scale[:, None])) or 1.0
+        fastest = float(np.max(np.abs(np.linalg.eigvals(here.A)), initial=0.0)) or 1.0
         h = REST.first / fastest
         for _ in range(REST.relaxation):
-            there = self._euler(here, h, bent)
+            there = self._euler(here, h, far, bent)
             if there is None:
                 h /= REST.shrinkage
                 if h * fastest < REST.shortest:
@@ -248,12 +245,12 @@ class Equilibrium:
                 break
         return here.point
 
-    def _euler(self, here: Linearized, h: float, bent: float) -> Linearized | None:
-        """Take a step of length h; None where that cannot be, or a second iteration would change it by more than a part."""
+    def _euler(self, here: Linearized, h: float, far: float, bent: float) -> Linearized | None:
+        """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
         moves = np.isin(np.arange(self.nx), self.rows)
         solve = _solver(np.eye(self.nx) - h * here.A)
         step = solve(np.where(moves, h * here.rates, 0.0))
-        if not np.all(np.isfinite(step)):
+        if not np.all(np.isfinite(step)) or self._far(step) > far:
             return None
         try:
             there = self._at(self._close(_moved(here.point, step)))
