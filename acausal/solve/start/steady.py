@@ -94,8 +94,9 @@ class Equilibrium:
             relaxed = self._relax(at, far, bent)
             resting = self._newton(relaxed)
             if resting is not None:
-                found, (rate, push) = resting, self._growing(resting)
-                at = _moved(resting.point, push)
+                found = self._unturned(resting)
+                rate, push = self._growing(found)
+                at = _moved(found.point, push)
         if found is None:
             self._at(self.guess)  # the cause may be there
             nearly = self._nearly(relaxed)
@@ -160,6 +161,15 @@ class Equilibrium:
             if there is not None and self._distance(there) < self._distance(here) and self._rests(there):
                 here = there
             part = part if nearer else part / 2
+        return here
+
+    def _unturned(self, here: Linearized) -> Linearized:
+        """Take back whole turns away from the guess, of coordinates that rest there as well."""
+        for k in self.coordinates:
+            back = np.zeros(self.nx)
+            back[k] = 2 * np.pi * np.round(self._apart(here)[k] / (2 * np.pi))
+            there = self._tried(_moved(here.point, back)) if back[k] else None
+            here = there or here
         return here
 
     def _rests(self, here: Linearized) -> bool:

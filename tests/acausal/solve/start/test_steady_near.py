@@ -46,3 +46,23 @@ def test_a_rod_hangs_where_it_falls(c, first):
     expected = brentq(lambda phi: 9.80665 * 0.5 * np.cos(phi) + c * phi, -np.pi, 0.0)
     result = ac.simulate(Sprung(first=first, c=c), stop_time=0.1, initial="steady")
     assert result["hinge.phi"][0] == pytest.approx(expected, abs=1e-6)
+
+
+class Double(Model):
+    """Two rods that nothing brakes: on their way down they whirl."""
+
+    first: float = structural("guess of the upper angle", default=1.5)
+    world = World()
+    upper, lower = Revolute(phi=guess(first)), Revolute(phi=guess(0.1))
+    rods = tuple(BodyRod(r=(1, 0, 0), m=1) for _ in range(2))
+
+    def connections(self):
+        yield chain(self.world, self.upper, self.rods[0], self.lower, self.rods[1])
+
+
+@pytest.mark.parametrize("stop_time", [0.1, 1.0, 30.0])
+@pytest.mark.parametrize("first", [1.5, 0.7, 4.0])
+def test_whole_turns_are_taken_back(first: float, stop_time: float) -> None:
+    result = ac.simulate(Double(first=first), stop_time=stop_time, intervals=1, initial="steady")
+    assert result["upper.phi"][0] == pytest.approx(-np.pi / 2 if first < np.pi / 2 else 3 * np.pi / 2)
+    assert result["lower.phi"][0] == pytest.approx(0, abs=1e-9)
