@@ -83,6 +83,8 @@ class Loops:
     closed: float = 1e-9
     # What a constraint that follows from others may be off by: the root of that, as ranks are known, with some room.
     opened: float = 1e-4
+    # Rows of a run at which that is looked at: a loop that opens may close again after whole turns.
+    seen: int = 20
     # Rates beside a singular position are known only as well as the root of that, but for a factor.
     rough: float = 1e-6
     # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
