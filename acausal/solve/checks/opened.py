@@ -28,14 +28,15 @@ def opened(consistent: Consistent, rows: Rows, dropped: tuple[int, ...]) -> list
     if not row_of or not len(rows):
         return []
     some, _ = consistent(rows[spread(len(rows), POLICY.loops.seen)])
+    points = [problem.projected(problem.point(some, place)) for place in range(len(some))]
+    apart = np.nan_to_num(np.abs([problem.constraints(at)[0] for at in points]))
     wide: dict[int, tuple[float, float]] = {}
-    for place in range(len(some)):
-        at = problem.projected(problem.point(some, place))
-        gap, apart = np.abs(problem.gaps(at)), np.abs(problem.constraints(at)[0])
-        for k, row in row_of.items():
-            if gap[row] > POLICY.loops.opened:
-                loop = flat.loops.closures[c.closures.index(k)].loop
-                wide[loop] = max(wide.get(loop, (0.0, 0.0)), (float(apart[row]), at.time))
+    for k, row in row_of.items():
+        place = int(np.argmax(apart[:, row]))
+        widest, size = points[place], float(apart[place, row])
+        if size > POLICY.loops.opened * problem.sizes(widest)[row]:
+            loop = flat.loops.closures[c.closures.index(k)].loop
+            wide[loop] = max(wide.get(loop, (0.0, 0.0)), (size, widest.time))
     return [
         f"the loop that {flat.loops.cuts[loop].a} and {flat.loops.cuts[loop].b} close ({flat.loops.cuts[loop].where}) is open by "
         f"{size:.2g} m or rad at t = {time:.4g} s: a constraint that followed from the others at the start does not follow "
