@@ -41,6 +41,11 @@ class Constants:
         moves = [] if self.moves is None else [float(self.moves)]
         return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D, [self.feedback]])
 
+    @cached_property
+    def all_count(self) -> bool:
+        """Whether the constraints of all closures count."""
+        return bool(np.all(self.closures > 0))
+
     def switched(self, places: np.ndarray | list[int], on: np.ndarray | list[bool]) -> Constants:
         """Return the constants with some switches on or off."""
         if not len(places):

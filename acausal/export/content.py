@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import casadi as ca
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.constants import Constants
 from acausal.core import StoredModel, make_equations, make_square, make_tape
 from acausal.core.model_file import floats, ints, tape_bytes
 from acausal.export.beginning import Beginning
@@ -17,6 +18,8 @@ from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import droppable
+from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import levels
 from acausal.solve.start.reach import reaches
 from acausal.symbols import dense, picked, scalars, stacked
@@ -133,11 +136,21 @@ class Content:
         return StoredModel(
             make_equations(x, z, t, p, c, *self.running),
             at.time,
-            *(at.x, at.z, self.given.values, at.constants.vector),
+            *(at.x, at.z, self.given.values, self._constants.vector),
             size=self.nominal[:nx],
             rate=are_rates(self.problem),
             names=self.compiled.states,
         )
+
+    @property
+    def _constants(self) -> Constants:
+        """Those of the start, where constraints that do not count have entries of D, too: the library may keep others."""
+        at = self.beginning.at
+        if at.constants.all_count:
+            return at.constants
+        all_on = replace(at, constants=replace(at.constants, closures=np.ones_like(at.constants.closures)))
+        D = choose_projection(self.problem, all_on, spare=False, moves=True).D
+        return replace(at.constants, D=np.where(at.constants.D != 0, at.constants.D, D))
 
     def _square(self, name: str, residuals: ca.SX, argument: int | None, n: int) -> dict[str, bytes]:
         """Equations for the algebraic unknowns, or where no argument is given for these and the states."""
@@ -230,12 +243,13 @@ class Content:
 
     @property
     def _closures(self) -> list[int]:
-        """Closure of each residual of the constraints, -1 for none."""
+        """Closure of each residual of the constraints, -1 for none that may be dropped."""
         c = self.compiled.constraints
         found = [-1] * c.size
         for closure, constraint in enumerate(c.closures):
-            for row in c.rows[constraint]:
-                found[row] = closure
+            if droppable(self.compiled)[closure]:
+                for row in c.rows[constraint]:
+                    found[row] = closure
         return found
 
     @cached_property

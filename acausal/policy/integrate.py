@@ -97,6 +97,8 @@ class Calls:
     holds: float = 1e-3
     # Steps after which loops are looked at for flat positions: a few turns.
     steps: int = 64
+    # The same at first where constraints follow from one another, which may not last; twice as many each time.
+    few: int = 8
     # Of the most that so many steps of the core brought a loop forward: where they bring less, and more than this part of them
     # is taken again, it creeps towards a flat position, where unknowns grow without end: of n-four-bar at 1e-7 19 to 48 %.
     window: int = 32

@@ -97,6 +97,10 @@ class Loops:
     # Damping of the first step of a try, over the greatest square of a residual's gradient. From random guesses of five
     # mechanisms closed positions are the nearer the larger it is; from 0.1 on it makes little difference.
     damping: float = 0.1
+    # How well constraints that are kept hold those that follow from them: below the first others are kept, from the second on
+    # they stay when a call begins. Of Bennett's linkage and of two cranks on a coupler the best choice has 0.56 to 0.98.
+    unfit: float = 0.25
+    fairly: float = 0.5
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05

@@ -64,7 +64,7 @@ def failure_text(integrator: Integrator, begun: Point, left: Redundancy, failure
     if met := meeting_ahead(problem, near, failure.time):
         return met
     lines = [f"{head} {failure.reason}."]
-    if is_singular(problem, at, left) or (left.singular and not reached):
+    if is_singular(problem, at) or (left.singular and not reached):
         return "\n".join([*lines, _fastest(problem, near), SINGULAR])
     found = _cause(problem, at, failure.time, begun.time)
     if found:

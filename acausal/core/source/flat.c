@@ -2,78 +2,13 @@
 #include "instance.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define SWEEPS 30      /* of Jacobi's method; a few are enough */
-#define ROUNDING 1e-15
 #define FLAT 1e-3      /* smallest singular value of the constraints over their sizes: nearer, errors choose the way */
 #define WORN 0.03      /* the same where the equations cannot be solved any more */
-#define LARGEST 64     /* constraints of which a decomposition costs less than a step */
-
-/* Smallest eigenvalue of a symmetric matrix, by Jacobi's method. */
-static double smallest(double *G, int32_t m) {
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        double off = 0;
-        for (int32_t a = 0; a < m; a++) {
-            for (int32_t b = a + 1; b < m; b++) {
-                const double g = G[a * m + b];
-                off = fmax(off, fabs(g));
-                if (fabs(g) <= ROUNDING) continue;
-                const double theta = (G[b * m + b] - G[a * m + a]) / (2 * g);
-                const double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(1 + theta * theta));
-                const double c = 1 / sqrt(1 + t * t), s = t * c;
-                for (int32_t k = 0; k < m; k++) {
-                    const double x = G[k * m + a], y = G[k * m + b];
-                    G[k * m + a] = c * x - s * y, G[k * m + b] = s * x + c * y;
-                }
-                for (int32_t k = 0; k < m; k++) {
-                    const double x = G[a * m + k], y = G[b * m + k];
-                    G[a * m + k] = c * x - s * y, G[b * m + k] = s * x + c * y;
-                }
-            }
-        }
-        if (off <= ROUNDING) break;
-    }
-    double least = INFINITY;
-    for (int32_t a = 0; a < m; a++) least = fmin(least, G[a * m + a]);
-    return sqrt(fmax(least, 0));
-}
-
-/* Smallest singular value of the constraints of positions, which is 0 in a flat one; infinite where there are none, or too many. */
-static double sharpness(ac_instance *i) {
-    const ac_unit *u = i->of;
-    const ac_level *l = u->level;
-    if (!u->levels || l->rows > LARGEST) return INFINITY;
-    int32_t row[LARGEST];
-    const int32_t m = ac_counting(i, l, row);
-    double *A = calloc((size_t)m * ((size_t)l->columns + (size_t)m + 1) + 1, sizeof *A);
-    if (!A) return INFINITY;
-    double *G = A + (size_t)m * (size_t)l->columns, *length = G + (size_t)m * (size_t)m;
-    ac_constraints(i, row, m, l->column, l->columns, A);
-    for (int32_t a = 0; a < m; a++) {
-        double size = 0;
-        for (int32_t b = 0; b < l->columns; b++) size += A[a * l->columns + b] * A[a * l->columns + b];
-        length[a] = sqrt(size);
-    }
-    /* Rows of one equation have one size: in a flat position one of them may vanish by itself. */
-    for (int32_t a = 0; a < m; a++) {
-        double most = 0;
-        for (int32_t b = 0; b < m; b++) most = u->kind[row[a]] == u->kind[row[b]] ? fmax(most, length[b]) : most;
-        for (int32_t k = 0; k < l->columns && most > 0; k++) A[a * l->columns + k] /= most;
-    }
-    for (int32_t a = 0; a < m; a++) {
-        for (int32_t b = 0; b < m; b++) {
-            for (int32_t k = 0; k < l->columns; k++) G[a * m + b] += A[a * l->columns + k] * A[b * l->columns + k];
-        }
-    }
-    const double found = m ? smallest(G, m) : INFINITY;
-    free(A);
-    return found;
-}
 
 /* Whether the present position is flat, as far as can be told where the equations have no solution. */
-int ac_is_flat(ac_instance *i) { return sharpness(i) <= WORN; }
+int ac_is_flat(ac_instance *i) { return ac_sharpness(i) <= WORN; }
 
 /* States between two points, as a cubic through their values and rates. */
 static void between(ac_instance *i, const ac_point *a, const ac_point *b, double s) {
@@ -94,20 +29,20 @@ int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b) {
     double *kept = i->other, from = 0, to = 1, least;
     memcpy(kept, i->x, (size_t)nx * sizeof *kept);
     between(i, a, b, 0);
-    const double first = sharpness(i);
+    const double first = ac_sharpness(i);
     between(i, a, b, 1);
-    const double last = sharpness(i);
+    const double last = ac_sharpness(i);
     between(i, a, b, 0.5);
-    const double middle = sharpness(i);
+    const double middle = ac_sharpness(i);
     least = fmin(middle, fmin(first, last));
     /* It falls and rises about linearly: what passes 0 shows in a difference of the ends, or in the middle. */
     if (isfinite(least) && (least <= fabs(first - last) + FLAT || middle < fmin(first, last))) {
         for (int k = 0; k < 24 && least > FLAT; k++) {
             const double s = to - part * (to - from), t = from + part * (to - from);
             between(i, a, b, s);
-            const double lower = sharpness(i);
+            const double lower = ac_sharpness(i);
             between(i, a, b, t);
-            const double upper = sharpness(i);
+            const double upper = ac_sharpness(i);
             least = fmin(least, fmin(lower, upper));
             if (lower < upper) to = t;
             else from = s;
@@ -129,6 +64,7 @@ int32_t ac_completed(ac_instance *i) {
     if (i->now.curved && ac_flat(i, &a, &b)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
     memcpy(i->before, i->x, size);
     memcpy(i->after, i->rate, size);
+    ac_keep(i);
     i->now.from = i->now.time, i->now.curved = 1;
     return AC_OK;
 }

@@ -135,6 +135,9 @@ double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
+double ac_sharpness(ac_instance *i);
+int ac_is_unfit(ac_instance *i);
+void ac_keep(ac_instance *i);
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
 int ac_is_flat(ac_instance *i);
 

@@ -44,6 +44,7 @@ static int32_t begin(ac_instance *i, double to) {
     };
     const double *y = i->after;
     if (!goes_on) {
+        ac_keep(i);
         const int32_t failed = ac_know(i, AC_Z);
         if (failed) return failed;
         memcpy(i->after, i->x, (size_t)ac_states(i) * sizeof *i->x);
@@ -233,6 +234,8 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             failed = refuse_flat(i);
             if (!failed) failed = ac_refuse_jump(i);
             if (!failed) failed = locate(i);
+            ac_stand(i, i->now.to);
+            if (!failed && ac_is_unfit(i)) i->now.integrates = 0;
             ac_stand(i, time);
             i->now.looked = !failed;
             /* A step in which nothing could be looked at is not taken. */

@@ -10,7 +10,7 @@ from acausal.solve.looks import spread
 from acausal.solve.points import Rows
 
 
-def opened(consistent: Consistent, rows: Rows, dropped: tuple[int, ...]) -> list[str]:
+def opened(consistent: Consistent, rows: Rows) -> list[str]:
     """Name loops that open in a run although what closes them seemed to follow from other constraints.
 
     Parameters
@@ -19,15 +19,15 @@ def opened(consistent: Consistent, rows: Rows, dropped: tuple[int, ...]) -> list
         Of the run.
     rows : Rows
         Of the run, of which some are looked at, the last one among them.
-    dropped : tuple of int
-        Constraints that follow from others, as their ranks told at the start.
     """
     problem = consistent.problem
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
-    row_of = {k: int(c.lowest[k]) for k in dropped if k in c.closures}
-    if not row_of or not len(rows):
+    some = rows[spread(len(rows), POLICY.loops.seen)]
+    counts = np.array([problem.compiled.layout.constants(vector).closures for vector in some.constants])
+    row_of = {c.closures[k]: int(c.lowest[c.closures[k]]) for k in np.flatnonzero(np.any(counts == 0, axis=0)).tolist()}
+    if not row_of:
         return []
-    some, _ = consistent(rows[spread(len(rows), POLICY.loops.seen)])
+    some, _ = consistent(some)
     points = [problem.projected(problem.point(some, place)) for place in range(len(some))]
     apart = np.nan_to_num(np.abs([problem.constraints(at)[0] for at in points]))
     wide: dict[int, tuple[float, float]] = {}

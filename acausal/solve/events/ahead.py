@@ -16,7 +16,7 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, nex
 from acausal.solve.integrate.march import March
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
-from acausal.solve.integrate.segment import passage
+from acausal.solve.integrate.segment import parted, passage
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 from acausal.solve.start.start import places_text
@@ -86,6 +86,9 @@ class Ahead:
         integrator = self.integrator
         way = integrator.settings.first(integrator.way, grid)
         leg = integrator.attempt(at, self.stride.looks(grid), way)
+        while isinstance(leg, Refusal) and leg.kind is Kind.UNFIT:
+            grid = parted(grid, leg.time)[0]
+            leg = integrator.attempt(at, self.stride.looks(grid), way)
         if isinstance(leg, Refusal):
             return self._otherwise(at, grid, leg)
         if not self.stride.is_enough(leg, grid):
@@ -122,7 +125,7 @@ class Ahead:
                 return Found(at)
             kept = march.keep(leg, crossing.after.time if crossing else np.inf)
             if kept:
-                self.step, self._march = march.step, None if crossing else march
+                self.step, self._march = march.step, None if crossing or march.unfit else march
                 return Found(at, kept, crossing)
             break
         return self._refused(at, end, march)
@@ -132,6 +135,9 @@ class Ahead:
         integrator, before = self.integrator, self.integrator.way.method
         self._march, careful = None, integrator.settings.careful
         refusal = march.refusal or Refusal(Kind.OTHER, at.time)
+        if march.unfit:
+            self.step = (refusal.time - at.time) / 2 or march.step
+            return Found(at)
         found = self._otherwise(at, self.stride.grid(at.time, end), refusal)
         if not integrator.loops or found.leg or found.due is not None:
             return found

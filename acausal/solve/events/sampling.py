@@ -16,6 +16,7 @@ from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
 from acausal.solve.integrate.flat import flat_time, passes_flat
+from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import at_once, error_test
@@ -72,6 +73,10 @@ class Sampling:
             )
         integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
+        passed = Rows.joined([Rows.of(at), rows])
+        unfit = unfit_time(integrator.problem, passed.times, passed.x, at.constants, at.time)
+        if unfit is not None and unfit < end:
+            return self.go(at, unfit)
         instants = np.isfinite(found.events)
         if not state.instants or not self._is_sure(at, rows, instants):
             if found.back is not Back.NO_INSTANT:

@@ -19,10 +19,13 @@ from acausal.solve.integrate.methods import METHODS, rounding
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.stateless import everywhere
 from acausal.solve.integrate.trace import Leg, Trace
+from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import refitted
 from acausal.solve.start.loop_states import choose_projection, chosen, least_cosine, suits, worn
+from acausal.solve.start.newton import algebraic
 
 
 class Integrator:
@@ -100,8 +103,18 @@ class Integrator:
         if not self.loops:
             return at
         if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
-            self._chosen = at, moves, self._suited(self.problem.projected(at), moves)
+            self._chosen = at, moves, self._suited(self._refitted(self.problem.projected(at)), moves)
         return self._chosen[2]
+
+    def _refitted(self, at: Point) -> Point:
+        """Return the point with other constraints kept, where those that are do not suit it."""
+        constants = refitted(self.problem, at)
+        if np.array_equal(constants.closures, at.constants.closures):
+            return at
+        self.trace.choices += 1
+        there = replace(at, constants=constants)
+        there = replace(there, constants=choose_projection(self.problem, there, spare=False, moves=True))
+        return algebraic(self.problem, self.problem.completed(there))
 
     def _suited(self, at: Point, moves: bool) -> Point:
         """Return the point with a projection that suits it: its own, if that moves along."""
@@ -140,7 +153,8 @@ class Integrator:
         if not c.nx:
             return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
         at = self.restarted(at, way.moves)
-        parts = -(-POLICY.calls.fine // (len(times) - 1)) if self.loops and not way.moves else 1
+        looked_at = self.loops and not (way.moves and (at.constants.all_count or METHODS[way.method].marches))
+        parts = -(-POLICY.calls.fine // (len(times) - 1)) if looked_at else 1
         works = works and self.settings.energy
         if works and not c.powers.is_zero():
             more = max(1, -(-POLICY.energy.rows // ((len(times) - 1) * parts)))
@@ -202,9 +216,11 @@ class Integrator:
     def _reached(self, integration: Integration, parts: int) -> Leg | None:
         """Return the rows that an integration had written before it ended, if they can be used."""
         found = reached(self.consistent, integration)
-        if found is None or self.is_worn(found.rows, found.constants) or len(found.rows) < parts:
+        if found is None or self.is_worn(found.rows, found.constants):
             return None
-        return found.every(parts)
+        unfit = unfit_time(self.problem, found.times, found.rows.x, found.constants, integration.request.at.time)
+        found = found if unfit is None else found.part(0, int(np.searchsorted(found.times, unfit)))
+        return found.every(parts) if len(found.rows) >= parts else None
 
     def settled(self, leg: Leg, integration: Integration, leaps: bool = False) -> Leg | Refusal:
         """Let the last row of a leg, whose arrays are its own, satisfy the equations, as the next call starts from it.

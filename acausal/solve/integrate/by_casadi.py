@@ -9,9 +9,11 @@ import numpy as np
 from acausal.compiler.dae import UNSEEN
 from acausal.policy import POLICY
 from acausal.solve.integrate.integration import Integration, Request
-from acausal.solve.integrate.ladder import Refusal, read
+from acausal.solve.integrate.ladder import Kind, Refusal, read
 from acausal.solve.integrate.one_step import first_step, sizes
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.integrate.unfit import unfit_time
+from acausal.solve.points import Rows
 
 CALLS = POLICY.calls
 
@@ -65,8 +67,19 @@ class ByCasadi(Integration):
     def go(self) -> Refusal | None:
         """Integrate to the end, or as far as possible."""
         done, said = self._call.attempt()
-        times = self.request.times
-        return None if done else read(said, times[0], times[-1])
+        request = self.request
+        unfit = self._unfit(request)
+        if unfit is not None:
+            return Refusal(Kind.UNFIT, unfit)
+        return None if done else read(said, request.times[0], request.times[-1])
+
+    def _unfit(self, request: Request) -> float | None:
+        """When other constraints are to be kept, as far as it came."""
+        if request.at.constants.all_count:
+            return None
+        rows = Rows.joined([Rows.of(request.at), self.leg().rows])
+        reached = np.isfinite(rows.x).all(axis=1)
+        return unfit_time(request.problem, rows.times[reached], rows.x[reached], request.at.constants, rows.times[0])
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

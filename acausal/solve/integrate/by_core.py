@@ -17,6 +17,7 @@ from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.problem import Problem
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
@@ -47,6 +48,7 @@ class ByCore(Integration):
         self.ended, self._keeps = False, loops or request.curves
         self._window, self._stride, self._crept = (0, 0, at.time), 0.0, 0
         self._again: ByCore | None = None
+        self._looks = POLICY.calls.few
         self._rodas = Rodas(equations)
         self._found = self._rodas.begin(
             *(request.times, at.x, at.z, problem.p, at.constants.vector),
@@ -105,6 +107,8 @@ class ByCore(Integration):
     def advance(self, steps: int) -> Refusal | None:
         """Take some steps at most, refused ones among them; where they are kept, as many as take some hundredths of a second."""
         steps = min(steps, self._at_once) if self._keeps else steps
+        if not self.request.at.constants.all_count:
+            steps, self._looks = min(steps, self._looks), 2 * self._looks
         if self._returns and self._rodas.progress.steps:
             self._return()
         end, time = self._rodas.go(steps, self._at_once), self._rodas.progress.time
@@ -113,6 +117,9 @@ class ByCore(Integration):
             rings = self.request.settings.rings(self._ringing.interval)
             self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
             self._ringing, end = None, End.MORE
+        unfit = self._unfit() if self._loops else None
+        if unfit is not None:
+            return Refusal(Kind.UNFIT, unfit)
         if self._loops and self._damps:
             self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
         elif self._loops and (
@@ -133,6 +140,11 @@ class ByCore(Integration):
         time, x, z = self._rodas.last
         there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z))
         self._rodas.move(there.x, there.z)
+
+    def _unfit(self) -> float | None:
+        """When, in the last steps, other constraints are to be kept."""
+        problem, times, y, constants = self._last_steps
+        return unfit_time(problem, times, y[:, : problem.nx], constants, self.request.times[0])
 
     def _passed_flat(self) -> bool:
         """Whether loops may have passed a flat position in the last steps."""

@@ -14,6 +14,7 @@ from acausal.solve.integrate.integration import Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.integrate.unfit import fit_rows
 from acausal.solve.looks import uneven
 from acausal.solve.points import Point, Rows
 
@@ -82,7 +83,10 @@ class March:
         return (self._counted - before).tolist()
 
     def leg(self, density: int) -> Leg | None:
-        """Return the last steps, with so many pairs of looks in each, and between two outputs; None if there are no steps."""
+        """Return the last steps, with so many pairs of looks in each, and between two outputs; None if there are none.
+
+        Only those in which the constraints that are kept stay fit.
+        """
         ends = self._curve.times
         if len(ends) == 1:
             return None
@@ -93,8 +97,9 @@ class March:
         energy, own = np.zeros((len(times), 2)), self.integrator
         if own.settings.energy and not own.compiled.powers.is_zero():
             energy = along(own.consistent, self.rows, times)
-        constants = self._integration.request.at.constants
-        return Leg(self.rows(times[1:]), energy[1:], constants, len(ends) - 1, self.rows)
+        constants, rows = self._integration.request.at.constants, self.rows(times[1:])
+        n = fit_rows(self.integrator.problem, rows, constants) if self.unfit else len(rows)
+        return Leg(rows[:n], energy[1 : n + 1], constants, len(ends) - 1, self.rows) if n else None
 
     def rows(self, times: np.ndarray) -> Rows:
         """Rows at times in the last steps, algebraic unknowns nearly right."""
@@ -129,6 +134,11 @@ class March:
         shown = np.concatenate([self._outputs, self._curve.times[:: LOOKS.steps_a_row], kept.times[-1:]])
         some = np.isin(kept.times, shown)
         return replace(kept, rows=kept.rows[some], energy=kept.energy[some])
+
+    @property
+    def unfit(self) -> bool:
+        """Whether other constraints are to be kept from the end of the last leg on."""
+        return self.refusal is not None and self.refusal.kind is Kind.UNFIT
 
     def withdrawn(self) -> Point:
         """Return where it began, and let nothing be kept of what it has integrated."""

@@ -28,6 +28,14 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
     if len(times) == 1:
         return at
     found = quickly(integrator, at, times)
+    while isinstance(found, Refusal) and found.kind is Kind.UNFIT:
+        head, rest = parted(times, found.time)
+        found = quickly(integrator, at, head)
+        if isinstance(found, Leg):
+            integrator.trace.add(found)
+            integrator.report(head[-1])
+            at, times = found.end(at), rest
+            found = quickly(integrator, at, times)
     if isinstance(found, Leg):
         integrator.trace.add(found)
         return found.end(at)
@@ -45,6 +53,14 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
             at = _creep(integrator, at, part, n, found)
         integrator.report(part[-1])
     return at
+
+
+def parted(times: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+    """Part some times at one of them that is a rounding error away, or at a time between them."""
+    near = times[np.argmin(np.abs(times - time))]
+    if times[0] < near < times[-1] and abs(near - time) <= POLICY.calls.here * (times[-1] - times[0]):
+        time = near
+    return np.append(times[times < time], time), np.append(time, times[times > time])
 
 
 def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | Refusal:

@@ -13,6 +13,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import refitted
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import InitialSystem
@@ -35,8 +36,12 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     if not mismatch <= LOOPS.closed:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)
-    counts = np.array([k not in redundancy.dropped for k in problem.compiled.constraints.closures], dtype=float)
+    closures = problem.compiled.constraints.closures
+    counts = np.array([k not in redundancy.dropped for k in closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
+    closed = replace(closed, constants=refitted(problem, closed))
+    left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
+    redundancy = replace(redundancy, dropped=tuple(sorted(left | set(redundancy.dropped) - set(closures))))
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
 
 

@@ -15,6 +15,7 @@ from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import droppable
 from acausal.solve.start.loops import close
 from acausal.solve.start.parts import Part, part_of, parts, parts_of
 from acausal.solve.start.rank import is_regular, null_space, pivots, rank, scaled
@@ -70,9 +71,9 @@ def lowest(compiled: CompiledModel) -> tuple[Part, list[Part]]:
 
 def _weight(compiled: CompiledModel) -> np.ndarray:
     """Those that cannot be dropped come first."""
-    closures, c = compiled.reduced.flat.loops.closures, compiled.constraints
+    c = compiled.constraints
     weight = np.full(len(c.rows), RANKS.kept)
-    weight[[c.closures[k] for k, closure in enumerate(closures) if not closure.dual.is_constant()]] = 1.0
+    weight[np.array(c.closures, dtype=int)[droppable(compiled)]] = 1.0
     return weight
 
 
@@ -85,11 +86,12 @@ def _surplus(part: Part, rows: np.ndarray, weight: np.ndarray) -> list[int]:
     return part.rows[order[independent:]].tolist()
 
 
-def is_singular(problem: Problem, at: Point, redundancy: Redundancy) -> bool:
+def is_singular(problem: Problem, at: Point) -> bool:
     """Whether constraints that are independent elsewhere are nearly dependent in a position."""
-    if not problem.compiled.constraints.size:
+    c = problem.compiled.constraints
+    if not c.size:
         return False
-    held = np.delete(problem.compiled.constraints.lowest, redundancy.dropped)
+    held = c.lowest[c.counting(at.constants.closures)[c.lowest]]
     J = problem.gradients(at)[held].tocsc()
     return not all(is_regular(part.sparse(J.data), RANKS.beside) for part in parts_of(J))
 

@@ -1,0 +1,116 @@
+"""Where constraints follow from one another in turns, others are kept on the way, whatever the method."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.solve.points import Rows
+from acausal.solve.problem import Problem
+from acausal.solve.start.kept import fitness, kept_again
+from acausal.solve.start.start import start
+from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, TwoCranks, energies
+from tests.hard.measure import within
+
+STARTS = [(0.8, False), (2.0, False), (4.0, True)]
+pytestmark = pytest.mark.filterwarnings("error::acausal.AcausalWarning")
+
+
+def bennett(begins: float, askew: bool) -> Bennett:
+    return Bennett(begins=begins, turned=ASKEW if askew else np.eye(3))
+
+
+def off(begins: float, askew: bool, result: ac.Result) -> tuple[float, float]:
+    """How far joints are from Bennett's relation in rad, and the speed from what energy says, over the fastest."""
+    first = begins + result["joint[0].phi"]
+    other = result["joint[1].phi"] - result["joint[1].phi"][0] + 2 * np.arctan(RATIO / np.tan(begins / 2))
+    apart = np.abs(np.sin(first / 2) * np.sin(other / 2) - RATIO * np.cos(first / 2) * np.cos(other / 2)).max()
+    found = np.array([energies(angle, (ASKEW.T if askew else np.eye(3)) @ [0, -1, 0]) for angle in first])
+    energy = found[0, 0] * SPEED**2 + found[0, 1]
+    speeds = np.sqrt(np.maximum(energy - found[:, 1], 0) / found[:, 0])
+    return float(apart), float(np.abs(np.abs(result["joint[0].w"]) - speeds).max() / speeds.max())
+
+
+@pytest.mark.parametrize(("begins", "askew"), STARTS)
+@pytest.mark.parametrize(
+    ("how", "bound"),
+    [
+        ({"method": "auto", "tolerance": 1e-4}, 1e-3),
+        ({"method": "auto", "tolerance": 1e-7}, 1e-5),
+        ({"method": "rosenbrock", "tolerance": 1e-7}, 1e-5),
+        ({"method": "auto", "tolerance": 1e-7, "constraints": "states"}, 1e-5),
+        pytest.param({"method": "idas", "tolerance": 1e-7}, 1e-3, marks=pytest.mark.slow),
+        pytest.param({"method": "resolve", "tolerance": 1e-7}, 1e-3, marks=pytest.mark.slow),
+        pytest.param({"method": "idas", "tolerance": 1e-7, "constraints": "projection"}, 1e-3, marks=pytest.mark.slow),
+    ],
+)
+def test_bennett_moves_as_its_geometry_and_energy_say(begins: float, askew: bool, how: Any, bound: float) -> None:
+    result = ac.simulate(bennett(begins, askew), stop_time=3.0, intervals=300, energy=True, **how)
+    apart, speed = off(begins, askew, result)
+    within("Bennett's relation", apart, 1e-6)
+    within("speed, over the fastest", speed, bound)
+    assert result.stats.choices > 1
+    if how["method"] == "auto":
+        assert result.stats.method == "rosenbrock"
+    # What forces in the linkage bear depends on which are 0; no choice makes one of them large. With one: 4e4 N.
+    forces = np.concatenate([np.abs(result[f"joint[{k}].frame_a.f"]).max(axis=1) for k in range(4)])
+    within("force of a joint, N", float(forces.max()), 100.0)
+    # Together they bear what moves.
+    ends = [result[f"link[{k}].a_0"] for k in range(3)]
+    borne = MASS * (ends[0] / 2 + ends[1] + ends[2] + 3 * GRAVITY * np.array([0, 1, 0]))
+    given = -result["world.frame_b.f"] - result["end.frame_b.f"]
+    within("force on the ground, over the greatest", float(np.abs(given - borne).max() / np.abs(borne).max()), 1e-6)
+
+
+def test_events_are_those_of_the_motion() -> None:
+    """The linkage is looked at after some steps, and begins anew at each event."""
+    model = bennett(4.0, True)
+    for how in ({"method": "auto", "tolerance": 1e-4}, {"method": "auto", "energy": True}, {"method": "idas"}):
+        result = ac.simulate(model, stop_time=3.0, intervals=300, **how)
+        risen = np.sin(result["joint[0].phi"]) > 0.3
+        assert result["crossings"][-1] == np.sum(risen[1:] & ~risen[:-1])
+        apart, speed = off(4.0, True, result)
+        within("Bennett's relation", apart, 1e-6)
+        within("speed, over the fastest", speed, 2e-3)
+        forces = np.concatenate([np.abs(result[f"joint[{k}].frame_a.f"]).max(axis=1) for k in range(4)])
+        within("force of a joint, N", float(forces.max()), 100.0)
+
+
+@pytest.mark.parametrize("method", ["auto", "rosenbrock", pytest.param("idas", marks=pytest.mark.slow)])
+def test_a_second_crank_changes_nothing(method: str) -> None:
+    how: Any = {"stop_time": 5.0, "intervals": 200}
+    exact = ac.simulate(OneCrank(), tolerance=1e-10, **how)
+    for tolerance in (1e-4, 1e-6, 1e-8):
+        found = ac.simulate(TwoCranks(), method=method, tolerance=tolerance, **how)
+        assert found.stats.method == ("idas" if method == "idas" else "rosenbrock")
+        error = float(np.abs(found["bearing.phi"] - exact["bearing.phi"]).max())
+        within(f"crank at {tolerance:g}, tolerances", error / tolerance, 2e4 if method == "idas" else 2000)
+        within("cranks apart, rad", float(np.abs(found["bearing.phi"] - found["foot.phi"]).max()), 1e-9)
+        across = np.eye(3) - np.outer(OneCrank.axis, OneCrank.axis)
+        forces, expected = found["rocker.frame_b.f"] @ across, exact["rocker.frame_b.f"] @ across
+        largest = np.abs(expected).max()
+        within("force of the rocker, tolerances", float(np.abs(forces - expected).max() / largest / tolerance), 1e5)
+
+
+def test_what_is_kept_is_independent() -> None:
+    """How well constraints are kept is what singular values of all choices say; what is kept again is among the best."""
+    compiled = ac.compile(Bennett())
+    problem = Problem(compiled, compiled.parameter_values(None))
+    at = start(problem, 0.0, 1.0, "fixed").point
+    rows, closures = Rows.of(at), len(at.constants.closures)
+    chosen = [np.isin(np.arange(closures), kept).astype(float) for kept in combinations(range(closures), 3)]
+    found = [float(fitness(problem, rows.times, rows.x, replace(at.constants, closures=kept))[0]) for kept in chosen]
+    J = problem.gradients(at)[compiled.constraints.lowest].toarray().reshape(2, 3, -1)
+    J = (J / np.linalg.norm(J, axis=2).max(axis=1)[:, None, None]).reshape(6, -1)
+    kept = [np.linalg.svd(J[on > 0], compute_uv=False)[-1] for on in chosen]
+    np.testing.assert_allclose(np.array(found) * np.linalg.svd(J, compute_uv=False)[2], kept, atol=1e-7)
+    worst = replace(at.constants, closures=chosen[int(np.argmin(found))])
+    again = kept_again(problem, rows, worst)
+    assert np.sum(again.closures) == 3
+    assert fitness(problem, rows.times, rows.x, again)[0] > 0.7 * max(found)
+    assert fitness(problem, rows.times, rows.x, replace(worst, closures=np.ones(closures)))[0] == 1
