@@ -115,3 +115,50 @@ class TwoCranks(OneCrank):
     def carried(self):
         yield chain(self.world, self.out, self.foot, self.second, self.head, self.back.frame_b)
         yield connect(self.back.frame_a, self.coupler.frame_a)
+
+
+def askew(*way: float) -> tuple[float, ...]:
+    """Turn a direction out of all planes."""
+    return tuple(ASKEW @ way)
+
+
+class Row(Model):
+    """N four-bars in a row, coupled, in a plane across a skewed axis: three constraints of each are redundant."""
+
+    N: int = structural("number of couplers", default=34)
+    world = World(g=GRAVITY, n=askew(0, -1, 0))
+
+    @parts
+    def ground(self):
+        """Where uprights stand, 1 m apart."""
+        return [FixedTranslation(r=askew(i, 0, 0)) for i in range(self.N + 1)]
+
+    @parts
+    def foot(self):
+        """Joints of the uprights; the first one holds the start."""
+        hinge = Revolute(n=askew(0, 0, 1), phi=fixed(0.3), w=fixed(-1))
+        return [hinge, *(Revolute(n=askew(0, 0, 1), phi=guess(0.3)) for _ in range(self.N))]
+
+    @parts
+    def upright(self):
+        """Uprights, each longer than the one before, so that none lies flat with the next."""
+        ends = [askew(0, 1 + 0.02 * i, 0) for i in range(self.N + 1)]
+        return [BodyShape(r=end, r_CM=askew(0, 0.5, 0), m=1, I=0.1 * np.eye(3)) for end in ends]
+
+    @parts
+    def pin(self):
+        """Joints of the couplers."""
+        return [Revolute(n=askew(0, 0, 1), phi=guess(-0.3 if i % 2 == 0 else 0.3)) for i in range(2 * self.N)]
+
+    @parts
+    def coupler(self):
+        """Couplers."""
+        way, centre = askew(1, 0.02, 0), askew(0.5, 0, 0)
+        return [BodyShape(r=way, r_CM=centre, m=1, I=0.1 * np.eye(3)) for _ in range(self.N)]
+
+    def connections(self):
+        for one in zip(self.ground, self.foot, self.upright, strict=True):
+            yield chain(self.world, *one)
+        for i, coupler in enumerate(self.coupler):
+            left, right = self.pin[2 * i : 2 * i + 2]
+            yield chain(self.upright[i], left, coupler, right, self.upright[i + 1].frame_b)

@@ -14,7 +14,7 @@ from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.kept import fitness, kept_again
 from acausal.solve.start.start import start
-from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, TwoCranks, energies
+from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, Row, TwoCranks, energies
 from tests.hard.measure import within
 
 STARTS = [(0.8, False), (2.0, False), (4.0, True)]
@@ -114,3 +114,31 @@ def test_what_is_kept_is_independent() -> None:
     assert np.sum(again.closures) == 3
     assert fitness(problem, rows.times, rows.x, again)[0] > 0.7 * max(found)
     assert fitness(problem, rows.times, rows.x, replace(worst, closures=np.ones(closures)))[0] == 1
+
+
+def test_a_large_mechanism_keeps_what_is_independent() -> None:
+    """What is kept of more than 100 constraints stays fit, and a choice that is not is mended."""
+    compiled = ac.compile(Row())
+    result = ac.simulate(compiled, stop_time=0.6, tolerance=1e-6, intervals=30, energy=True)
+    assert result.stats.method == "rosenbrock"
+    assert result.stats.choices == 0
+    assert abs(result.stats.energy_method) < 1e-4
+    problem = Problem(compiled, compiled.parameter_values(None))
+    at = start(problem, 0.0, 1.0, "fixed").point
+    rows, right = Rows.of(at), at.constants.closures
+    assert np.sum(right) > 100
+    J = problem.gradients(at)[compiled.constraints.lowest].toarray()
+    J /= np.linalg.norm(J.reshape(-1, 3, J.shape[1]), axis=2).max(axis=1).repeat(3)[:, None]
+    shares = np.linalg.lstsq(J[right > 0].T, J[right == 0].T, rcond=None)[0]
+    found = fitness(problem, rows.times, rows.x, at.constants)[0]
+    assert found == pytest.approx((1 + np.linalg.norm(shares, 2) ** 2) ** -0.5, rel=1e-2)
+    wrong = right.copy()
+    wrong[[np.flatnonzero(right)[0], np.flatnonzero(right == 0)[-1]]] = (
+        0,
+        1,
+    )  # one of the first loop for one of the last
+    unfit = replace(at.constants, closures=wrong)
+    assert fitness(problem, rows.times, rows.x, unfit)[0] < 0.5 * found
+    again = kept_again(problem, rows, unfit)
+    assert np.sum(again.closures) == np.sum(right)
+    assert fitness(problem, rows.times, rows.x, again)[0] > 0.9 * found

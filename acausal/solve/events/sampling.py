@@ -16,11 +16,11 @@ from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
 from acausal.solve.integrate.flat import flat_time, passes_flat
-from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
+from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.start.newton import terms

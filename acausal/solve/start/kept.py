@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
@@ -27,7 +28,8 @@ RANKS = POLICY.ranks
 def sharpness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
     """Smallest singular value of the constraints of each part, 0 in a flat position, at n points: shape (m, n).
 
-    Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0 elsewhere.
+    Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0 elsewhere;
+    in large mechanisms that of the kept ones.
 
     Parameters
     ----------
@@ -39,25 +41,24 @@ def sharpness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Con
         Those of the segment.
     """
     held = _in_sizes(problem, times, x, constants)
-    found = [
-        _smallest(part, held, on | spare, int(np.sum(on))) for part, on, spare in _rows(problem, constants) if on.any()
-    ]
+    found = [_smallest(part, held, on, spare) for part, on, spare in _rows(problem, constants) if on.any()]
     return np.array(found).reshape(len(found), len(times))
 
 
 def fitness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
     """How well the constraints that are kept hold the others, at n points: 1 is best, 0 is not at all; shape (n,).
 
-    It is the smallest singular value of the kept ones over that of all, see `sharpness`.
+    It is the smallest singular value of the kept ones over that of all, see `sharpness`, or in large mechanisms, where the
+    others are X times the kept ones, 1 / sqrt(1 + |X|^2).
     """
     found, spared = np.ones(len(times)), [rows for rows in _rows(problem, constants) if rows[2].any() and rows[1].any()]
     held = _in_sizes(problem, times, x, constants) if spared else found
     for part, on, spare in spared:
-        n = int(np.sum(on))
-        if n > RANKS.small:
+        if np.sum(on) > RANKS.small:
             own = np.array([_spanning(part, held[k], on, spare) for k in range(len(held))])
         else:
-            own = _smallest(part, held, on, n) / np.maximum(_smallest(part, held, on | spare, n), np.finfo(float).tiny)
+            own, all_ = (_smallest(part, held, on, others) for others in (np.zeros_like(spare), spare))
+            own = own / np.maximum(all_, np.finfo(float).tiny)
         found = np.fmin(found, own)
     return found
 
@@ -115,24 +116,27 @@ def _rows(problem: Problem, constants: Constants) -> list[tuple[Part, np.ndarray
     ]
 
 
-def _smallest(part: Part, held: np.ndarray, on: np.ndarray, n: int) -> np.ndarray:
-    """Least of the n largest singular values of some rows of a part, to 1e-8: the roots of eigenvalues of A A', or of A' A."""
+def _smallest(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> np.ndarray:
+    """Least of as many singular values of rows of a part as are kept, to 1e-8: roots of eigenvalues of A A', or of A' A."""
+    n = int(np.sum(on))
     if n > RANKS.small:
         return np.array([least_singular_value(part.sparse(row)[on]) for row in held])
-    A = part.dense(held)[:, on]
+    A = part.dense(held)[:, on | spare]
     turned = A.transpose(0, 2, 1)
     square = A @ turned if A.shape[1] <= A.shape[2] else turned @ A
     return np.sqrt(np.maximum(np.linalg.eigvalsh(square)[:, max(square.shape[1] - n, 0)], 0.0))
 
 
 def _spanning(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> float:
-    """Of many rows: 1 / sqrt(1 + |X|^2), where the others are X times the kept ones: at most as much as by singular values."""
+    """Of many rows: 1 / sqrt(1 + |X|^2), where the others are X times the kept ones; 0 where these are not independent."""
     rows = part.sparse(held)
     inverse = gram(rows[on], RANKS.rank)
     if inverse is None:
         return 0.0
     X = inverse((rows[on] @ rows[spare].T).toarray())
-    return float(1 / np.sqrt(1 + np.sum(X**2)))
+    options = {"return_singular_vectors": False, "v0": np.cos(np.arange(min(X.shape))), "tol": POLICY.loops.angles}
+    most = scipy.sparse.linalg.svds(X, 1, **options)[0] if min(X.shape) > 1 else np.linalg.norm(X)
+    return float(1 / np.sqrt(1 + most**2))
 
 
 def _in_sizes(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
