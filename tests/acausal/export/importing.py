@@ -15,10 +15,11 @@ from acausal.export import export_fmu
 from models import SCENES
 from tests.acausal.core.stored import SPANS
 from tests.acausal.export.hybrid import Ball, Hybrid
+from tests.hard.bennett import Bennett
 from tests.shared import compiled
 
 EXCHANGE, SIMULATION = range(2)
-RUNS = (*SCENES, "ball", "hybrid")
+RUNS = (*SCENES, "ball", "hybrid", "bennett")
 # Communication points; of a part of each scene, and steps of Heun's method that the fastest beam allows.
 POINTS = 20
 QUICKEST = 1e-7
@@ -37,7 +38,7 @@ class Unit:
 @cache
 def unit(name: str, version: int, folder: Path) -> Unit:
     """Export a scene, and take it apart."""
-    made = {"ball": Ball, "hybrid": lambda: Hybrid(wanted=0.4)}
+    made = {"ball": Ball, "hybrid": lambda: Hybrid(wanted=0.4), "bennett": Bennett}
     path = folder / f"{name}{version}.fmu"
     export_fmu(made[name]() if name in made else compiled(SCENES[name]), path, fmi_version=version)
     with zipfile.ZipFile(path) as archive:

@@ -49,7 +49,7 @@ def test_a_hundred_instances_under_the_sanitisers(
 
 @pytest.mark.parametrize("version", [2, 3])
 @pytest.mark.parametrize("kind", [EXCHANGE, SIMULATION])
-@pytest.mark.parametrize("name", ["simple-pendulum", "four-bar", "hybrid"])
+@pytest.mark.parametrize("name", ["simple-pendulum", "four-bar", "hybrid", "bennett"])
 def test_a_hundred_instances_leave_no_memory_behind(
     name: str, kind: int, version: int, plain: list[str], folder: Path
 ) -> None:
