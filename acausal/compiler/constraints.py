@@ -46,6 +46,8 @@ class Constraints:
         Function of x, z, p, time and constants: where the constraints have these.
     entries : array of int, shape (2, n)
         Residual and state of each entry of D.
+    kept : array of int, shape (2, n)
+        Coordinates among the algebraic unknowns, and the states that stand for them.
     pattern : csc_matrix, shape (size, nx)
         Sparsity of the Jacobian: all its entries are 0.
     """
@@ -91,7 +93,7 @@ class Constraints:
         same = [
             (algebraic[q.coordinate], states[q.state]) for q in constrained.projections if q.coordinate in algebraic
         ]
-        self._kept = np.array(same, dtype=int).reshape(-1, 2).T
+        self.kept = np.array(same, dtype=int).reshape(-1, 2).T
         self.places = [states[p.state] for p in constrained.projections]
 
     def __call__(
@@ -159,5 +161,5 @@ class Constraints:
         """Return the algebraic unknowns with all those in place that follow from the states."""
         z = z.copy()
         z[self._follows] = self._following(x, p, t, constants)[0]
-        z[self._kept[0]] = x[self._kept[1]]
+        z[self.kept[0]] = x[self.kept[1]]
         return z

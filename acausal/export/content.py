@@ -24,7 +24,7 @@ from acausal.solve.start.loops import levels
 from acausal.solve.start.reach import reaches
 from acausal.symbols import dense, picked, scalars, stacked
 
-VERSION = 4
+VERSION = 5
 
 
 def watched(compiled: CompiledModel, given: Given) -> list[int]:
@@ -100,6 +100,7 @@ class Content:
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
+            "followat": ints(c.multipliers) + ints(c.kept.T.ravel()),
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),

@@ -84,6 +84,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
         const int32_t kind = kind_of(i, reference[k], &place);
         if (entry < 0 && kind != SETTING) {
             *(kind == TIME ? &i->now.time : i->x + place) = value[k];
+            if (kind != TIME) ac_follow_states(i);
             ac_moved(i);
         } else if (kind == SETTING) {
             *setting(i, place) = value[k];
@@ -186,6 +187,7 @@ int32_t ac_set_states(ac_instance *i, const double *x) {
     if (!ac_all_finite(x, nx)) return ac_fail(i, AC_RETRY, "a state is no finite number.");
     if (nx && memcmp(i->x, x, (size_t)nx * sizeof *x)) {
         memcpy(i->x, x, (size_t)nx * sizeof *x);
+        ac_follow_states(i);
         ac_moved(i);
     }
     return AC_OK;

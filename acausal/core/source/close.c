@@ -1,19 +1,23 @@
-/* Close loops after a jump: the least change of the states, over their sizes, for which the constraints hold. */
+/* Close loops after a jump: the states change by little, over their sizes, until the constraints hold; as `descent.py`. */
 #include "instance.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define TRIES 30        /* Gauss-Newton steps of a level */
+#define EVALUATIONS 200 /* of a level */
+#define ENDS 1e-15      /* relative change of the states at which a level is done */
+#define DAMPING 0.1     /* of the first step, over the greatest square of a row, as in Python */
+#define ROUNDING 1e-14  /* the least: rows that follow from others leave rounding */
 #define CLOSED 1e-9     /* of what sizes of the states change in a constraint, as in Python */
-#define INDEPENDENT 1e-7 /* of a row: less is left where it follows from the others */
 
-/* One level: matrix A of rows by states over their sizes, residuals, and the rows that count. */
+/* One level: residuals r and their matrix A of rows by states over their sizes, both over the sizes of the equations; the same
+   where a step h leads; S = A A' + damping, and what solves it. */
 typedef struct {
     int32_t m, n;
-    int32_t *row, *column;
-    double *A, *r, *y, *Q; /* (m, n), (m), (m), (m, n) */
+    const int32_t *row;
+    int32_t *column;
+    double *A, *r, *size, *S, *y, *h, *before, *B, *q;
 } closing;
 
 /* Rows of a level that count: redundant ones do not. Returns how many. */
@@ -44,64 +48,110 @@ const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, cons
     return w;
 }
 
-static void fill(ac_instance *i, closing *c) {
-    const double *w = ac_constraints(i, c->row, c->m, c->column, c->n, c->A);
-    for (int32_t a = 0; a < c->m; a++) c->r[a] = w[i->of->tape[AC_CLOSING].output[c->row[a]]];
-}
-
 static double dot(const double *a, const double *b, int32_t n) {
     double sum = 0;
     for (int32_t k = 0; k < n; k++) sum += a[k] * b[k];
     return sum;
 }
 
-/* The step of least norm with A step = -r, into y of length n: Gram and Schmidt on the rows, twice. */
-static void least(closing *c, double *step) {
-    memset(step, 0, (size_t)c->n * sizeof *step);
+/* Evaluate at the present. */
+static void fill(ac_instance *i, closing *c) {
+    const double *w = ac_constraints(i, c->row, c->m, c->column, c->n, c->A);
     for (int32_t a = 0; a < c->m; a++) {
-        double *q = c->Q + a * c->n;
-        const double *row = c->A + a * c->n;
-        const double size = sqrt(dot(row, row, c->n));
-        memcpy(q, row, (size_t)c->n * sizeof *q);
-        c->y[a] = 0;
-        for (int twice = 0; twice < 2; twice++) {
-            for (int32_t b = 0; b < a; b++) {
-                const double *other = c->Q + b * c->n, along = dot(q, other, c->n);
-                for (int32_t k = 0; k < c->n; k++) q[k] -= along * other[k];
-            }
+        c->r[a] = w[i->of->tape[AC_CLOSING].output[c->row[a]]] / c->size[a];
+        for (int32_t k = 0; k < c->n; k++) {
+            const int32_t j = c->column[k];
+            c->A[a * c->n + k] *= i->of->nominal[j] / i->of->reach[j] / c->size[a];
         }
-        const double left = sqrt(dot(q, q, c->n));
-        if (!(left > INDEPENDENT * size)) {
-            memset(q, 0, (size_t)c->n * sizeof *q);
-            continue;
-        }
-        for (int32_t k = 0; k < c->n; k++) q[k] /= left;
-        /* What the steps so far leave of this row's residual goes along its own direction. */
-        const double along = (-c->r[a] - dot(row, step, c->n)) / dot(row, q, c->n);
-        for (int32_t k = 0; k < c->n; k++) step[k] += along * q[k];
     }
 }
 
-/* Largest residual over what sizes of the states change in it. */
-static double mismatch(const closing *c) {
-    double most = 0, size = 0;
-    for (int32_t a = 0; a < c->m; a++) size = fmax(size, sqrt(dot(c->A + a * c->n, c->A + a * c->n, c->n)));
-    for (int32_t a = 0; a < c->m; a++) most = fmax(most, fabs(c->r[a]));
-    return size > 0 ? most / size : most;
-}
-
-static int32_t close_level(ac_instance *i, closing *c, double *step) {
-    double before = INFINITY;
-    for (int tries = 0; tries < TRIES; tries++) {
-        fill(i, c);
-        const double now = mismatch(c);
-        if (!(now < before) || now == 0) break;
-        before = now;
-        least(c, step);
-        for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] += step[k] * i->of->reach[c->column[k]];
+/* Sizes of the equations: rows of one have one, as one of them may vanish by itself. */
+static void size_up(ac_instance *i, closing *c) {
+    const int32_t *kind = i->of->kind;
+    double any = 0;
+    for (int32_t a = 0; a < c->m; a++) c->size[a] = 1;
+    fill(i, c);
+    for (int32_t a = 0; a < c->m; a++) {
+        c->y[a] = sqrt(dot(c->A + a * c->n, c->A + a * c->n, c->n));
+        any = fmax(any, c->y[a]);
+    }
+    for (int32_t a = 0; a < c->m; a++) {
+        double most = 0;
+        for (int32_t b = 0; b < c->m; b++) most = kind[c->row[a]] == kind[c->row[b]] ? fmax(most, c->y[b]) : most;
+        c->size[a] = most > 0 ? most : any > 0 ? any : 1;
     }
     fill(i, c);
-    return mismatch(c) <= CLOSED ? AC_OK : ac_fail(i, AC_FAILED, "closed loops do not close after a jump.");
+}
+
+/* The step h = -A'(A A' + damping)^-1 r; 0 where rounding hides it. */
+static int step(closing *c, double damping) {
+    const int32_t m = c->m, n = c->n;
+    for (int32_t a = 0; a < m; a++) {
+        for (int32_t b = 0; b <= a; b++) {
+            double left = dot(c->A + a * n, c->A + b * n, n) + (a == b ? damping : 0) - dot(c->S + a * m, c->S + b * m, b);
+            if (a == b && !(left > 0)) return 0;
+            c->S[a * m + b] = a == b ? sqrt(left) : left / c->S[b * m + b];
+        }
+        c->y[a] = (c->r[a] - dot(c->S + a * m, c->y, a)) / c->S[a * m + a];
+    }
+    memset(c->h, 0, (size_t)n * sizeof *c->h);
+    for (int32_t a = m - 1; a >= 0; a--) {
+        c->y[a] /= c->S[a * m + a];
+        for (int32_t b = 0; b < a; b++) c->y[b] -= c->S[a * m + b] * c->y[a];
+        for (int32_t k = 0; k < n; k++) c->h[k] -= c->A[a * n + k] * c->y[a];
+    }
+    return 1;
+}
+
+static void move(ac_instance *i, const closing *c) {
+    for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] = c->before[k] + c->h[k] * i->of->nominal[c->column[k]];
+}
+
+/* Levenberg's and Marquardt's iteration (Madsen, Nielsen and Tingleff 2004, algorithm 3.16). */
+static int32_t close_level(ac_instance *i, closing *c) {
+    const size_t size = (size_t)c->m * (size_t)c->n * sizeof *c->A;
+    double damping = 0, growth = 2, most = 0, worst = 0;
+    size_up(i, c);
+    for (int32_t a = 0; a < c->m; a++) damping = fmax(damping, dot(c->A + a * c->n, c->A + a * c->n, c->n));
+    most = damping, damping *= DAMPING;
+    for (int tries = 0; tries < EVALUATIONS && most > 0; tries++) {
+        const double now = dot(c->r, c->r, c->m);
+        double far = 0, long_ = 0, expected = 0;
+        for (int32_t k = 0; k < c->n; k++) c->before[k] = i->x[c->column[k]];
+        if (!step(c, damping)) {
+            damping *= growth, growth *= 2;
+            continue;
+        }
+        for (int32_t k = 0; k < c->n; k++) {
+            double slope = 0;
+            for (int32_t a = 0; a < c->m; a++) slope += c->A[a * c->n + k] * c->r[a];
+            expected += c->h[k] * (damping * c->h[k] - slope);
+            far += c->h[k] * c->h[k], long_ += pow(c->before[k] / i->of->nominal[c->column[k]], 2);
+        }
+        if (!(far > ENDS * ENDS * long_)) break;
+        memcpy(c->B, c->A, size), memcpy(c->q, c->r, (size_t)c->m * sizeof *c->q);
+        move(i, c);
+        fill(i, c);
+        const double gain = (now - dot(c->r, c->r, c->m)) / expected;
+        if (gain > 0) {
+            damping = fmax(damping * fmax(1.0 / 3, 1 - pow(2 * gain - 1, 3)), ROUNDING * most), growth = 2;
+        } else {
+            memset(c->h, 0, (size_t)c->n * sizeof *c->h);
+            move(i, c);
+            memcpy(c->A, c->B, size), memcpy(c->r, c->q, (size_t)c->m * sizeof *c->q);
+            damping *= growth, growth *= 2;
+        }
+    }
+    for (int32_t a = 0; a < c->m; a++) worst = fmax(worst, c->r[a] == c->r[a] ? fabs(c->r[a]) : INFINITY);
+    return worst <= CLOSED ? AC_OK : ac_fail(i, AC_FAILED, "closed loops do not close after a jump.");
+}
+
+/* Coordinates where the states have them, and multipliers 0: from others an iteration may come to other positions. */
+void ac_follow_states(ac_instance *i) {
+    const ac_unit *u = i->of;
+    for (int32_t k = 0; k < u->constraints; k++) i->z[u->multiplier[k]] = 0;
+    for (int32_t k = 0; k < u->standing; k++) i->z[u->stands[2 * k]] = i->x[u->stands[2 * k + 1]];
 }
 
 /* Close all loops; states that are held stay. */
@@ -110,23 +160,23 @@ int32_t ac_close(ac_instance *i, const double *held) {
     int32_t failed = AC_OK;
     for (int32_t level = 0; level < u->levels && !failed; level++) {
         const ac_level *l = &u->level[level];
-        closing c = {0};
-        const size_t size = (size_t)l->rows * (size_t)l->columns;
-        double *memory = calloc(2 * size + 2 * (size_t)l->rows + (size_t)l->columns + 1, sizeof *memory);
-        int32_t *places = calloc((size_t)l->rows + (size_t)l->columns + 1, sizeof *places);
+        const size_t m = (size_t)l->rows, n = (size_t)l->columns;
+        double *memory = calloc(2 * m * n + m * m + 4 * m + 2 * n + 1, sizeof *memory);
+        int32_t *places = calloc(n + 1, sizeof *places);
         if (memory && places) {
-            c.row = places, c.column = places + l->rows;
-            c.A = memory, c.Q = c.A + size, c.r = c.Q + size, c.y = c.r + l->rows;
-            c.m = ac_counting(i, l, c.row);
+            closing c = {.m = l->rows, .row = l->row, .column = places, .A = memory};
+            c.B = c.A + m * n, c.S = c.B + m * n, c.r = c.S + m * m, c.size = c.r + m, c.y = c.size + m, c.q = c.y + m;
+            c.h = c.q + m, c.before = c.h + n;
             for (int32_t k = 0; k < l->columns; k++) {
                 if (!held[l->column[k]]) c.column[c.n++] = l->column[k];
             }
-            failed = close_level(i, &c, c.y + l->rows);
+            failed = close_level(i, &c);
         } else {
             failed = ac_fail(i, AC_FAILED, "there is not enough memory.");
         }
         free(memory), free(places);
     }
+    ac_follow_states(i);
     ac_moved(i);
     return failed;
 }

@@ -49,6 +49,8 @@ struct ac_unit {
     const int32_t *closure;                 /* (constraints) closure that a constraint belongs to, or -1 */
     const int32_t *kind;                    /* (constraints) those of one equation have one number */
     const int32_t *coordinate;              /* states that are projected, as many as the tape has outputs */
+    const int32_t *multiplier, *stands;     /* (constraints) places among z; (standing, 2) places of coordinates among z, and of their states */
+    int32_t standing;
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
     const double *nominal, *reach, *size;   /* (nx + nz); (nx) where they close loops, see `reach.py`; (nz) below which changes are rounding, see `settle.c` */
@@ -124,6 +126,7 @@ int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt,
                 double *found);
 int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
 int32_t ac_close(ac_instance *i, const double *held);
+void ac_follow_states(ac_instance *i);                          /* guesses of coordinates where the states have them */
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
 const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);
 int32_t ac_initial(ac_instance *i);

@@ -234,8 +234,10 @@ static int32_t go(ac_instance *i, double to, int32_t early, int32_t *event) {
             failed = refuse_flat(i);
             if (!failed) failed = ac_refuse_jump(i);
             if (!failed) failed = locate(i);
-            ac_stand(i, i->now.to);
-            if (!failed && ac_is_unfit(i)) i->now.integrates = 0;
+            if (!failed && i->of->levels) {
+                ac_stand(i, i->now.to);
+                if (ac_is_unfit(i)) i->now.integrates = 0;
+            }
             ac_stand(i, time);
             i->now.looked = !failed;
             /* A step in which nothing could be looked at is not taken. */

@@ -5,17 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 4
+#define VERSION 5
 
 enum {
     LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
-    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, BOUNDS, LIMITED,
+    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
     DAMPED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
     "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits",
-    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "bounds", "limited", "damped", "nominal", "natural",
+    "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
     "token",
 };
 
@@ -115,6 +115,14 @@ static int read_closing(const ac_section *found, ac_unit *u) {
     u->closure = integers(found[CLOSURES], u->constraints);
     u->coordinate = integers(found[COORDINATES_TO], u->tape[AC_COORDINATES].outputs);
     u->kind = integers(found[KINDS], u->constraints);
+    ac_section follow = found[FOLLOW_AT];
+    u->multiplier = ac_take(&follow, u->constraints, sizeof *u->multiplier);
+    u->standing = (int32_t)(follow.left / (2 * sizeof *u->stands));
+    u->stands = ac_take(&follow, 2 * (int64_t)u->standing, sizeof *u->stands);
+    if (!u->multiplier || !u->stands || follow.left || !ac_within(u->multiplier, u->constraints, u->parts.model.equations.nz)) return 0;
+    for (int32_t k = 0; k < u->standing; k++) {
+        if (!ac_within(u->stands + 2 * k, 1, u->parts.model.equations.nz) || !ac_within(u->stands + 2 * k + 1, 1, nx)) return 0;
+    }
     if (!u->closure || !u->kind || !u->coordinate || u->tape[AC_CLOSING].outputs != u->constraints + u->close_start[nx]) return 0;
     for (int32_t k = 0; k < u->constraints; k++) {
         if (u->closure[k] < -1 || u->closure[k] >= u->closures) return 0;

@@ -198,4 +198,5 @@ class Instants:
         after, mismatch = close(self.problem, after, held)
         if mismatch > POLICY.loops.closed:
             refuse_open_loops(self.problem, after, held)
-        return after
+        # From what coordinates were before, an iteration may come to others.
+        return self.problem.completed(after)

@@ -39,9 +39,10 @@ def unfit_time(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Co
     if not unfit.size:
         return None
     before, after = unfit[0], unfit[0] + 1
-    return float(
-        times[before] if times[before] > begin and found[before] < LOOPS.fairly else (times[before] + times[after]) / 2
-    )
+    if times[before] > begin and found[before] < LOOPS.fairly:
+        return float(times[before])
+    middle = float((times[before] + times[after]) / 2)
+    return middle if middle > begin else None
 
 
 def fit_rows(problem: Problem, rows: Rows, constants: Constants) -> int:

@@ -19,6 +19,7 @@ import acausal as ac
 import models
 from tests.acausal.export.hybrid import Ball, Hybrid, Struck, exported, opened, simulated
 from tests.acausal.solve.events.test_friction import Block as Block
+from tests.acausal.solve.events.test_jumps_in_loops import JumpingBennett, JumpingSpatial
 from tests.benchmarks.events.scenes import Drive, SampledPendulum, StickSlip
 from tests.hard.bennett import ASKEW, Bennett
 
@@ -43,10 +44,12 @@ SCENES: dict[str, tuple[Any, float]] = {
     "drive": (Drive(), 2.0),
     "sampled": (SampledPendulum(), 1.0),
     "bennett": (Bennett(begins=4.0, turned=ASKEW), 3.0),
+    "jumping": (JumpingSpatial(), 0.4),
+    "jumping-bennett": (JumpingBennett(), 0.4),
 }
 SOLVED_BY_CVODE = (
     *("simple-pendulum", "slider-crank", "squeezer", "bricard", "governor", "four-bar", "ball", "hybrid", "struck"),
-    *("stiction", "stick-slip", "drive", "sampled", "bennett"),
+    *("stiction", "stick-slip", "drive", "sampled", "bennett", "jumping", "jumping-bennett"),
 )
 
 
