@@ -101,6 +101,9 @@ class Loops:
     # they stay when a call begins. Of Bennett's linkage and of two cranks on a coupler the best choice has 0.56 to 0.98.
     unfit: float = 0.25
     fairly: float = 0.5
+    # Nominal values by which states of loops move in the first call of a method that is looked at after it, where that may
+    # happen: a tenth from one look to the next (`calls.fine`). Later calls are twice as long as the one before.
+    first: float = 6.0
     # Cosine between constraints and the directions in which coordinates follow them: below it the choice is unfit
     # (errors grow with 1/cosine, factor 20), and what sparing stiff coordinates may cost (factor 3).
     worn: float = 0.05
@@ -159,6 +162,10 @@ class Rest:
     # Attempts of the relaxation: how far a step may lead in nominal values, and what a second iteration may change in it, over
     # it. Soft modes go far by steps that are nearly exact; stiff parts that ring bend each step, though nothing moves far.
     limits: tuple[tuple[float, float], ...] = ((inf, 0.2), (0.3, inf), (inf, 0.5))
+    # Iterations of a step, of which each changes it by so much of the one before at most: elastic parts of loops pull where
+    # these bend, which the first does not see. With two, two of four swings on a soft beam come to rest in the third attempt.
+    iterations: int = 5
+    lessens: float = 0.5
     # By what a step is shortened that is too long.
     shrinkage: float = 2.0
     # Change in a step, over the size, that is rounding.

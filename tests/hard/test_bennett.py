@@ -10,11 +10,14 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal import connect, fixed, parts, piecewise, sin
 from acausal.solve.points import Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.kept import fitness, kept_again
 from acausal.solve.start.start import start
-from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, Row, TwoCranks, energies
+from components import Revolute
+from components.rotational import Torque
+from tests.hard.bennett import ASKEW, GRAVITY, MASS, RATIO, SPEED, Bennett, OneCrank, Row, TwoCranks, energies, joints
 from tests.hard.measure import within
 
 STARTS = [(0.8, False), (2.0, False), (4.0, True)]
@@ -79,6 +82,49 @@ def test_events_are_those_of_the_motion() -> None:
         within("speed, over the fastest", speed, 2e-3)
         forces = np.concatenate([np.abs(result[f"joint[{k}].frame_a.f"]).max(axis=1) for k in range(4)])
         within("force of a joint, N", float(forces.max()), 100.0)
+
+
+@pytest.mark.parametrize("intervals", [1, 2, 5])
+def test_few_outputs_of_many_turns(intervals: int) -> None:
+    """IDAS is looked at after a call: it is asked for no more than what is kept may last, and costs what the time takes."""
+    model = bennett(4.0, True)
+    steps = []
+    for stop_time in (5.0, 15.0):
+        how: Any = {"stop_time": stop_time, "intervals": intervals, "tolerance": 1e-8}
+        slow, quick = ac.simulate(model, method="idas", **how), ac.simulate(model, **how)
+        assert np.abs(slow["joint[0].phi"] - quick["joint[0].phi"]).max() < 0.01
+        assert slow["crossings"][-1] == quick["crossings"][-1] >= stop_time / 3
+        steps.append(slow.stats.steps)
+    assert steps[1] < 4 * steps[0]
+
+
+class Switched(Bennett):
+    """A torque changes its sign several times a turn."""
+
+    drive = Torque()
+
+    @parts
+    def joint(self):
+        """The first joint has a flange."""
+        axes = [tuple(self.turned @ axis) for axis in joints(self.begins)[1]]
+        first = Revolute(n=axes[0], phi=fixed(0), w=fixed(SPEED), use_axis_flange=True)
+        return [first, *(Revolute(n=axis) for axis in axes[1:])]
+
+    def connections(self):
+        yield super().connections()
+        yield connect(self.drive.flange, self.joint[0].axis)
+
+    def equations(self):
+        yield self.drive.tau == piecewise((6, sin(3 * self.joint[0].phi) > 0.2), -5)
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_no_event_is_missed_where_outputs_are_few(method: str) -> None:
+    compiled = ac.compile(Switched(begins=4.0, turned=ASKEW))
+    for intervals in (1, 2, 4, 40):
+        result = ac.simulate(compiled, stop_time=4.0, intervals=intervals, method=method)
+        assert result.stats.events == 15
+        assert result["joint[0].phi"][-1] == pytest.approx(15.1022, abs=0.01)  # at 1e-10
 
 
 @pytest.mark.parametrize("method", ["auto", "rosenbrock", pytest.param("idas", marks=pytest.mark.slow)])

@@ -195,7 +195,7 @@ int32_t ac_know(ac_instance *i, int32_t what) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     if (!(i->now.known & AC_Z)) {
-        if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, "the equations have no solution here.");
+        if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, ac_unsolved(i));
         i->now.known |= AC_Z;
         ac_put(i->sure, i->x, e->nx);
         ac_put(i->sure + e->nx, i->z, e->nz);

@@ -141,6 +141,7 @@ int32_t ac_refuse_jump(ac_instance *i);
 double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
+const char *ac_unsolved(const ac_instance *i);                  /* what to say where the equations have no solution */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
 int ac_is_flat(ac_instance *i);
 

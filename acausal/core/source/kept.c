@@ -149,3 +149,13 @@ void ac_keep(ac_instance *i) {
     choose(i, &h);
     free(h.A);
 }
+
+const char *ac_unsolved(const ac_instance *i) {
+    const ac_unit *u = i->of;
+    const double *on = i->c + u->switches + u->discretes;
+    int spare = 0;
+    for (int32_t k = 0; k < u->closures; k++) spare |= on[k] == 0;
+    return u->levels && u->level->rows > LARGEST && spare
+        ? "the equations have no solution here; which constraints of closed loops are kept is not changed among more than 64."
+        : "the equations have no solution here.";
+}

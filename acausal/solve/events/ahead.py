@@ -16,7 +16,7 @@ from acausal.solve.integrate.ladder import Failure, Kind, Refusal, accepted, nex
 from acausal.solve.integrate.march import March
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.order_trial import choose, is_open
-from acausal.solve.integrate.segment import parted, passage
+from acausal.solve.integrate.segment import passage
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.points import Point
 from acausal.solve.start.start import places_text
@@ -82,13 +82,13 @@ class Ahead:
         """Integrate some way towards the end of a segment, and look for an event there."""
         if METHODS[self.integrator.way.method].marches and self.integrator.compiled.nx:
             return self._marched(at, end)
-        grid = self.stride.grid(at.time, end)
         integrator = self.integrator
+        grid = integrator.next_call(at, self.stride.grid(at.time, end))[0]
         way = integrator.settings.first(integrator.way, grid)
         leg = integrator.attempt(at, self.stride.looks(grid), way)
-        while isinstance(leg, Refusal) and leg.kind is Kind.UNFIT:
-            grid = parted(grid, leg.time)[0]
-            leg = integrator.attempt(at, self.stride.looks(grid), way)
+        if isinstance(leg, Refusal) and leg.kind is Kind.UNFIT:
+            integrator.reach.ended(leg.time - at.time)
+            return Found(at)
         if isinstance(leg, Refusal):
             return self._otherwise(at, grid, leg)
         if not self.stride.is_enough(leg, grid):
@@ -104,6 +104,7 @@ class Ahead:
             return self._shorter(at, grid, failure)
         if crossing is None:
             self.stride.lengthen()
+            integrator.lasted(float(grid[-1] - grid[0]))
         return Found(at, leg, crossing)
 
     def _marched(self, at: Point, end: float) -> Found:
@@ -196,7 +197,9 @@ class Ahead:
             if times[1] - times[0] <= self.locator.shortest:
                 break
             way = replace(integrator.way, max_steps=POLICY.rescue.long, careful=True)
-            leg = integrator.attempt(at, times, way) if k else passage(integrator, at, times, 1)
+            leg = integrator.attempt(at, self.stride.looks(times), way)
+            if isinstance(leg, Refusal) and not k:
+                leg = passage(integrator, at, times, 1)
             try:
                 return Found(at, accepted(leg), self.locator.first(at, accepted(leg), depth=1))
             except Failure as later:

@@ -19,7 +19,7 @@ from acausal.solve.integrate.methods import METHODS, rounding
 from acausal.solve.integrate.settings import Settings
 from acausal.solve.integrate.stateless import everywhere
 from acausal.solve.integrate.trace import Leg, Trace
-from acausal.solve.integrate.unfit import unfit_time
+from acausal.solve.integrate.unfit import Reach, unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
@@ -58,6 +58,7 @@ class Integrator:
         self.trace = before.emptied()
         self.consistent = Consistent(problem)
         self.way = settings.way
+        self.reach = Reach()
         self._floor: np.ndarray | None = None
         self._chosen: tuple[Point, bool, Point] | None = None  # the last choice: where, whether it moves, and what
 
@@ -97,6 +98,14 @@ class Integrator:
             damped = ", which damps vibrations that positions do not show" if method.damps else ""
             self.trace.changes.append(f"{method.name} from t = {refusal.time:.6g} s on{damped}: {refusal.kind.value}")
         self.way = replace(way, ringing=None)
+
+    def next_call(self, at: Point, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the times of the next call, and the rest, see `Reach`."""
+        return self.reach.parts(self.problem, at, times, METHODS[self.way.method].marches)
+
+    def lasted(self, time: float) -> None:
+        """Note for how long in s the constraints that are kept lasted in a call."""
+        self.reach.lasted(time, METHODS[self.way.method].marches)
 
     def restarted(self, at: Point, moves: bool) -> Point:
         """Return a point where the constraints hold, with a projection that suits the position."""

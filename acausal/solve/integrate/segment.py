@@ -27,18 +27,14 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
     at, times = settle(integrator, at, times)
     if len(times) == 1:
         return at
-    found = quickly(integrator, at, times)
-    while isinstance(found, Refusal) and found.kind is Kind.UNFIT:
-        head, rest = parted(times, found.time)
-        found = quickly(integrator, at, head)
-        if isinstance(found, Leg):
-            integrator.trace.add(found)
-            integrator.report(head[-1])
-            at, times = found.end(at), rest
-            found = quickly(integrator, at, times)
-    if isinstance(found, Leg):
+    found, rest = quickly(integrator, at, times)
+    while isinstance(found, Leg):
         integrator.trace.add(found)
-        return found.end(at)
+        at, times = found.end(at), rest
+        if len(times) == 1:
+            return at
+        integrator.report(at.time)
+        found, rest = quickly(integrator, at, times)
     n = len(times) - 1
     integrator.take(replace(integrator.way, method=integrator.settings.careful), found)
     size = max(1, -(-n // RESCUE.chunks))
@@ -55,24 +51,29 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
     return at
 
 
-def parted(times: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
-    """Part some times at one of them that is a rounding error away, or at a time between them."""
-    near = times[np.argmin(np.abs(times - time))]
-    if times[0] < near < times[-1] and abs(near - time) <= POLICY.calls.here * (times[-1] - times[0]):
-        time = near
-    return np.append(times[times < time], time), np.append(time, times[times > time])
+def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> tuple[Leg | Refusal, np.ndarray]:
+    """Integrate in one call, in the way of now or in those that come next; the last one stays.
 
-
-def quickly(integrator: Integrator, at: Point, times: np.ndarray) -> Leg | Refusal:
-    """Integrate through all times in one call, in the way of now or in those that come next; the last one stays."""
+    Returns
+    -------
+    found : Leg or Refusal
+        Through all times, or as far as the constraints that are kept may last.
+    rest : array
+        The times from its end on.
+    """
     while True:
-        way = integrator.settings.first(integrator.way, times)
-        found = integrator.attempt(at, times, way)
+        head, rest = integrator.next_call(at, times)
+        way = integrator.settings.first(integrator.way, head)
+        found = integrator.attempt(at, head, way)
         if isinstance(found, Leg):
-            return found
-        following = next_ways(way, found, integrator.settings.rescues(times, integrator.loops))
+            integrator.lasted(head[-1] - head[0])
+            return found, rest
+        if found.kind is Kind.UNFIT:
+            integrator.reach.ended(found.time - at.time)
+            continue
+        following = next_ways(way, found, integrator.settings.rescues(head, integrator.loops))
         if not following:
-            return found
+            return found, times
         integrator.take(following[0], found)
 
 
@@ -139,15 +140,23 @@ def _stride(
     integrator: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int, refusal: Refusal | None = None
 ) -> Leg | Refusal:
     """Go to the next output, with new choices of states on the way where one does not last."""
-    found = refusal or _patiently(integrator, at, times, way)
-    if isinstance(found, Leg) or not halvings or not integrator.settings.rescues(times, integrator.loops).wears(found):
+    gained, found = np.zeros(2), refusal or _patiently(integrator, at, times, way)
+    while isinstance(found, Refusal) and found.kind is Kind.UNFIT and halvings:
+        first = _stride(integrator, at, np.array([times[0], found.time]), way, halvings - 1)
+        if isinstance(first, Refusal):
+            return first
+        at, times, gained = first.end(at), np.array([found.time, times[1]]), gained + first.energy[-1]
+        found = _patiently(integrator, at, times, way)
+    if isinstance(found, Leg):
+        return replace(found, energy=found.energy + gained)
+    if not halvings or not integrator.settings.rescues(times, integrator.loops).wears(found):
         return found
     middle = (times[0] + times[1]) / 2
     first = _stride(integrator, at, np.array([times[0], middle]), way, halvings - 1)
     if isinstance(first, Refusal):
         return first
     last = _stride(integrator, first.end(at), np.array([middle, times[1]]), way, halvings - 1)
-    return last if isinstance(last, Refusal) else replace(last, energy=last.energy + first.energy[-1])
+    return last if isinstance(last, Refusal) else replace(last, energy=last.energy + first.energy[-1] + gained)
 
 
 def approached(run: Integrator, at: Point, time: float) -> Point:

@@ -7,7 +7,7 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.policy import POLICY
 from acausal.solve.integrate.flat import looks
-from acausal.solve.points import Rows
+from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.kept import fitness
 
@@ -49,3 +49,58 @@ def fit_rows(problem: Problem, rows: Rows, constants: Constants) -> int:
     """Return the number of rows before the first in which the constraints that are kept are unfit."""
     unfit = fitness(problem, rows.times, rows.x, constants) < LOOPS.unfit
     return int(np.argmax(unfit)) if unfit.any() else len(rows)
+
+
+def parted(times: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+    """Part some times at one of them that is a rounding error away, or at a time between them."""
+    near = times[np.argmin(np.abs(times - time))]
+    if times[0] < near < times[-1] and abs(near - time) <= POLICY.calls.here * (times[-1] - times[0]):
+        time = near
+    return np.append(times[times < time], time), np.append(time, times[times > time])
+
+
+class Reach:
+    """How far one integrates in a call where the constraints that are kept may become unfit on the way."""
+
+    def __init__(self) -> None:
+        self._length: float | None = None
+
+    def parts(self, problem: Problem, at: Point, times: np.ndarray, stepwise: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return the times of the next call, and the rest, which begins with its end.
+
+        Parameters
+        ----------
+        problem : Problem
+            The model.
+        at : Point
+            Where the call begins.
+        times : array
+            Time of that point and output times, in s.
+        stepwise : bool
+            Whether what is kept is looked at while it goes on, not after it.
+        """
+        if at.constants.all_count:
+            return times, times[-1:]
+        if self._length is None and not stepwise:
+            self._length = _first_length(problem, at)
+        if self._length is None or at.time + self._length >= times[-1]:
+            return times, times[-1:]
+        return parted(times, at.time + self._length)
+
+    def ended(self, time: float) -> None:
+        """Note after what time in s constraints became unfit."""
+        self._length = time
+
+    def lasted(self, time: float, stepwise: bool) -> None:
+        """Note that they did not in that time."""
+        if stepwise:
+            self._length = None
+        elif self._length is not None and time >= self._length * (1 - POLICY.calls.here):
+            self._length *= 2
+
+
+def _first_length(problem: Problem, at: Point) -> float:
+    """Time in s in which states of loops move by some nominal values, as fast as they and their rates change at a point."""
+    states = problem.compiled.constraints.states
+    fastest = np.max(np.abs(problem.values(at)[states]) / problem.nominal[states], initial=0.0)
+    return float(LOOPS.first / fastest) if np.isfinite(fastest) and fastest > 0 else np.inf

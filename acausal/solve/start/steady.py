@@ -21,7 +21,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, kinematic, meters, motion_text
 from acausal.solve.start.least_change import least_change
 from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.loops import tighten
+from acausal.solve.start.loops import close, tighten
 from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.rank import factored
 from acausal.solve.start.tangent import tangent
@@ -139,11 +139,20 @@ class Equilibrium:
         return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
 
     def _close(self, at: Point) -> Point:
-        """Close the loops, and choose again which states follow from others."""
-        if not self.problem.compiled.constraints.size:
+        """Close the loops, and choose again which states follow from others.
+
+        Only states that follow from others move, if that closes them: moving stiff parts as well would drive the motion.
+        """
+        c, left = self.problem.compiled.constraints, np.inf
+        if not c.size:
             return at
-        at = tighten(self.problem, replace(at, constants=self.guess.constants))
-        at = replace(at, constants=choose_projection(self.problem, at, spare=False))
+        closed = at
+        if not at.constants.moves:
+            held = np.setdiff1d(np.arange(self.nx), c.entries[1][at.constants.D != 0])
+            closed, left = close(self.problem, at, held)
+        if left > POLICY.loops.closed:
+            closed = tighten(self.problem, replace(at, constants=self.guess.constants))
+        at = replace(closed, constants=choose_projection(self.problem, closed))
         return self.problem.completed(at)
 
     def _newton(self, at: Point) -> Linearized | None:
@@ -256,18 +265,25 @@ class Equilibrium:
         return here.point
 
     def _euler(self, here: Linearized, h: float, far: float, bent: float) -> Linearized | None:
-        """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
+        """Take a step of length h; None where it cannot be taken, leads too far, or iterations go on to change it much."""
         moves = np.isin(np.arange(self.nx), self.rows)
-        solve = _solver(np.eye(self.nx) - h * here.A)
-        step = solve(np.where(moves, h * here.rates, 0.0))
-        if not np.all(np.isfinite(step)) or self._far(step) > far:
-            return None
-        try:
-            there = self._at(self._close(_moved(here.point, step)))
-        except InitializationError:
-            return None
-        left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
-        return there if self._size(solve(left)) <= bent * self._size(step) else None
+        there, step, before = here, np.zeros(self.nx), np.inf
+        for k in range(REST.iterations):
+            left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
+            change = _solver(np.eye(self.nx) - h * there.A)(left)
+            if k and self._size(change) <= bent * self._size(step):
+                return there
+            if not self._size(change) <= REST.lessens * before:
+                return None
+            before = self._size(change)
+            step = there.point.x + change - here.point.x
+            if not np.all(np.isfinite(step)) or self._far(step) > far:
+                return None
+            try:
+                there = self._at(self._close(_moved(here.point, step)))
+            except InitializationError:
+                return None
+        return None
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""

@@ -7,8 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from acausal import Model, Scalar, chain, guess, parameter
-from components import Revolute, World
+import acausal as ac
+from acausal import Component, Model, Scalar, chain, connect, guess, parameter, part, structural
+from components import BodyRod, FixedTranslation, FlexibleBeam, Revolute, SubstructuredBeam, World
 from components import rotational as rot
 from components.fe import FEBody, ReducedBody, box, reduce_body
 from tests.acausal.solve.start.test_steady import moved, started
@@ -45,3 +46,41 @@ def test_soft_rods_sag(stiffness: float) -> None:
     assert all(moved(run, *names) < 1e-6 for run in runs)
     assert all(run["first.phi"][0] < -0.01 for run in runs)
     assert runs[0]["second.phi"][0] == pytest.approx(runs[1]["second.phi"][0], abs=1e-9)
+
+
+class Swing(Model):
+    """A soft beam that hangs on two rods: a closed loop."""
+
+    J: float = structural("second moment of area, m^4", default=1e-9)
+    volumes: int = structural("volumes of the beam; 0: one frame", default=0)
+    world, ground = World(), FixedTranslation(r=(1, 0.2, 0))
+    left, right = Revolute(use_axis_flange=True, phi=guess(0)), Revolute(phi=guess(0))
+    near, far = Revolute(), Revolute()
+    short, long = BodyRod(r=(0, -1, 0), m=1), BodyRod(r=(0, -1.2, 0), m=1)
+    brake = rot.Damper(d=2)
+
+    @part
+    def beam(self) -> Component:
+        """The beam, whose own damping ends what the brake does not reach."""
+        made = {"length": 1, "E": 2e8, "rho": 2700, "A": 1e-4, "J": self.J, "beta": 1e-3, "check_range": False}
+        if self.volumes:
+            return SubstructuredBeam(volumes=self.volumes, elements_per_volume=2, **made)
+        return FlexibleBeam(elements=4, **made)
+
+    def connections(self):
+        yield chain(self.world, self.left, self.short, self.near, self.beam, self.far, self.long.frame_b)
+        yield chain(self.world, self.ground, self.right, self.long)
+        yield connect(self.brake.flange_a, self.left.support)
+        yield connect(self.brake.flange_b, self.left.axis)
+
+
+@pytest.mark.parametrize("volumes", [0, 2])
+@pytest.mark.parametrize("J", [3e-9, 1.2e-9, 5e-10])
+def test_a_soft_beam_in_a_loop_sags(J: float, volumes: int) -> None:
+    """As far as its motion leads."""
+    model, angles = Swing(J=J, volumes=volumes), ("left.phi", "right.phi", "near.phi", "far.phi")
+    rest = started(model, 1.0)
+    assert moved(rest, *angles) < 1e-6
+    final = ac.simulate(model, initial="guesses", stop_time=100.0, intervals=10)
+    for name in angles:
+        assert rest[name][0] == pytest.approx(final[name][-1], abs=1e-3)
