@@ -76,6 +76,11 @@ class Layout:
         """Return the constants in a vector."""
         head = self.switches + self.discretes
         first = head + self.closures + self.moves
-        closures, D = vector[head : head + self.closures], vector[first:-1]
+        closures, D = self.closures_of(vector), vector[first:-1]
         moves = bool(vector[first - 1]) if self.moves else None
         return Constants(vector[: self.switches], vector[self.switches : head], closures, moves, D, float(vector[-1]))
+
+    def closures_of(self, vectors: np.ndarray) -> np.ndarray:
+        """Return which closures count, in the last dimension, from vectors of constants."""
+        head = self.switches + self.discretes
+        return vectors[..., head : head + self.closures]

@@ -22,9 +22,11 @@ def opened(consistent: Consistent, rows: Rows) -> list[str]:
     """
     problem = consistent.problem
     flat, c = problem.compiled.reduced.flat, problem.compiled.constraints
+    if not c.closures:
+        return []
     some = rows[spread(len(rows), POLICY.loops.seen)]
-    counts = np.array([problem.compiled.layout.constants(vector).closures for vector in some.constants])
-    row_of = {c.closures[k]: int(c.lowest[c.closures[k]]) for k in np.flatnonzero(np.any(counts == 0, axis=0)).tolist()}
+    dropped = np.flatnonzero(np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0))
+    row_of = {c.closures[k]: int(c.lowest[c.closures[k]]) for k in dropped.tolist()}
     if not row_of:
         return []
     some, _ = consistent(some)
