@@ -162,10 +162,6 @@ class Rest:
     # Attempts of the relaxation: how far a step may lead in nominal values, and what a second iteration may change in it, over
     # it. Soft modes go far by steps that are nearly exact; stiff parts that ring bend each step, though nothing moves far.
     limits: tuple[tuple[float, float], ...] = ((inf, 0.2), (0.3, inf), (inf, 0.5))
-    # Iterations of a step, of which each changes it by so much of the one before at most: elastic parts of loops pull where
-    # these bend, which the first does not see. With two, two of four swings on a soft beam come to rest in the third attempt.
-    iterations: int = 5
-    lessens: float = 0.5
     # By what a step is shortened that is too long.
     shrinkage: float = 2.0
     # Change in a step, over the size, that is rounding.

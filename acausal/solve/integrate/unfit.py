@@ -100,7 +100,13 @@ class Reach:
 
 
 def _first_length(problem: Problem, at: Point) -> float:
-    """Time in s in which states of loops move by some nominal values, as fast as they and their rates change at a point."""
+    """Time in s in which states of loops move by some nominal values, as fast as they and their rates change at a point.
+
+    Without end where what is dropped is 0 beside what is kept, as out of the plane of a planar loop.
+    """
+    rows = Rows.of(at)
+    if fitness(problem, rows.times, rows.x, at.constants)[0] > 1 - POLICY.ranks.nearly:
+        return np.inf
     states = problem.compiled.constraints.states
     fastest = np.max(np.abs(problem.values(at)[states]) / problem.nominal[states], initial=0.0)
     return float(LOOPS.first / fastest) if np.isfinite(fastest) and fastest > 0 else np.inf

@@ -17,7 +17,7 @@ REST = POLICY.rest
 
 
 def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
-    """Return where the motion leads by steps of the implicit Euler method that grow.
+    """Return where the motion leads by steps of the linearly implicit Euler method that grow.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
     far : float
         How far a step may lead, in nominal values of coordinates.
     bent : float
-        How much of a step an iteration may change at last.
+        What a second iteration may change in a step, over it.
     """
     try:
         here = own.linearized(own.closed(at))
@@ -51,25 +51,18 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
 
 
 def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float) -> Linearized | None:
-    """Take a step of length h; None where it cannot be taken, leads too far, or iterations go on to change it much."""
+    """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
     moves = np.isin(np.arange(own.nx), own.rows)  # meters stay
-    there, step, before = here, np.zeros(own.nx), np.inf
-    for k in range(REST.iterations):
-        left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
-        change = _solver(np.eye(own.nx) - h * there.A)(left)
-        if k and own.size(change) <= bent * own.size(step):
-            return there
-        if not own.size(change) <= REST.lessens * before:
-            return None
-        before = own.size(change)
-        step = there.point.x + change - here.point.x
-        if not np.all(np.isfinite(step)) or own.far(step) > far:
-            return None
-        try:
-            there = own.linearized(own.closed(moved(here.point, step)))
-        except InitializationError:
-            return None
-    return None
+    solve = _solver(np.eye(own.nx) - h * here.A)
+    step = solve(np.where(moves, h * here.rates, 0.0))
+    if not np.all(np.isfinite(step)) or own.far(step) > far:
+        return None
+    try:
+        there = own.linearized(own.closed(moved(here.point, step)))
+    except InitializationError:
+        return None
+    left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
+    return there if own.size(solve(left)) <= bent * own.size(step) else None
 
 
 def _solver(matrix: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
