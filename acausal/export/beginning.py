@@ -10,13 +10,17 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.errors import ExportError
 from acausal.language.functions import initial as initial_flag
+from acausal.language.functions import time as time_symbol
 from acausal.solve.integrate.order import Spectrum
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.initialize import initial_system
 from acausal.solve.start.newton import algebraic
+from acausal.solve.start.rank import rank
 from acausal.solve.start.start import go_on, start
 from acausal.symbols import scalars, stacked
+
+DEPENDENT = 1e-15  # singular value of rows of length 1 that is rounding
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,23 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     flag = float(initial != "steady")
     residuals, starts = _square(problem.compiled, system.rows, system.known, dict(system.direct), flag)
     held = algebraic(problem, problem.projected(at)) if problem.compiled.constraints.size else at
+    if initial == "steady":
+        _refuse_singular(problem, held, residuals, starts)
     return Beginning(held, residuals, starts, Spectrum(problem, at).vibration)
+
+
+def _refuse_singular(problem: Problem, at: Point, residuals: ca.SX, starts: dict[int, ca.SX]) -> None:
+    """Refuse equations of an equilibrium of which some follow from others by rounding: an importer finds no solution then."""
+    r = problem.compiled.reduced
+    unknowns = ca.vertcat(r.x, r.z)
+    symbols = [unknowns, r.p, time_symbol.sx, r.constants, stacked(list(starts.values()))]
+    slopes = ca.Function("slopes", symbols, [ca.jacobian(residuals, unknowns)])
+    J = slopes(at.y, problem.p, at.time, at.constants.vector, at.x[list(starts)]).toarray() * problem.nominal
+    if rank(J, DEPENDENT) < len(at.y):
+        raise ExportError(
+            "the equations of this equilibrium depend on one another but for rounding, as of stiff beams in closed loops: an "
+            'importer could not solve them. Export it with initial="guesses" or "fixed", and let it come to rest there.'
+        )
 
 
 def _square(

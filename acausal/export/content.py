@@ -19,7 +19,7 @@ from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
 from acausal.solve.start.kept import droppable
-from acausal.solve.start.loop_states import choose_projection
+from acausal.solve.start.loop_states import choose_projection, sparing
 from acausal.solve.start.loops import levels
 from acausal.solve.start.reach import reaches
 from acausal.symbols import dense, picked, scalars, stacked
@@ -104,7 +104,7 @@ class Content:
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.nominal, *reaches(self.problem)]),
+            "nominal": floats([self.span, self.tolerance, *self.nominal, *reaches(self.problem), *self._follows]),
             "natural": floats(self.nominal[self.compiled.nx :]),
         }
 
@@ -152,6 +152,13 @@ class Content:
         all_on = replace(at, constants=replace(at.constants, closures=np.ones_like(at.constants.closures)))
         D = choose_projection(self.problem, all_on, spare=False, moves=True).D
         return replace(at.constants, D=np.where(at.constants.D != 0, at.constants.D, D))
+
+    @property
+    def _follows(self) -> np.ndarray:
+        """Sizes of the states with which loops follow a jump."""
+        if not self.compiled.constraints.size:
+            return self.problem.nominal[: self.compiled.nx]
+        return sparing(self.problem, self.beginning.at, np.empty(0, dtype=int))
 
     def _square(self, name: str, residuals: ca.SX, argument: int | None, n: int) -> dict[str, bytes]:
         """Equations for the algebraic unknowns, or where no argument is given for these and the states."""

@@ -18,6 +18,9 @@ class Instants:
     rounding: float = 1e-11
     # Of the size in a run: an excess that changes less does not move.
     moves: float = 1e-3
+    # Parts in which loops follow a jump, in nominal values, and how many there are at most: as far as joints stay on a branch.
+    part: float = 0.2
+    parts: int = 100
     # Of the run: an excess that falls to 0 within that time does so now.
     due: float = 1e-6
     # Events within that part of the run, or without any motion between them, that are chattering.

@@ -120,6 +120,10 @@ class Loops:
     grid: float = 2.0**-20
     # Decades above the square of the feedback, both in 1/s2, that a coordinate may resist before it counts as stiff.
     decades: int = 12
+    # How much stiffer than those that can close a loop are parts that do not give way when it follows a jump, in 1/s2 over 1/s2:
+    # vibrations thirty times as fast. What their sizes count then, over those of others.
+    stiffer: float = 1e3
+    stiff: float = 1e-6
     # Way out of a singular position in nominal values: its square is the error of what is left out.
     away: float = 1e-4
     # Change of speeds on it, over the greatest: on a branch it is of the order of the way.
@@ -144,6 +148,8 @@ class Rest:
 
     # A derivative that is 0, over the change that nominal values of the unknowns make in it.
     still: float = 1e-7
+    # How fast states return to invariants in the search, in 1/s, as in `linearize`.
+    feedback: float = 1.0
     # Random signs of rounding errors: the largest effect of eight is within a factor of a few of the largest there is.
     signs: int = 8
     # Newton steps, and implicit Euler steps that follow the motion.

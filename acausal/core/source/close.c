@@ -9,6 +9,8 @@
 #define ENDS 1e-15      /* relative change of the states at which a level is done */
 #define DAMPING 0.1     /* of the first step, over the greatest square of a row, as in Python */
 #define ROUNDING 1e-14  /* the least: rows that follow from others leave rounding */
+#define PART 0.2        /* of a jump, in nominal values: loops follow in such parts, and so stay in their assembly */
+#define PARTS 100
 #define CLOSED 1e-9     /* of what sizes of the states change in a constraint, as in Python */
 
 /* One level: residuals r and their matrix A of rows by states over their sizes, both over the sizes of the equations; the same
@@ -61,7 +63,7 @@ static void fill(ac_instance *i, closing *c) {
         c->r[a] = w[i->of->tape[AC_CLOSING].output[c->row[a]]] / c->size[a];
         for (int32_t k = 0; k < c->n; k++) {
             const int32_t j = c->column[k];
-            c->A[a * c->n + k] *= i->of->nominal[j] / i->of->reach[j] / c->size[a];
+            c->A[a * c->n + k] *= i->of->follows[j] / i->of->reach[j] / c->size[a];
         }
     }
 }
@@ -105,7 +107,7 @@ static int step(closing *c, double damping) {
 }
 
 static void move(ac_instance *i, const closing *c) {
-    for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] = c->before[k] + c->h[k] * i->of->nominal[c->column[k]];
+    for (int32_t k = 0; k < c->n; k++) i->x[c->column[k]] = c->before[k] + c->h[k] * i->of->follows[c->column[k]];
 }
 
 /* Levenberg's and Marquardt's iteration (Madsen, Nielsen and Tingleff 2004, algorithm 3.16). */
@@ -127,7 +129,7 @@ static int32_t close_level(ac_instance *i, closing *c) {
             double slope = 0;
             for (int32_t a = 0; a < c->m; a++) slope += c->A[a * c->n + k] * c->r[a];
             expected += c->h[k] * (damping * c->h[k] - slope);
-            far += c->h[k] * c->h[k], long_ += pow(c->before[k] / i->of->nominal[c->column[k]], 2);
+            far += c->h[k] * c->h[k], long_ += pow(c->before[k] / i->of->follows[c->column[k]], 2);
         }
         if (!(far > ENDS * ENDS * long_)) break;
         memcpy(c->B, c->A, size), memcpy(c->q, c->r, (size_t)c->m * sizeof *c->q);
@@ -154,11 +156,11 @@ void ac_follow_states(ac_instance *i) {
     for (int32_t k = 0; k < u->standing; k++) i->z[u->stands[2 * k]] = i->x[u->stands[2 * k + 1]];
 }
 
-/* Close all loops; states that are held stay. */
-int32_t ac_close(ac_instance *i, const double *held) {
+/* Close the first levels; states that are held stay. */
+static int32_t close_levels(ac_instance *i, const double *held, int32_t levels) {
     const ac_unit *u = i->of;
     int32_t failed = AC_OK;
-    for (int32_t level = 0; level < u->levels && !failed; level++) {
+    for (int32_t level = 0; level < levels && !failed; level++) {
         const ac_level *l = &u->level[level];
         const size_t m = (size_t)l->rows, n = (size_t)l->columns;
         double *memory = calloc(2 * m * n + m * m + 4 * m + 2 * n + 1, sizeof *memory);
@@ -176,6 +178,30 @@ int32_t ac_close(ac_instance *i, const double *held) {
         }
         free(memory), free(places);
     }
+    return failed;
+}
+
+/* Close all loops after a jump of the states that are held, from where they were: (2, nx), the second half is overwritten. The
+   jump is gone in parts; where loops do not close on the way, at once. As `follow.py`. */
+int32_t ac_close(ac_instance *i, const double *held, double *from) {
+    const int32_t nx = ac_states(i);
+    double *to = from + nx, far = 0;
+    for (int32_t k = 0; k < nx; k++) {
+        to[k] = i->x[k];
+        if (held[k] > 0) far = fmax(far, fabs(to[k] - from[k]) / i->of->nominal[k]);
+    }
+    const int32_t parts = (int32_t)fmin(fmax(ceil(far / PART), 1), PARTS);
+    int32_t lost = 0;
+    for (int32_t part = 1; part < parts && !lost; part++) {
+        for (int32_t k = 0; k < nx; k++) {
+            if (held[k] > 0) i->x[k] = from[k] + part * (to[k] - from[k]) / parts;
+        }
+        lost = close_levels(i, held, 1);
+    }
+    for (int32_t k = 0; k < nx; k++) {
+        if (held[k] > 0 || lost) i->x[k] = to[k];
+    }
+    const int32_t failed = close_levels(i, held, i->of->levels);
     ac_follow_states(i);
     ac_moved(i);
     return failed;

@@ -114,7 +114,7 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     const ac_tape *t = &u->tape[AC_JUMPS], *own = &u->tape[AC_COORDINATES];
-    double *held = i->other;
+    double *held = i->other, *before = i->order;
     int32_t jumped = 0;
     for (int32_t k = 0; k < u->watched + u->timed; k++) jumped |= r->fires[k] > 0 && u->guard[k].jumps;
     if (!jumped) return AC_OK;
@@ -122,6 +122,7 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     const double *w = ac_run(i, AC_JUMPS), *projected = ac_run(i, AC_COORDINATES);
     memset(held, 0, (size_t)e->nx * sizeof *held);
     for (int32_t k = 0; k < own->outputs; k++) i->x[u->coordinate[k]] = projected[own->output[k]];
+    ac_put(before, i->x, e->nx);
     for (int32_t k = 0; k < u->watched + u->timed; k++) {
         for (int32_t j = u->guard[k].jump; r->fires[k] > 0 && j < u->guard[k].jump + u->guard[k].jumps; j++) {
             const double value = w[t->output[j]];
@@ -133,7 +134,7 @@ static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     }
     *states |= jumped;
     ac_changed(i);
-    return jumped && u->constraints ? ac_close(i, held) : AC_OK;
+    return jumped && u->constraints ? ac_close(i, held, before) : AC_OK;
 }
 
 /* Everything that happens now. */

@@ -53,7 +53,7 @@ struct ac_unit {
     int32_t standing;
     ac_level level[AC_LEVELS];
     const double *damped;                   /* (nx) sizes of the states in the error test where vibrations are damped */
-    const double *nominal, *reach, *size;   /* (nx + nz); (nx) where they close loops, see `reach.py`; (nz) below which changes are rounding, see `settle.c` */
+    const double *nominal, *reach, *follows, *size; /* (nx + nz); (nx) where they close loops, see `reach.py`, and follow a jump; (nz) below which changes are rounding, see `settle.c` */
     const double *bound;                    /* (limits, 3): least value of each, 1 where it has to be above that, and what it is */
     const char *limited;                    /* names of parameters, or what is wrong otherwise, each with a 0 at its end */
     double span, tolerance;
@@ -125,7 +125,7 @@ int32_t ac_indicator_rates(ac_instance *i);                     /* conditions an
 int32_t ac_seed(ac_instance *i, const uint32_t *known, size_t count, double *dt, double *dx, double *dp, const double *seed,
                 double *found);
 int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *of[3], const double *seed, double *found);
-int32_t ac_close(ac_instance *i, const double *held);
+int32_t ac_close(ac_instance *i, const double *held, double *from);
 void ac_follow_states(ac_instance *i);                          /* guesses of coordinates where the states have them */
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
 const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);

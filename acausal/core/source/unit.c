@@ -157,10 +157,11 @@ static int read_numbers(const ac_section *found, ac_unit *u) {
     const double *span = ac_take(&nominal, 2, sizeof *span);
     u->nominal = ac_take(&nominal, (int64_t)e->nx + e->nz, sizeof *u->nominal);
     u->reach = ac_take(&nominal, e->nx, sizeof *u->reach);
+    u->follows = ac_take(&nominal, e->nx, sizeof *u->follows);
     u->size = ac_take(&natural, e->nz, sizeof *u->size);
-    if (!u->damped || !span || !u->nominal || !u->reach || !u->size || damped.left || nominal.left || natural.left) return 0;
+    if (!u->damped || !span || !u->nominal || !u->reach || !u->follows || !u->size || damped.left || nominal.left || natural.left) return 0;
     u->span = span[0], u->tolerance = span[1], u->token = (const char *)token.at;
-    return positive(span, 2) && positive(u->damped, e->nx) && positive(u->nominal, e->nx + e->nz) && positive(u->reach, e->nx)
+    return positive(span, 2) && positive(u->damped, e->nx) && positive(u->nominal, e->nx + e->nz) && positive(u->reach, e->nx) && positive(u->follows, e->nx)
         && positive(u->size, e->nz) && token.at && token.left && !token.at[token.left - 1];
 }
 

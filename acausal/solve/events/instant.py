@@ -9,11 +9,12 @@ import numpy as np
 from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.events.follow import follow
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
 from acausal.solve.start.assignments import MOST, Assignments
-from acausal.solve.start.loops import close, refuse_open_loops
+from acausal.solve.start.loops import refuse_open_loops
 from acausal.solve.start.newton import algebraic
 
 INSTANTS = POLICY.instants
@@ -195,8 +196,9 @@ class Instants:
         if not jumped or not self.problem.compiled.constraints.size:
             return after
         held = np.array(jumped, dtype=int)
-        after, mismatch = close(self.problem, after, held)
-        if mismatch > POLICY.loops.closed:
-            refuse_open_loops(self.problem, after, held)
+        after, mismatch = follow(self.problem, self.problem.projected(at), after, held)
+        if not mismatch <= POLICY.loops.closed:
+            where = ", ".join(dict.fromkeys(str(self.guards.guards[guard].origin) for guard in fires))
+            refuse_open_loops(self.problem, after, held, f"where {where} lets these jump")
         # From what coordinates were before, an iteration may come to others.
         return self.problem.completed(after)

@@ -87,7 +87,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     if initial == "steady":
         first = _sparse(problem, at)
         at, redundancy, _ = _closed(problem, at)
-        at = Equilibrium(problem, at).find(first)
+        at = _at_rest(problem, at, first)
     else:
         if loops:
             system, at, redundancy = _ranked(problem, at, initial)
@@ -158,6 +158,17 @@ def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str,
     if initial == "steady":
         others += range(-nx, 0)
     return ranked(problem, at, direct, others, initial == "fixed", flag)
+
+
+def _at_rest(problem: Problem, at: Point, first: Point | None) -> Point:
+    """Return a point at rest; where it is found does not depend on how fast invariants are kept in a run."""
+
+    def kept(at: Point, feedback: float) -> Point:
+        return replace(at, constants=replace(at.constants, feedback=feedback))
+
+    own = replace(problem, feedback=POLICY.rest.feedback)
+    found = Equilibrium(own, kept(at, own.feedback)).find(first and kept(first, own.feedback))
+    return kept(found, problem.feedback)
 
 
 def _states_suffice(problem: Problem, system: InitialSystem) -> bool:

@@ -68,6 +68,36 @@ def _moving(problem: Problem, at: Point, spare: bool) -> Constants:
 
 
 @np.errstate(all="ignore")
+def sparing(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
+    """Return sizes of the states with which loops close, shape (nx,): stiff ones are small, where others suffice to close them.
+
+    Stiff is what is so much stiffer than these.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        A consistent point.
+    held : array of int
+        States that are given, which do not move.
+    """
+    c, sizes = problem.compiled.constraints, problem.nominal[: problem.nx].copy()
+    rows, columns = c.entries
+    J = _held(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
+    J[np.isin(columns, held)] = 0.0
+    stiffness = _stiffness(problem, at)[columns]
+    largest = float(np.max(stiffness, initial=0.0))
+    for threshold in largest * 10.0 ** -np.arange(LOOPS.decades, -1, -1):
+        soft = J * (stiffness <= threshold)
+        closes = np.array_equal(np.unique(rows[soft != 0]), np.unique(rows[J != 0]))
+        if closes and _transversality(levels_of(problem.compiled), J[None], soft)[0] >= LOOPS.worn:
+            sizes[columns[stiffness > LOOPS.stiffer * threshold]] *= LOOPS.stiff
+            break
+    return sizes
+
+
+@np.errstate(all="ignore")
 def independent(problem: Problem, at: Point) -> tuple[str, ...]:
     """Names of the states that do not follow from others, at a point with the projection that moves."""
     follows = set(problem.compiled.constraints.entries[1][chosen(problem, at).D != 0].tolist())

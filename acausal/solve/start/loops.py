@@ -32,7 +32,9 @@ def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
     return found
 
 
-def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False) -> tuple[Point, float]:
+def close(
+    problem: Problem, at: Point, held: np.ndarray, positions: bool = False, sizes: np.ndarray | None = None
+) -> tuple[Point, float]:
     """Change the coordinates as little as possible so that the constraints hold, level by level.
 
     Parameters
@@ -45,6 +47,8 @@ def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False
         States that are given.
     positions : bool
         True for the lowest level alone.
+    sizes : array, optional
+        Sizes over which changes of the states count, shape (nx,); nominal values if not given.
 
     Returns
     -------
@@ -53,13 +57,13 @@ def close(problem: Problem, at: Point, held: np.ndarray, positions: bool = False
     mismatch : float
         Largest residual, over its size.
     """
-    mismatch = 0.0
+    mismatch, sizes = 0.0, problem.nominal if sizes is None else sizes
     for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
         free = np.setdiff1d(columns, held)
-        at, left = _solve(problem, at, rows, free, depth > 0)
+        at, left = _solve(problem, at, rows, free, depth > 0, sizes)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
             # Near a singular position rates are known only as well as the root of the positions.
-            at, left = _solve(problem, at, rows, columns, depth > 0)
+            at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
         mismatch = max(mismatch, left)
         if left > LOOPS.closed:
             break
@@ -90,13 +94,15 @@ def _are_many(rows: list[int]) -> bool:
     return len(rows) > POLICY.ranks.small
 
 
-def _solve(problem: Problem, at: Point, rows: list[int], free: np.ndarray, linear: bool) -> tuple[Point, float]:
+def _solve(
+    problem: Problem, at: Point, rows: list[int], free: np.ndarray, linear: bool, sizes: np.ndarray
+) -> tuple[Point, float]:
     """Close one level; where it is linear in its coordinates, a step of least change is enough."""
     evaluate = _residuals(problem, at, rows, free)
     left = float(np.max(np.abs(evaluate(at.x[free])[0]), initial=0.0))
     if not free.size or left == 0:
         return at, left
-    best, scale = at.x[free], problem.nominal[free]
+    best, scale = at.x[free], sizes[free]
     if linear:
         best = _polish(evaluate, best, scale)
         left = float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
@@ -136,8 +142,8 @@ def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray
     return u
 
 
-def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
-    """Raise InitializationError with the mismatch of every loop that does not close."""
+def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str = "") -> None:
+    """Raise InitializationError with the mismatch of every loop that does not close; `jump` tells where states jumped."""
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
     value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
@@ -159,7 +165,12 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray) -> None:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if lines and np.max(gap) > LOOPS.closed:
-        raise InitializationError("\n".join([_open_head(at.time, len(lines), bool(given)), *lines, _open_mend(given)]))
+        head, mend = _open_head(at.time, len(lines), bool(given)), _open_mend(given)
+        if jump:
+            names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
+            head = f"{'this loop does' if len(lines) == 1 else 'these loops do'} not close with {names}, {jump}:"
+            mend = "Let it jump to what the loop can reach."
+        raise InitializationError("\n".join([head, *lines, mend]))
 
 
 def _open_head(time: float, n: int, fixed: bool) -> str:

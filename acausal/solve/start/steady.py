@@ -112,7 +112,7 @@ class Equilibrium(Linearizer):
         for k in self.coordinates:
             back = np.zeros(self.nx)
             back[k] = 2 * np.pi * np.round(self._apart(here)[k] / (2 * np.pi))
-            there = self._tried(moved(here.point, back)) if back[k] else None
+            there = self._tried(self.problem.completed(moved(here.point, back))) if back[k] else None
             here = there or here
         return here
 

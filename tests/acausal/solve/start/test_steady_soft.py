@@ -84,3 +84,12 @@ def test_a_soft_beam_in_a_loop_sags(J: float, volumes: int) -> None:
     final = ac.simulate(model, initial="guesses", stop_time=100.0, intervals=10)
     for name in angles:
         assert rest[name][0] == pytest.approx(final[name][-1], abs=1e-3)
+
+
+@pytest.mark.parametrize("turn", [-1.5, 1.0, 3.0])
+def test_rest_of_a_loop_does_not_depend_on_the_stop_time(turn: float) -> None:
+    """How fast a run returns to its constraints follows from that; the search has its own."""
+    model = Swing(J=3e-9, left=Revolute(use_axis_flange=True, phi=guess(turn)))
+    runs = [started(model, stop_time) for stop_time in (0.01, 1.0, 10.0)]
+    for name in ("left.phi", "right.phi", "near.phi", "far.phi"):
+        assert max(abs(run[name][0] - runs[0][name][0]) for run in runs) < 1e-6
