@@ -77,14 +77,14 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
             return ac_fail(i, AC_REFUSED, "a tolerance lies between 0 and 1, damping is 0 or 1, a number of steps is at least 1.");
         }
     }
-    int changed = 0;
+    int changed = 0, placed = 0;
     if (size) memcpy(i->other, i->p, size);
     for (size_t k = 0; k < count; k++) {
         const int32_t entry = entry_of(i, reference[k]);
         const int32_t kind = kind_of(i, reference[k], &place);
         if (entry < 0 && kind != SETTING) {
             *(kind == TIME ? &i->now.time : i->x + place) = value[k];
-            if (kind != TIME) ac_follow_states(i);
+            placed |= kind != TIME;
             ac_moved(i);
         } else if (kind == SETTING) {
             *setting(i, place) = value[k];
@@ -93,6 +93,7 @@ int32_t ac_set(ac_instance *i, const uint32_t *reference, size_t count, const do
             changed = 1;
         }
     }
+    if (placed) ac_follow_states(i);
     if (!changed) return AC_OK;
     ac_changed(i);
     i->now.given = i->now.phase > AC_INITIALISING;

@@ -50,10 +50,19 @@ const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, cons
     return w;
 }
 
-static double dot(const double *a, const double *b, int32_t n) {
+double ac_dot(const double *a, const double *b, int32_t n) {
     double sum = 0;
     for (int32_t k = 0; k < n; k++) sum += a[k] * b[k];
     return sum;
+}
+
+/* In a flat position, or at a dead centre, one row of an equation may vanish by itself. */
+void ac_measure(const ac_instance *i, const int32_t *row, int32_t m, const double *A, int32_t n, double *size) {
+    const int32_t *kind = i->of->kind;
+    for (int32_t a = 0; a < m; a++) size[a] = sqrt(ac_dot(A + a * n, A + a * n, n));
+    for (int32_t a = 0; a < m; a++) {
+        for (int32_t b = 0; b < m; b++) size[a] = kind[row[a]] == kind[row[b]] ? fmax(size[a], size[b]) : size[a];
+    }
 }
 
 /* Evaluate at the present. */
@@ -68,21 +77,14 @@ static void fill(ac_instance *i, closing *c) {
     }
 }
 
-/* Sizes of the equations: rows of one have one, as one of them may vanish by itself. */
+/* Sizes of the equations; of those that no state changes, that of the largest other. */
 static void size_up(ac_instance *i, closing *c) {
-    const int32_t *kind = i->of->kind;
     double any = 0;
     for (int32_t a = 0; a < c->m; a++) c->size[a] = 1;
     fill(i, c);
-    for (int32_t a = 0; a < c->m; a++) {
-        c->y[a] = sqrt(dot(c->A + a * c->n, c->A + a * c->n, c->n));
-        any = fmax(any, c->y[a]);
-    }
-    for (int32_t a = 0; a < c->m; a++) {
-        double most = 0;
-        for (int32_t b = 0; b < c->m; b++) most = kind[c->row[a]] == kind[c->row[b]] ? fmax(most, c->y[b]) : most;
-        c->size[a] = most > 0 ? most : any > 0 ? any : 1;
-    }
+    ac_measure(i, c->row, c->m, c->A, c->n, c->y);
+    for (int32_t a = 0; a < c->m; a++) any = fmax(any, c->y[a]);
+    for (int32_t a = 0; a < c->m; a++) c->size[a] = c->y[a] > 0 ? c->y[a] : any > 0 ? any : 1;
     fill(i, c);
 }
 
@@ -91,11 +93,11 @@ static int step(closing *c, double damping) {
     const int32_t m = c->m, n = c->n;
     for (int32_t a = 0; a < m; a++) {
         for (int32_t b = 0; b <= a; b++) {
-            double left = dot(c->A + a * n, c->A + b * n, n) + (a == b ? damping : 0) - dot(c->S + a * m, c->S + b * m, b);
+            double left = ac_dot(c->A + a * n, c->A + b * n, n) + (a == b ? damping : 0) - ac_dot(c->S + a * m, c->S + b * m, b);
             if (a == b && !(left > 0)) return 0;
             c->S[a * m + b] = a == b ? sqrt(left) : left / c->S[b * m + b];
         }
-        c->y[a] = (c->r[a] - dot(c->S + a * m, c->y, a)) / c->S[a * m + a];
+        c->y[a] = (c->r[a] - ac_dot(c->S + a * m, c->y, a)) / c->S[a * m + a];
     }
     memset(c->h, 0, (size_t)n * sizeof *c->h);
     for (int32_t a = m - 1; a >= 0; a--) {
@@ -115,10 +117,10 @@ static int32_t close_level(ac_instance *i, closing *c) {
     const size_t size = (size_t)c->m * (size_t)c->n * sizeof *c->A;
     double damping = 0, growth = 2, most = 0, worst = 0;
     size_up(i, c);
-    for (int32_t a = 0; a < c->m; a++) damping = fmax(damping, dot(c->A + a * c->n, c->A + a * c->n, c->n));
+    for (int32_t a = 0; a < c->m; a++) damping = fmax(damping, ac_dot(c->A + a * c->n, c->A + a * c->n, c->n));
     most = damping, damping *= DAMPING;
     for (int tries = 0; tries < EVALUATIONS && most > 0; tries++) {
-        const double now = dot(c->r, c->r, c->m);
+        const double now = ac_dot(c->r, c->r, c->m);
         double far = 0, long_ = 0, expected = 0;
         for (int32_t k = 0; k < c->n; k++) c->before[k] = i->x[c->column[k]];
         if (!step(c, damping)) {
@@ -135,7 +137,7 @@ static int32_t close_level(ac_instance *i, closing *c) {
         memcpy(c->B, c->A, size), memcpy(c->q, c->r, (size_t)c->m * sizeof *c->q);
         move(i, c);
         fill(i, c);
-        const double gain = (now - dot(c->r, c->r, c->m)) / expected;
+        const double gain = (now - ac_dot(c->r, c->r, c->m)) / expected;
         if (gain > 0) {
             damping = fmax(damping * fmax(1.0 / 3, 1 - pow(2 * gain - 1, 3)), ROUNDING * most), growth = 2;
         } else {

@@ -128,6 +128,9 @@ int32_t ac_pick(ac_instance *i, const uint32_t *unknown, size_t count, double *o
 int32_t ac_close(ac_instance *i, const double *held, double *from);
 void ac_follow_states(ac_instance *i);                          /* guesses of coordinates where the states have them */
 int32_t ac_counting(const ac_instance *i, const ac_level *l, int32_t *row);
+double ac_dot(const double *a, const double *b, int32_t n);
+/* Size of the equation of each of m rows: the longest one of A (m, n) that belongs to it, 0 where all vanish. */
+void ac_measure(const ac_instance *i, const int32_t *row, int32_t m, const double *A, int32_t n, double *size);
 const double *ac_constraints(ac_instance *i, const int32_t *row, int32_t m, const int32_t *column, int32_t n, double *A);
 int32_t ac_initial(ac_instance *i);
 int32_t ac_limits(ac_instance *i, int at_start);                /* what is broken: of parameters, or of variables at the start */

@@ -18,12 +18,6 @@ typedef struct {
     int32_t on[LARGEST];
 } held;
 
-static double dot(const double *a, const double *b, int32_t n) {
-    double sum = 0;
-    for (int32_t k = 0; k < n; k++) sum += a[k] * b[k];
-    return sum;
-}
-
 /* The r-th largest eigenvalue of a symmetric matrix, by Jacobi's method. */
 static double eigenvalue(double *G, int32_t m, int32_t r) {
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
@@ -66,17 +60,14 @@ static int32_t hold(ac_instance *i, held *h) {
     h->A = calloc(m * (2 * n + m + 1) + 1, sizeof(double));
     if (!h->A) return 0;
     h->Q = h->A + m * n, h->G = h->Q + m * n;
-    double *length = h->G + m * m;
+    double *size = h->G + m * m;
     int32_t row[LARGEST];
     h->kept = ac_counting(i, l, row);
     for (int32_t a = 0, k = 0; a < h->m; a++) h->on[a] = k < h->kept && row[k] == l->row[a] ? ++k : 0;
     ac_constraints(i, l->row, h->m, l->column, h->n, h->A);
-    for (int32_t a = 0; a < h->m; a++) length[a] = sqrt(dot(h->A + a * h->n, h->A + a * h->n, h->n));
-    /* Rows of one equation have one size: in a flat position one of them may vanish by itself. */
+    ac_measure(i, l->row, h->m, h->A, h->n, size);
     for (int32_t a = 0; a < h->m; a++) {
-        double most = 0;
-        for (int32_t b = 0; b < h->m; b++) most = u->kind[l->row[a]] == u->kind[l->row[b]] ? fmax(most, length[b]) : most;
-        for (int32_t k = 0; k < h->n && most > 0; k++) h->A[a * h->n + k] /= most;
+        for (int32_t k = 0; k < h->n && size[a] > 0; k++) h->A[a * h->n + k] /= size[a];
     }
     return 1;
 }
@@ -88,7 +79,7 @@ static double least(held *h, int kept) {
         if (h->on[a] || !kept) memcpy(h->Q + m++ * h->n, h->A + a * h->n, (size_t)h->n * sizeof *h->Q);
     }
     for (int32_t a = 0; a < m; a++) {
-        for (int32_t b = 0; b < m; b++) h->G[a * m + b] = dot(h->Q + a * h->n, h->Q + b * h->n, h->n);
+        for (int32_t b = 0; b < m; b++) h->G[a * m + b] = ac_dot(h->Q + a * h->n, h->Q + b * h->n, h->n);
     }
     return sqrt(fmax(eigenvalue(h->G, m, h->kept), 0));
 }
@@ -114,14 +105,14 @@ static void choose(ac_instance *i, held *h) {
         double most = -1;
         for (int32_t a = 0; a < h->m; a++) {
             const int32_t stays = u->closure[u->level->row[a]] < 0;
-            const double size = sqrt(dot(h->Q + a * h->n, h->Q + a * h->n, h->n));
+            const double size = sqrt(ac_dot(h->Q + a * h->n, h->Q + a * h->n, h->n));
             if (!h->on[a] && (stays > firm || (stays == firm && size > most))) best = a, firm = stays, most = size;
         }
         double *q = h->Q + best * h->n;
         h->on[best] = 1;
         for (int32_t k = 0; k < h->n && most > 0; k++) q[k] /= most;
         for (int32_t a = 0; a < h->m; a++) {
-            const double along = h->on[a] ? 0 : dot(h->Q + a * h->n, q, h->n);
+            const double along = h->on[a] ? 0 : ac_dot(h->Q + a * h->n, q, h->n);
             for (int32_t k = 0; k < h->n; k++) h->Q[a * h->n + k] -= along * q[k];
         }
     }
@@ -131,31 +122,36 @@ static void choose(ac_instance *i, held *h) {
     }
 }
 
+/* Whether some constraints do not count. */
+static int spares(const ac_instance *i) {
+    const double *on = i->c + i->of->switches + i->of->discretes;
+    for (int32_t k = 0; k < i->of->closures; k++) {
+        if (on[k] == 0) return 1;
+    }
+    return 0;
+}
+
+static int unfit(held *h) { return h->kept && !(least(h, 1) >= FAIRLY * least(h, 0)); }
+
 /* Whether other constraints are to be kept at the present. */
 int ac_is_unfit(ac_instance *i) {
-    const ac_unit *u = i->of;
-    int32_t row[LARGEST];
     held h;
-    if (!u->levels || u->level->rows > LARGEST || ac_counting(i, u->level, row) == u->level->rows || !hold(i, &h)) return 0;
-    const int unfit = h.kept && !(least(&h, 1) >= FAIRLY * least(&h, 0));
+    if (!spares(i) || !hold(i, &h)) return 0;
+    const int found = unfit(&h);
     free(h.A);
-    return unfit;
+    return found;
 }
 
 /* Keep others where that is so. */
 void ac_keep(ac_instance *i) {
     held h;
-    if (!ac_is_unfit(i) || !hold(i, &h)) return;
-    choose(i, &h);
+    if (!spares(i) || !hold(i, &h)) return;
+    if (unfit(&h)) choose(i, &h);
     free(h.A);
 }
 
 const char *ac_unsolved(const ac_instance *i) {
-    const ac_unit *u = i->of;
-    const double *on = i->c + u->switches + u->discretes;
-    int spare = 0;
-    for (int32_t k = 0; k < u->closures; k++) spare |= on[k] == 0;
-    return u->levels && u->level->rows > LARGEST && spare
+    return i->of->levels && i->of->level->rows > LARGEST && spares(i)
         ? "the equations have no solution here; which constraints of closed loops are kept is not changed among more than 64."
         : "the equations have no solution here.";
 }
