@@ -18,7 +18,7 @@ from acausal.export.limits import Limit, limits
 from acausal.language.functions import time
 from acausal.solve.integrate.one_step import are_rates, sizes
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import droppable
+from acausal.solve.start.kept import closure_of
 from acausal.solve.start.loop_states import choose_projection, sparing
 from acausal.solve.start.loops import levels
 from acausal.solve.start.reach import reaches
@@ -96,7 +96,7 @@ class Content:
             "rules": ints([k for rule in self._rules for k in rule]),
             "jumpsto": ints([k for place in jumps[1] for k in place]),
             "closeat": ints(self._closing.sparsity().colind()) + ints(self._closing.sparsity().row()),
-            "closures": ints(self._closures),
+            "closures": ints(closure_of(self.compiled)),
             "kinds": ints(c.kinds),
             "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self._levels),
             "coordsto": ints(self._coordinates[1]),
@@ -248,17 +248,6 @@ class Content:
     @cached_property
     def _levels(self) -> list[tuple[list[int], np.ndarray]]:
         return levels(self.compiled)
-
-    @property
-    def _closures(self) -> list[int]:
-        """Closure of each residual of the constraints, -1 for none that may be dropped."""
-        c = self.compiled.constraints
-        found = [-1] * c.size
-        for closure, constraint in enumerate(c.closures):
-            if droppable(self.compiled)[closure]:
-                for row in c.rows[constraint]:
-                    found[row] = closure
-        return found
 
     @cached_property
     def _coordinates(self) -> tuple[ca.SX, list[int]]:

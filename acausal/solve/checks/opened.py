@@ -25,19 +25,19 @@ def opened(consistent: Consistent, rows: Rows) -> list[str]:
     if not c.closures:
         return []
     some = rows[spread(len(rows), POLICY.loops.seen)]
-    dropped = np.flatnonzero(np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0))
-    row_of = {c.closures[k]: int(c.lowest[c.closures[k]]) for k in dropped.tolist()}
-    if not row_of:
+    dropped = np.flatnonzero(np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0)).tolist()
+    if not dropped:
         return []
     some, _ = consistent(some)
     points = [problem.projected(problem.point(some, place)) for place in range(len(some))]
     apart = np.nan_to_num(np.abs([problem.constraints(at)[0] for at in points]))
     wide: dict[int, tuple[float, float]] = {}
-    for k, row in row_of.items():
+    for k in dropped:
+        row = c.lowest[c.closures[k]]
         place = int(np.argmax(apart[:, row]))
         widest, size = points[place], float(apart[place, row])
         if size > POLICY.loops.opened * problem.sizes(widest)[row]:
-            loop = flat.loops.closures[c.closures.index(k)].loop
+            loop = flat.loops.closures[k].loop
             wide[loop] = max(wide.get(loop, (0.0, 0.0)), (size, widest.time))
     return [
         f"the loop that {flat.loops.cuts[loop].a} and {flat.loops.cuts[loop].b} close ({flat.loops.cuts[loop].where}) is open by "

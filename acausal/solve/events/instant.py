@@ -179,7 +179,8 @@ class Instants:
 
         In closed loops the other states follow, by the least change that keeps the loops closed.
         """
-        x, discretes, jumped = self.problem.projected(at).x, constants.discretes.copy(), []
+        before, discretes, jumped = self.problem.projected(at), constants.discretes.copy(), []
+        x = before.x.copy()
         for guard in fires:
             call, places = self.guards.jump(guard)
             values = call(at.x, at.z, self.problem.p, at.time, at.constants.vector)[0]
@@ -196,9 +197,9 @@ class Instants:
         if not jumped or not self.problem.compiled.constraints.size:
             return after
         held = np.array(jumped, dtype=int)
-        after, mismatch = follow(self.problem, self.problem.projected(at), after, held)
+        after, mismatch = follow(self.problem, before, after, held)
         if not mismatch <= POLICY.loops.closed:
             where = ", ".join(dict.fromkeys(str(self.guards.guards[guard].origin) for guard in fires))
-            refuse_open_loops(self.problem, after, held, f"where {where} lets these jump")
+            refuse_open_loops(self.problem, after, held, where)
         # From what coordinates were before, an iteration may come to others.
         return self.problem.completed(after)

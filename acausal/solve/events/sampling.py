@@ -15,7 +15,7 @@ from acausal.core import Back, SampledState, Sampler, library
 from acausal.policy import POLICY
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
-from acausal.solve.integrate.flat import flat_time, passes_flat
+from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.ladder import Way
 from acausal.solve.integrate.methods import METHODS
 from acausal.solve.integrate.one_step import at_once, error_test
@@ -23,6 +23,7 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.looks import spread
 from acausal.solve.points import Point, Rows
+from acausal.solve.start.kept import Held
 from acausal.solve.start.newton import terms
 
 SAMPLING = POLICY.sampling
@@ -73,12 +74,12 @@ class Sampling:
             )
         integrator.consistent.evaluations += state.evaluations
         rows = Rows(found.times, found.x, found.z, found.c)
-        passed = Rows.joined([Rows.of(at), rows])
-        unfit = unfit_time(integrator.problem, passed.times, passed.x, at.constants, at.time)
-        if unfit is not None and unfit < end:
+        passed = Rows.joined([Rows.of(at), rows]) if integrator.loops else rows
+        held = looked_at(integrator.problem, passed.times, passed.x, at.constants) if integrator.loops else None
+        if held and (unfit := unfit_time(held, at.time)) is not None and unfit < end:
             return self.go(at, unfit)
         instants = np.isfinite(found.events)
-        if not state.instants or not self._is_sure(at, rows, instants):
+        if not state.instants or not self._is_sure(held, passed, instants):
             if found.back is not Back.NO_INSTANT:
                 self._wait, self._next = self._next, min(2 * self._next, SAMPLING.longest)
             return None
@@ -93,14 +94,14 @@ class Sampling:
             found.events[instants].tolist(),
         )
 
-    def _is_sure(self, at: Point, rows: Rows, instants: np.ndarray) -> bool:
-        """Whether closed loops pass no flat position in rows after a point; elsewhere, whether equations hold at the instants."""
-        if not self.integrator.loops:
+    def _is_sure(self, held: Held | None, rows: Rows, instants: np.ndarray) -> bool:
+        """Whether closed loops pass no flat position in rows; elsewhere, whether equations hold at the instants."""
+        if held is None:
             return self._hold(rows[instants])
-        problem, passed = self.integrator.problem, Rows.joined([Rows.of(at), rows])
         if METHODS[self.integrator.way.method].damps:
-            return flat_time(problem, passed.times, np.hstack([passed.x, passed.z]), at.constants) is None
-        return not passes_flat(problem, passed.times, passed.x, at.constants)
+            y = np.hstack([rows.x, rows.z])
+            return flat_time(self.integrator.problem, rows.times, y, held.constants) is None
+        return not passes_flat(held)
 
     def _hold(self, rows: Rows) -> bool:
         """Whether algebraic equations hold in rows: from far away, unknowns may come to rest where they do not."""

@@ -12,6 +12,7 @@ from acausal.compiler.once import making
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
+from acausal.solve.integrate.flat import looked_at
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.interrupted import reached
 from acausal.solve.integrate.ladder import Kind, Refusal, Way
@@ -227,8 +228,10 @@ class Integrator:
         found = reached(self.consistent, integration)
         if found is None or self.is_worn(found.rows, found.constants):
             return None
-        unfit = unfit_time(self.problem, found.times, found.rows.x, found.constants, integration.request.at.time)
-        found = found if unfit is None else found.part(0, int(np.searchsorted(found.times, unfit)))
+        if not found.constants.all_count:
+            held = looked_at(self.problem, found.times, found.rows.x, found.constants)
+            unfit = unfit_time(held, integration.request.at.time)
+            found = found if unfit is None else found.part(0, int(np.searchsorted(found.times, unfit)))
         return found.every(parts) if len(found.rows) >= parts else None
 
     def settled(self, leg: Leg, integration: Integration, leaps: bool = False) -> Leg | Refusal:

@@ -8,6 +8,7 @@ import numpy as np
 
 from acausal.compiler.dae import UNSEEN
 from acausal.policy import POLICY
+from acausal.solve.integrate.flat import looked_at
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal, read
 from acausal.solve.integrate.one_step import first_step, sizes
@@ -78,8 +79,8 @@ class ByCasadi(Integration):
         if request.at.constants.all_count:
             return None
         rows = Rows.joined([Rows.of(request.at), self.leg().rows])
-        reached = np.isfinite(rows.x).all(axis=1)
-        return unfit_time(request.problem, rows.times[reached], rows.x[reached], request.at.constants, rows.times[0])
+        rows = rows[np.flatnonzero(np.isfinite(rows.x).all(axis=1))]
+        return unfit_time(looked_at(request.problem, rows.times, rows.x, request.at.constants), request.at.time)
 
     def leg(self) -> Leg:
         """Return the values at all output times: nan at those that were not reached, integrals 0 where none were asked for."""

@@ -12,13 +12,14 @@ from acausal.core import Curve, End, Rodas
 from acausal.policy import POLICY
 from acausal.solve.integrate.branches import first_jump
 from acausal.solve.integrate.consistent import Consistent
-from acausal.solve.integrate.flat import flat_time, passes_flat
+from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
 from acausal.solve.integrate.integration import Integration, Request
 from acausal.solve.integrate.ladder import Kind, Refusal
 from acausal.solve.integrate.one_step import at_once, error_test
 from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import unfit_time
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import Held
 
 REFUSALS = {End.MANY: Kind.STEPS, End.SHORT: Kind.ERROR_TEST, End.UNSOLVED: Kind.CORRECTOR}
 
@@ -117,13 +118,13 @@ class ByCore(Integration):
             rings = self.request.settings.rings(self._ringing.interval)
             self._rodas.allow(self._ringing.steps if rings else self.request.way.max_steps)
             self._ringing, end = None, End.MORE
-        unfit = self._unfit() if self._loops else None
-        if unfit is not None:
+        held = self._held() if self._loops else None
+        if held and (unfit := unfit_time(held, self.request.times[0])) is not None:
             return Refusal(Kind.UNFIT, unfit)
-        if self._loops and self._damps:
+        if held and self._damps:
             self.flat = flat_time(*self._last_steps) if self.flat is None else self.flat
-        elif self._loops and (
-            self._passed_flat()
+        elif held and (
+            passes_flat(held)
             or (self.request.way.moves and end in (End.SHORT, End.UNSOLVED))
             or (end == End.MORE and self._creeps())
         ):
@@ -141,15 +142,10 @@ class ByCore(Integration):
         there = self.request.problem.projected(replace(self.request.at, time=time, x=x, z=z))
         self._rodas.move(there.x, there.z)
 
-    def _unfit(self) -> float | None:
-        """When, in the last steps, other constraints are to be kept."""
+    def _held(self) -> Held:
+        """The constraints of loops at the last steps."""
         problem, times, y, constants = self._last_steps
-        return unfit_time(problem, times, y[:, : problem.nx], constants, self.request.times[0])
-
-    def _passed_flat(self) -> bool:
-        """Whether loops may have passed a flat position in the last steps."""
-        problem, times, y, constants = self._last_steps
-        return passes_flat(problem, times, y[:, : problem.nx], constants)
+        return looked_at(problem, times, y[:, : problem.nx], constants)
 
     def _creeps(self) -> bool:
         """Whether some steps bring it hardly forward, and many of them are taken again, shorter, twice in a row.

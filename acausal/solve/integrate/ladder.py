@@ -192,10 +192,10 @@ class Rescues:
 def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     """Return the ways to try after a refused one, in this order; none if only shorter legs are left.
 
-    Where other constraints are to be kept, the same way goes on from there. Flat positions of loops are left to the next
-    method, which begins with chosen states. A quick way gives place to the projection that moves where the chosen states became
-    unfit, and to the next method, which damps vibrations and, without a Newton iteration, gets past positions where the
-    equations are singular. What comes after a careful way are the other methods, then longer steps.
+    Flat positions of loops are left to the next method, which begins with chosen states. A quick way gives place to the
+    projection that moves where the chosen states became unfit, and to the next method, which damps vibrations and, without a
+    Newton iteration, gets past positions where the equations are singular. What comes after a careful way are the other
+    methods, then longer steps.
 
     Parameters
     ----------
@@ -218,8 +218,6 @@ def next_ways(way: Way, refusal: Refusal, rescues: Rescues) -> tuple[Way, ...]:
     if rescues.is_flat(way, refusal):
         other = replace(way, method=rescues.after(way.method), moves=way.moves and not rescues.projects)
         return () if other.method == way.method else (other,)
-    if refusal.kind is Kind.UNFIT:
-        return ()
     changed = replace(way, moves=way.moves or (rescues.projects and rescues.wears(refusal)))
     if refusal.kind is Kind.STEPS and rescues.damps:
         changed = replace(changed, method=rescues.methods[-1])

@@ -17,6 +17,7 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.integrate.unfit import fit_rows
 from acausal.solve.looks import uneven
 from acausal.solve.points import Point, Rows
+from acausal.solve.start.kept import Held
 
 LOOKS = POLICY.looks
 
@@ -97,9 +98,9 @@ class March:
         energy, own = np.zeros((len(times), 2)), self.integrator
         if own.settings.energy and not own.compiled.powers.is_zero():
             energy = along(own.consistent, self.rows, times)
-        constants, rows = self._integration.request.at.constants, self.rows(times[1:])
-        n = fit_rows(self.integrator.problem, rows, constants) if self.unfit else len(rows)
-        return Leg(rows[:n], energy[1 : n + 1], constants, len(ends) - 1, self.rows) if n else None
+        constants, rows = self._integration.request.at.constants, self.rows(times)
+        n = fit_rows(Held(own.problem, times, rows.x, constants)) if self.unfit else len(rows) - 1
+        return Leg(rows[1 : n + 1], energy[1 : n + 1], constants, len(ends) - 1, self.rows) if n else None
 
     def rows(self, times: np.ndarray) -> Rows:
         """Rows at times in the last steps, algebraic unknowns nearly right."""

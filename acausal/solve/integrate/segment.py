@@ -25,18 +25,21 @@ def segment(integrator: Integrator, at: Point, times: np.ndarray) -> Point:
         If the integrator gives up; the trace holds what was reached.
     """
     at, times = settle(integrator, at, times)
-    if len(times) == 1:
-        return at
-    found, rest = quickly(integrator, at, times)
-    while isinstance(found, Leg):
+    while len(times) > 1:
+        found, rest = quickly(integrator, at, times)
+        if isinstance(found, Refusal):
+            return _in_chunks(integrator, at, times, found)
         integrator.trace.add(found)
         at, times = found.end(at), rest
-        if len(times) == 1:
-            return at
-        integrator.report(at.time)
-        found, rest = quickly(integrator, at, times)
+        if len(times) > 1:
+            integrator.report(at.time)
+    return at
+
+
+def _in_chunks(integrator: Integrator, at: Point, times: np.ndarray, refusal: Refusal) -> Point:
+    """Integrate with the careful method, in chunks, after a refused call through all times; return the last point."""
     n = len(times) - 1
-    integrator.take(replace(integrator.way, method=integrator.settings.careful), found)
+    integrator.take(replace(integrator.way, method=integrator.settings.careful), refusal)
     size = max(1, -(-n // RESCUE.chunks))
     for first in range(0, n, size):
         part = times[first : first + size + 1]
@@ -139,24 +142,21 @@ def passage(
 def _stride(
     integrator: Integrator, at: Point, times: np.ndarray, way: Way, halvings: int, refusal: Refusal | None = None
 ) -> Leg | Refusal:
-    """Go to the next output, with new choices of states on the way where one does not last."""
-    gained, found = np.zeros(2), refusal or _patiently(integrator, at, times, way)
-    while isinstance(found, Refusal) and found.kind is Kind.UNFIT and halvings:
-        first = _stride(integrator, at, np.array([times[0], found.time]), way, halvings - 1)
+    """Go to the next output, with new choices on the way: half-way where states do not last, where constraints become unfit."""
+    gained = np.zeros(2)
+    while True:
+        found, refusal = refusal or _patiently(integrator, at, times, way), None
+        if isinstance(found, Leg):
+            return replace(found, energy=found.energy + gained)
+        if not halvings or not integrator.settings.rescues(times, integrator.loops).wears(found):
+            return found
+        unfit = found.kind is Kind.UNFIT
+        part = found.time if unfit else (times[0] + times[1]) / 2
+        first = _stride(integrator, at, np.array([times[0], part]), way, halvings - 1)
         if isinstance(first, Refusal):
             return first
-        at, times, gained = first.end(at), np.array([found.time, times[1]]), gained + first.energy[-1]
-        found = _patiently(integrator, at, times, way)
-    if isinstance(found, Leg):
-        return replace(found, energy=found.energy + gained)
-    if not halvings or not integrator.settings.rescues(times, integrator.loops).wears(found):
-        return found
-    middle = (times[0] + times[1]) / 2
-    first = _stride(integrator, at, np.array([times[0], middle]), way, halvings - 1)
-    if isinstance(first, Refusal):
-        return first
-    last = _stride(integrator, first.end(at), np.array([middle, times[1]]), way, halvings - 1)
-    return last if isinstance(last, Refusal) else replace(last, energy=last.energy + first.energy[-1] + gained)
+        at, times, gained = first.end(at), np.array([part, times[1]]), gained + first.energy[-1]
+        halvings -= not unfit
 
 
 def approached(run: Integrator, at: Point, time: float) -> Point:

@@ -6,7 +6,8 @@ it, and others are kept from there on. The motion is the same; forces that are n
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -15,7 +16,7 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
-from acausal.solve.points import Point, Rows
+from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.parts import Part
 from acausal.solve.start.rank import pivots
@@ -25,11 +26,9 @@ from acausal.solve.start.regular import gram, least_singular_value
 RANKS = POLICY.ranks
 
 
-def sharpness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
-    """Smallest singular value of the constraints of each part, 0 in a flat position, at n points: shape (m, n).
-
-    Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0 elsewhere;
-    in large mechanisms that of the kept ones.
+@dataclass(frozen=True, eq=False)
+class Held:
+    """Constraints of closed loops at n points, part by part.
 
     Parameters
     ----------
@@ -40,27 +39,65 @@ def sharpness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Con
     constants : Constants
         Those of the segment.
     """
-    held = _in_sizes(problem, times, x, constants)
-    found = [_smallest(part, held, on, spare) for part, on, spare in _rows(problem, constants) if on.any()]
-    return np.array(found).reshape(len(found), len(times))
 
+    problem: Problem
+    times: np.ndarray
+    x: np.ndarray
+    constants: Constants
 
-def fitness(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
-    """How well the constraints that are kept hold the others, at n points: 1 is best, 0 is not at all; shape (n,).
+    @classmethod
+    def at(cls, problem: Problem, at: Point) -> Held:
+        """Return them at one point."""
+        return cls(problem, np.array([at.time]), at.x[None], at.constants)
 
-    It is the smallest singular value of the kept ones over that of all, see `sharpness`, or in large mechanisms, where the
-    others are X times the kept ones, 1 / sqrt(1 + |X|^2).
-    """
-    found, spared = np.ones(len(times)), [rows for rows in _rows(problem, constants) if rows[2].any() and rows[1].any()]
-    held = _in_sizes(problem, times, x, constants) if spared else found
-    for part, on, spare in spared:
-        if np.sum(on) > RANKS.small:
-            own = np.array([_spanning(part, held[k], on, spare) for k in range(len(held))])
-        else:
-            own, all_ = (_smallest(part, held, on, others) for others in (np.zeros_like(spare), spare))
-            own = own / np.maximum(all_, np.finfo(float).tiny)
-        found = np.fmin(found, own)
-    return found
+    @cached_property
+    def parts(self) -> list[tuple[Part, np.ndarray, np.ndarray]]:
+        """Those of which some are kept, with which rows at their lowest levels are, and which are not."""
+        c = self.problem.compiled.constraints
+        counts = c.counting(self.constants.closures)
+        found = [(part, c.is_lowest[part.rows], counts[part.rows]) for part in levels_of(self.problem.compiled)]
+        return [(part, low & on, low & ~on) for part, low, on in found if (low & on).any()]
+
+    @cached_property
+    def J(self) -> np.ndarray:
+        """Their Jacobian, over the size of each equation: in a flat position a row may vanish by itself."""
+        c = self.problem.compiled.constraints
+        held, _ = held_in_sizes(self.problem, self.x, self.times, self.constants.vector)
+        rows = c.entries[0]
+        lengths = np.zeros((len(held), c.size))
+        np.add.at(lengths.T, rows, held.T**2)
+        most = np.zeros((len(held), int(np.max(c.kinds, initial=-1)) + 1))
+        np.maximum.at(most.T, c.kinds, np.sqrt(lengths.T))
+        return held / np.where(most > 0, most, 1.0)[:, c.kinds[rows]]
+
+    @cached_property
+    def sharpness(self) -> np.ndarray:
+        """Smallest singular value of each part, 0 in a flat position, shape (m, n).
+
+        Of constraints that follow from one another it is that of all, of as many as are kept: the least that is not 0
+        elsewhere; in large mechanisms that of the kept ones.
+        """
+        found = [_smallest(part, self.J, on, spare) for part, on, spare in self.parts]
+        return np.array(found).reshape(len(found), len(self.times))
+
+    @cached_property
+    def fitness(self) -> np.ndarray:
+        """How well the constraints that are kept hold the others: 1 is best, 0 is not at all; shape (n,).
+
+        It is the smallest singular value of the kept ones over that of all, see `sharpness`, or in large mechanisms, where the
+        others are X times the kept ones, 1 / sqrt(1 + |X|^2).
+        """
+        found = np.ones(len(self.times))
+        for k, (part, on, spare) in enumerate(self.parts):
+            if not spare.any():
+                continue
+            if np.sum(on) > RANKS.small:
+                own = np.array([_spanning(part, self.J[place], on, spare) for place in range(len(found))])
+            else:
+                of_all = np.maximum(self.sharpness[k], np.finfo(float).tiny)
+                own = _smallest(part, self.J, on, np.zeros_like(spare)) / of_all
+            found = np.fmin(found, own)
+        return found
 
 
 def refitted(problem: Problem, at: Point) -> Constants:
@@ -68,23 +105,23 @@ def refitted(problem: Problem, at: Point) -> Constants:
 
     The projection is that of before.
     """
-    rows, constants = Rows.of(at), at.constants
-    if constants.all_count or fitness(problem, rows.times, rows.x, constants)[0] >= POLICY.loops.fairly:
-        return constants
-    return kept_again(problem, rows, constants)
+    held = Held.at(problem, at)
+    if at.constants.all_count or held.fitness[0] >= POLICY.loops.fairly:
+        return at.constants
+    return kept_again(held)
 
 
-def kept_again(problem: Problem, at: Rows, constants: Constants) -> Constants:
+def kept_again(held: Held) -> Constants:
     """Return constants with which as many constraints are kept at one point as before, those that hold the others best."""
-    closures, closure_of = constants.closures.copy(), _closure_of(problem.compiled)
-    held = _in_sizes(problem, at.times, at.x, constants)[0]
-    for part, on, spare in _rows(problem, constants):
+    compiled, constants = held.problem.compiled, held.constants
+    closures = constants.closures.copy()
+    for part, on, spare in held.parts:
         if not spare.any():
             continue
         rows = np.flatnonzero(on | spare)
-        own = closure_of[part.rows[rows]]
-        weight = np.where(droppable(problem.compiled)[own] & (own >= 0), 1.0, RANKS.kept)
-        order = pivots((weight[:, None] * part.dense(held)[rows]).T)
+        own = closure_of(compiled)[part.rows[rows]]
+        weight = np.where(own >= 0, 1.0, RANKS.kept)
+        order = pivots((weight[:, None] * part.dense(held.J[0])[rows]).T)
         closures[own[own >= 0]] = 1.0
         left = own[order[int(np.sum(on)) :]]
         closures[left[left >= 0]] = 0.0
@@ -98,22 +135,13 @@ def droppable(compiled: CompiledModel) -> np.ndarray:
 
 
 @once
-def _closure_of(compiled: CompiledModel) -> np.ndarray:
-    """Closure of each residual of the constraints that is the lowest one of a closure, -1 for others."""
+def closure_of(compiled: CompiledModel) -> np.ndarray:
+    """Closure of each residual of the constraints, -1 where none may be dropped."""
     c = compiled.constraints
     found = np.full(c.size, -1)
-    found[c.lowest[c.closures]] = np.arange(len(c.closures))
+    for closure in np.flatnonzero(droppable(compiled)).tolist() if c.closures else ():
+        found[list(c.rows[c.closures[closure]])] = closure
     return found
-
-
-def _rows(problem: Problem, constants: Constants) -> list[tuple[Part, np.ndarray, np.ndarray]]:
-    """Parts of the constraints, with which rows at their lowest levels are kept, and which are not."""
-    c = problem.compiled.constraints
-    counts = c.counting(constants.closures)
-    return [
-        (part, c.is_lowest[part.rows] & counts[part.rows], c.is_lowest[part.rows] & ~counts[part.rows])
-        for part in levels_of(problem.compiled)
-    ]
 
 
 def _smallest(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -> np.ndarray:
@@ -137,15 +165,3 @@ def _spanning(part: Part, held: np.ndarray, on: np.ndarray, spare: np.ndarray) -
     options = {"return_singular_vectors": False, "v0": np.cos(np.arange(min(X.shape))), "tol": POLICY.loops.angles}
     most = scipy.sparse.linalg.svds(X, 1, **options)[0] if min(X.shape) > 1 else np.linalg.norm(X)
     return float(1 / np.sqrt(1 + most**2))
-
-
-def _in_sizes(problem: Problem, times: np.ndarray, x: np.ndarray, constants: Constants) -> np.ndarray:
-    """Jacobian of the constraints at n points, over the size of each equation: in a flat position a row may vanish by itself."""
-    c = problem.compiled.constraints
-    held, _ = held_in_sizes(problem, x, times, constants.vector)
-    rows = c.entries[0]
-    lengths = np.zeros((len(held), c.size))
-    np.add.at(lengths.T, rows, held.T**2)
-    most = np.zeros((len(held), int(np.max(c.kinds, initial=-1)) + 1))
-    np.maximum.at(most.T, c.kinds, np.sqrt(lengths.T))
-    return held / np.where(most > 0, most, 1.0)[:, c.kinds[rows]]

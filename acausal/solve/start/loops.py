@@ -168,8 +168,12 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
         head, mend = _open_head(at.time, len(lines), bool(given)), _open_mend(given)
         if jump:
             names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
-            head = f"{'this loop does' if len(lines) == 1 else 'these loops do'} not close with {names}, {jump}:"
-            mend = "Let it jump to what the loop can reach."
+            loops, they = (
+                ("this loop does" if len(lines) == 1 else "these loops do"),
+                "it" if len(given) == 1 else "them",
+            )
+            head = f"{loops} not close with {names}, where {jump} lets {they} jump:"
+            mend = f"Let {they} jump to what the loop can reach."
         raise InitializationError("\n".join([head, *lines, mend]))
 
 
