@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from acausal.compiler.call import Call
+from acausal.compiler.rowwise import Rowwise
 from acausal.errors import caution
 from acausal.flatten.foreign import refuse_undeclared
 from acausal.language.functions import time as time_symbol
@@ -61,15 +61,12 @@ class Evaluator:
         if not n:
             return np.empty((0, resolved.numel()))
         try:
-            call = Call(ca.Function("observe", arguments, [resolved]).map(n))
+            function = ca.Function("observe", arguments, [resolved])
         except RuntimeError:
             refuse_undeclared(resolved, arguments)
             raise
-        p = np.tile(self.solver.problem.p, n)
-        own = [self.known.values.ravel()] if self.known else []
-        return (
-            call(rows.x.ravel(), rows.z.ravel(), p, rows.times, rows.constants.ravel(), *own)[0].reshape(n, -1).copy()
-        )
+        own = [self.known.values] if self.known else []
+        return Rowwise(function)(rows.x, rows.z, self.solver.problem.p, rows.times[:, None], rows.constants, *own)
 
     def why(self, row: int) -> str:
         """Say which equations have no value at one of the times, "" if all have one."""
