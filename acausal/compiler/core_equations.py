@@ -85,7 +85,7 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
 
 
 @once
-def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
+def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled | None:
     """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
 
     That is where nothing is planned, where what is differentiated may jump, and without states.
@@ -94,7 +94,7 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
     ----------
     compiled : CompiledModel
         The model.
-    moves : bool
+    works, moves : bool
         As of `core_equations`.
     """
     r, guards = compiled.reduced, compiled.guards
@@ -117,6 +117,11 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
     c, project = compiled.constraints, None
     if c.size:
         project = make_tape(ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE))
+    energetic, energies = list[int](), None
+    if works:
+        column = ca.vertcat(compiled.powers, r.running.resolve(r.flat.energies["stored_energy"]))
+        energies = make_tape(ca.Function("energies", arguments[:-1], [ca.densify(column)], READABLE), early=(0, 1))
+        energetic = compiled.dependence.needed(compiled.dependence.inside(column))[0].tolist()
     everything = tuple(range(compiled.nz))
     needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
     return Sampled(
@@ -124,6 +129,8 @@ def core_sampled(compiled: CompiledModel, moves: bool) -> Sampled | None:
         core_square(compiled, everything) if everything else None,
         core_square(compiled, needed) if needed else None,
         moving,
+        core_square(compiled, tuple(energetic)) if energetic else None,
+        energies,
         watched,
         acts,
         is_switch=np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),

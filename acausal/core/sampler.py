@@ -32,26 +32,28 @@ class SampledData(Structure):
 
     _fields_ = (
         ("equations", POINTER(EquationsData)),
-        *((name, POINTER(SquareData)) for name in ("whole", "needed", "moving")),
-        *((name, POINTER(TapeData)) for name in ("watched", "acts", "project")),
+        *((name, POINTER(SquareData)) for name in ("whole", "needed", "moving", "powering")),
+        *((name, POINTER(TapeData)) for name in ("energies", "watched", "acts", "project")),
         *((name, c_int32) for name in ("conditions", "jumps", "multipliers")),
         *((name, c_void_p) for name in ("is_switch", "jump", "to", "coordinate", "multiplier")),
     )
 
 
 THRESHOLDS = (
-    "span",
-    "tolerance",
-    "soon",
-    "moves",
-    "level",
-    "reach",
-    "error",
-    "shortest",
-    "added",
-    "crowded",
-    "enough",
-    "noise",
+    *(
+        "span",
+        "tolerance",
+        "soon",
+        "moves",
+        "level",
+        "reach",
+        "error",
+        "shortest",
+        "added",
+        "crowded",
+        "enough",
+        "noise",
+    ),
     "apart",
 )
 
@@ -68,7 +70,7 @@ class SamplesData(Structure):
         *((name, c_double) for name in THRESHOLDS),
         *((name, c_void_p) for name in ("p", "time", "nominal", "declared")),
         ("room", c_int32),
-        *((name, c_void_p) for name in ("row_time", "row_x", "row_z", "row_c", "row_event", "peak")),
+        *((name, c_void_p) for name in ("row_time", "row_x", "row_z", "row_c", "row_event", "row_work", "peak")),
     )
 
 
@@ -101,6 +103,10 @@ class Sampled:
         For all algebraic unknowns, and for those that conditions need.
     moving : Square or None
         For the rates of some of them, which come last.
+    powering : Square or None
+        For the algebraic unknowns that energies need.
+    energies : Tape or None
+        Supplied and dissipated power, stored energy; None where they are not asked for.
     watched : Tape
         Of these rates too: conditions, which hold where they are not positive; their rates.
     acts : Tape
@@ -121,6 +127,8 @@ class Sampled:
     whole: Square | None
     needed: Square | None
     moving: Square | None
+    powering: Square | None
+    energies: Tape | None
     watched: Tape
     acts: Tape
     is_switch: np.ndarray
@@ -133,8 +141,10 @@ class Sampled:
     @cached_property
     def data(self) -> SampledData:
         """What the library takes; it holds addresses of the arrays of this model."""
-        squares = (None if s is None else pointer(s.data) for s in (self.whole, self.needed, self.moving))
-        tapes = (None if t is None else pointer(t.data) for t in (self.watched, self.acts, self.project))
+        squares = (
+            None if s is None else pointer(s.data) for s in (self.whole, self.needed, self.moving, self.powering)
+        )
+        tapes = (None if t is None else pointer(t.data) for t in (self.energies, self.watched, self.acts, self.project))
         places = (self.is_switch, self.jump, self.to, self.coordinate, self.multiplier)
         return SampledData(
             *(pointer(self.equations.data), *squares, *tapes),
@@ -155,6 +165,8 @@ class Samples:
         Rows: outputs, algebraic unknowns nearly right; and instants, after what happened.
     events : array, shape (n,)
         Time of the instant, nan at outputs.
+    work : array, shape (n, 2)
+        Supplied and dissipated energy up to each since it began, 0 where energies are not asked for.
     truth : array of bool
         Which conditions hold at the end.
     peak : array
@@ -169,6 +181,7 @@ class Samples:
     z: np.ndarray
     c: np.ndarray
     events: np.ndarray
+    work: np.ndarray
     truth: np.ndarray
     peak: np.ndarray
     state: SampledState
@@ -227,7 +240,7 @@ class Sampler:
         rate, (p, times, nominal, declared, size) = np.array(rate, dtype=np.int32), self._given
         if (len(p), len(nominal), len(declared), len(size), len(rate)) != (e.np, e.nx + e.nz, e.nz, e.nx, e.nx):
             raise ValueError("the arguments do not fit the equations")
-        self._rate, self._found = rate, [np.empty((room, n)) for n in (1, e.nx, e.nz, e.nc, 1)]
+        self._rate, self._found = rate, [np.empty((room, n)) for n in (1, e.nx, e.nz, e.nc, 1, 2)]
         self._peak = np.empty(len(sampled.is_switch))
         steps = RequestData(
             tolerance=tolerance,
@@ -237,7 +250,7 @@ class Sampler:
             largest=largest,
             singular=singular,
         )
-        found = dict(zip(("row_time", "row_x", "row_z", "row_c", "row_event"), self._found, strict=True))
+        found = dict(zip(("row_time", "row_x", "row_z", "row_c", "row_event", "row_work"), self._found, strict=True))
         arrays = {"p": p, "time": times, "nominal": nominal, "declared": declared, "peak": self._peak, **found}
         self._request = SamplesData(
             *(pointer(steps),),
@@ -293,5 +306,5 @@ class Sampler:
         request.end, request.most, request.density = end, steps, density
         here = (array.ctypes.data for array in (x, z, c, truth))
         back = apart(lambda: self._library.ac_sampler_go(self._memory, byref(request), byref(state), *here))
-        times, x, z, c, events = (array[: state.rows].copy() for array in self._found)
-        return Samples(Back(back), times[:, 0], x, z, c, events[:, 0], truth > 0, self._peak.copy(), state)
+        times, x, z, c, events, work = (array[: state.rows].copy() for array in self._found)
+        return Samples(Back(back), times[:, 0], x, z, c, events[:, 0], work, truth > 0, self._peak.copy(), state)

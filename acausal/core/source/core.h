@@ -156,6 +156,8 @@ typedef struct {
     const ac_equations *equations;
     const ac_square *whole, *needed; /* for all algebraic unknowns, and for those that conditions need; NULL where there are none */
     const ac_square *moving;         /* for the rates of some of them, which stand behind the inputs; NULL for none */
+    const ac_square *powering;       /* for what energies need; NULL for none */
+    const ac_tape *energies;         /* supplied and dissipated power, stored energy; NULL where they are not asked for */
     const ac_tape *watched;          /* of these rates too: conditions, hold where they are not positive; their rates */
     const ac_tape *acts;             /* of nominal values of x, z too: what these change in conditions; new values; instants */
     const ac_tape *project;          /* where closed loops have coordinates; NULL where there are none */
@@ -180,6 +182,7 @@ typedef struct {
     const double *nominal, *declared; /* (nx + nz) sizes in the run, (nz) as they were stated */
     int32_t room;                    /* for rows */
     double *row_time, *row_x, *row_z, *row_c, *row_event; /* (room, ...); the time of its event, nan where there is none */
+    double *row_work;                /* (room, 2) supplied and dissipated energy since it began, where they are asked for */
     double *peak;                    /* (conditions) greatest values seen, positive where nothing changes; to be raised */
 } ac_samples;
 

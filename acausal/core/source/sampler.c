@@ -15,9 +15,9 @@
 
 /* Length of the longest array of the tapes that share one. */
 static size_t longest(const ac_sampled *of) {
-    const ac_tape *tape[] = {of->watched, of->acts, of->project};
+    const ac_tape *tape[] = {of->watched, of->acts, of->project, of->energies};
     size_t most = 0;
-    for (int k = 0; k < 3; k++) most = tape[k] && ac_tape_length(tape[k]) > most ? ac_tape_length(tape[k]) : most;
+    for (int k = 0; k < 4; k++) most = tape[k] && ac_tape_length(tape[k]) > most ? ac_tape_length(tape[k]) : most;
     return most;
 }
 
@@ -33,11 +33,12 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
     s->whole = sampled->whole ? ac_settler_make(sampled->whole) : NULL;
     s->needed = sampled->needed ? ac_settler_make(sampled->needed) : NULL;
     s->moving = sampled->moving ? ac_settler_make(sampled->moving) : NULL;
+    s->powering = sampled->powering ? ac_settler_make(sampled->powering) : NULL;
     s->settled = calloc(LOOKS + 1 + 2 * m, sizeof *s->settled);
     s->block = calloc((LOOKS + 2) * row + nc + tape + 2 * nz + (LOOKS + 1) * picked
-                      + 2 * moving + acted + m + 5 * n + nx + 1, sizeof(double));
+                      + 2 * moving + acted + m + 5 * n + nx + 3 * (LOOKS + 1) + 1, sizeof(double));
     if (!s->rodas || !s->settled || !s->block || (sampled->whole && !s->whole) || (sampled->needed && !s->needed)
-        || (sampled->moving && !s->moving)) {
+        || (sampled->moving && !s->moving) || (sampled->powering && !s->powering)) {
         ac_sampler_free(s);
         return NULL;
     }
@@ -52,6 +53,7 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
     s->sizes = s->size + nz, s->picked = s->sizes + nz, s->rates = s->picked + (LOOKS + 1) * picked, s->ones = s->rates + moving;
     s->acted = s->ones + moving, s->width = s->acted + acted;
     s->step_y = s->width + m, s->before = s->step_y + n, s->dense = s->before + n, s->coordinates = s->dense + 3 * n;
+    s->energies = s->coordinates + nx;
     for (size_t k = 0; k < moving; k++) s->ones[k] = 1;
     return s;
 }
@@ -59,7 +61,7 @@ ac_sampler *ac_sampler_make(const ac_sampled *sampled) {
 void ac_sampler_free(ac_sampler *s) {
     if (!s) return;
     ac_rodas_free(s->rodas);
-    ac_settler_free(s->whole), ac_settler_free(s->needed), ac_settler_free(s->moving);
+    ac_settler_free(s->whole), ac_settler_free(s->needed), ac_settler_free(s->moving), ac_settler_free(s->powering);
     free(s->settled), free(s->block);
     free(s);
 }
@@ -183,6 +185,7 @@ static void put_row(const ac_sampler *s, ac_sampled_state *state, double time, c
     q->row_time[k] = time, q->row_event[k] = event;
     copy(q->row_x + (ptrdiff_t)k * e->nx, x, e->nx), copy(q->row_z + (ptrdiff_t)k * e->nz, z, e->nz);
     copy(q->row_c + (ptrdiff_t)k * e->nc, s->c, e->nc);
+    copy(q->row_work + 2 * (ptrdiff_t)k, s->work, 2);
 }
 
 /* From the present to an instant, with the outputs before it; whether nothing happens on the way. */
@@ -213,12 +216,16 @@ static int32_t pass(ac_sampler *s, ac_sampled_state *state, double to, int32_t o
         else if (done.kept) {
             int32_t inside = 0;
             while (inside < outputs && s->request.time[output + inside] < time) inside++;
+            double worked = at;
             if (!look(s, at, time, inside, truth)) found = AC_DOUBT;
             for (; found == AC_NO_INSTANT && inside; inside--, output++, outputs--) {
+                if (!ac_sampler_work(s, at, time, worked, s->request.time[output])) found = AC_DOUBT;
+                worked = s->request.time[output];
                 const double part = (s->request.time[output] - at) / (time - at);
                 within(s, part, s->looks.x + nx, s->looks.z + nz);
                 put_row(s, state, s->request.time[output], s->looks.x + nx, s->looks.z + nz, NAN);
             }
+            if (found == AC_NO_INSTANT && !ac_sampler_work(s, at, time, worked, time)) found = AC_DOUBT;
             state->step = fmax(last, time - at), last = time - at, at = time;
             copy(s->before, s->step_y, nx + nz);
             /* Loops are looked at where steps end. */
@@ -253,7 +260,9 @@ static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_
     const int32_t found = pass(s, state, to, *output, outputs, truth);
     if (found != AC_NO_INSTANT) return found;
     s->now.time[0] = event;
-    if (!stand(s) || !happen(s, truth)) return AC_DOUBT;
+    double before, after;
+    if (!stand(s) || !ac_sampler_stored(s, &before) || !happen(s, truth) || !ac_sampler_stored(s, &after)) return AC_DOUBT;
+    ac_sampler_gain(s, after - before);
     put_row(s, state, label, s->now.x, s->now.z, event);
     return -1;
 }
@@ -262,7 +271,7 @@ static int32_t go(ac_sampler *s, ac_sampled_state *state, int32_t *truth, int32_
 int32_t ac_sampler_go(ac_sampler *s, const ac_samples *request, ac_sampled_state *state, double *x, double *z, double *c, int32_t *truth) {
     const ac_equations *e = s->of.equations;
     int32_t output = 0, found = -1;
-    s->request = *request, s->evaluations = 0;
+    s->request = *request, s->evaluations = 0, s->work[0] = s->work[1] = 0;
     copy(s->now.x, x, e->nx), copy(s->now.z, z, e->nz), copy(s->c, c, e->nc);
     s->now.time[0] = state->time;
     if (!ac_sampler_watch(s, 1, &s->now)) return AC_DOUBT;

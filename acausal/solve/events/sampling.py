@@ -87,7 +87,7 @@ class Sampling:
         self.ahead.begin(state.step)
         self.ahead.locator.passed = np.maximum(self.ahead.locator.passed, found.peak)
         constants = integrator.compiled.layout.constants(rows.constants[-1])
-        leg = Leg(rows, np.zeros((len(rows), 2)), constants, state.steps)
+        leg = Leg(rows, found.work, constants, state.steps)
         return Passed(
             leg,
             replace(leg.end(at), time=state.time, truth=found.truth),
@@ -122,9 +122,9 @@ class Sampling:
 
     def _make(self, way: Way) -> Sampler | None:
         problem, settings, method = self.integrator.problem, self.integrator.settings, METHODS[way.method]
-        if not library() or settings.energy or not method.marches:
+        if not library() or not method.marches:
             return None
-        sampled, nominal = core_sampled(problem.compiled, way.moves), settings.nominal
+        sampled, nominal = core_sampled(problem.compiled, settings.energy, way.moves), settings.nominal
         if not sampled or (self.integrator.loops and not way.moves):
             return None
         # Vibrations that one instant after the other does not show may cost more steps than the motion: the search decides.

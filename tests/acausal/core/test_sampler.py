@@ -31,7 +31,7 @@ class Held(Model):
 
 
 def sampled() -> Sampled:
-    found = core_sampled(ac.compile(Held()), True)
+    found = core_sampled(ac.compile(Held()), False, True)
     assert found
     return found
 
@@ -124,4 +124,4 @@ class Looped(Held):
 
 
 def test_models_without_planned_instants_have_none() -> None:
-    assert core_sampled(ac.compile(Looped()), True) is None
+    assert core_sampled(ac.compile(Looped()), False, True) is None
