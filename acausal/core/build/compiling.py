@@ -15,7 +15,7 @@ from pathlib import Path
 
 CORE = Path(__file__).resolve().parents[1]
 SOURCE = CORE / "source"
-FLAGS = ("-O3", "-std=c99", "-shared", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic")
+FLAGS = ("-O3", "-std=c99", "-shared", "-fvisibility=hidden", "-Wall", "-Wextra", "-pedantic", "-Werror=implicit")
 # Name of each platform: target of the compiler that builds for all of them, and file.
 PLATFORMS = {
     "linux-x86_64": ("x86_64-linux-gnu.2.17", "libacausal-linux-x86_64.so"),

@@ -1,4 +1,5 @@
 /* Supplied and dissipated energy in a run over planned instants. */
+#include "file.h"
 #include "rodas.h"
 #include "sampler.h"
 
