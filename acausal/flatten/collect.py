@@ -39,12 +39,13 @@ class Closure:
 
 @dataclass
 class Equations:
-    """Scalar residuals with their origins; `sides` keeps both sides of each array equation."""
+    """Scalar residuals with their origins; `sides` keeps both sides of each array equation, `of_roots` tells those of roots."""
 
     residuals: list[ca.SX]
     sides: list[tuple[ca.SX, ca.SX]]
     origins: list[Origin]
     closures: list[Closure] = field(default_factory=list)
+    of_roots: range = range(0)
 
     def add(self, statement: Equation, origin: Origin) -> ca.SX:
         """Append an equation; return its residual."""
@@ -71,8 +72,10 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike) 
                     lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin
                 )
                 PENDING.get().place(origin)
+    first = len(found.sides)
     for connector in graph.roots:
         _run(connector, "root_equations", found, most, alike)
+    found.of_roots = range(first, len(found.sides))
     _close(graph, found)
     for balance in graph.balances:
         _balance(balance, found)

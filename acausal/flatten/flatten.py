@@ -73,7 +73,7 @@ def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
     if not raw.graph.roots:
         return []
     found: set[int] = set()
-    defined = {k for lhs, _ in raw.equations.sides for k in _bare(raw, lhs)}
+    defined = {k for i in raw.equations.of_roots for k in _bare(raw, raw.equations.sides[i][0])}
     for connector in raw.graph.roots:
         for variable, _ in connector.declared_derivatives():
             found.update(raw.index[s.element_hash()] for s in scalars(variable.sx))
