@@ -49,6 +49,11 @@ void ac_rodas_values(ac_rodas *r, const double *y, double t, double *found) {
     r->progress.values++;
 }
 
+/* The shortest step at a time, on the way to an end. */
+static double shortest(const ac_rodas *r) {
+    return fmax(SHORTEST * fmax(fabs(r->t), fabs(r->request.time[r->request.outputs])), DBL_MIN);
+}
+
 /* Where an integration begins; nothing is computed yet. */
 void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, const double *z, const double *p, const double *c) {
     r->request = *request;
@@ -59,13 +64,12 @@ void ac_rodas_begin(ac_rodas *r, const ac_request *request, const double *x, con
     prepare(r, r->of.slopes, r->slopes, p, c);
     prepare(r, r->of.powers, r->powers, p, c);
     r->t = r->progress.time = request->time[0];
-    r->h = request->first_step;
+    r->h = request->first_step > shortest(r) ? request->first_step : 0; /* one before a break may have been shorter */
     r->gathered[0] = r->gathered[1] = 0;
     r->pace = (ac_pace){0};
     r->begun = r->sign = r->known = 0;
     r->stale = 1;
-    r->factored = 0;
-    r->written_at = 0;
+    r->factored = 0, r->written_at = 0;
     memset(r->left, 0, (size_t)r->of.nz * sizeof *r->left);
     memset(r->most, 0, (size_t)r->of.nz * sizeof *r->most);
 }
@@ -248,7 +252,7 @@ int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress) {
         const double left = end - r->t;
         const int last = r->h >= left * (1 - 1e-10);
         const double h = last ? left : r->h > 0.5 * left ? 0.5 * left : measured(r->h);
-        if (!(h > SHORTEST * fmax(fabs(r->t), fabs(end))) || !(h > DBL_MIN)) {
+        if (!(h > shortest(r))) {
             found = r->pace.unsolved ? AC_UNSOLVED : AC_SHORT;
             break;
         }

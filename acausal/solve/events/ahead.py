@@ -200,6 +200,8 @@ class Ahead:
             leg = integrator.attempt(at, self.stride.looks(times), way)
             if isinstance(leg, Refusal) and not k:
                 leg = passage(integrator, at, times, 1)
+            if isinstance(leg, Leg) and not self.stride.is_enough(leg, times):
+                return Found(at)
             try:
                 return Found(at, accepted(leg), self.locator.first(at, accepted(leg), depth=1))
             except Failure as later:

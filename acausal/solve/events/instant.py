@@ -87,7 +87,7 @@ class Instants:
         constants : Constants
             Those that hold by the clock from now on.
         due : array of bool
-            Watched conditions that change now whatever their values.
+            Watched conditions that change now whatever their values, until these do.
         crossed : array of bool
             Watched conditions that were found to change now.
 
@@ -101,6 +101,7 @@ class Instants:
         moved, tried = list[int](), Assignments(range(int(np.sum(self.is_switch))))
         none = np.zeros(len(self.watched), dtype=bool)
         due, crossed, forced = none if due is None else due, none if crossed is None else crossed, ~at.truth
+        before = self.rates(at)[0] if due.any() else none
         for _ in range(MOST):
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
@@ -117,6 +118,8 @@ class Instants:
                 if not (tried.cycle and flips.any()):
                     raise
             fires, changed, after = [], True, at.constants
+            if due.any():
+                due = due & (np.abs(self.rates(at)[0] - before) <= self.width(at))
         raise Cycling(moved)
 
     def _wanted(self, tried: Assignments, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
