@@ -68,10 +68,12 @@ class Sampling:
 class Agenda:
     """Times that are known before."""
 
-    # Of the time: less is no room for an integration.
+    # Of the time, or of a run that is shorter, but at least of `late` of the time: less is no room for an integration.
     apart: float = 1e-12
-    # Of the time: instants that add up, due + 0.1 again and again, are on an output that near.
+    # Likewise: instants that add up, due + 0.1 again and again, are on an output that near.
     added: float = 1e-11
+    # In seconds since 1970 a sample comes every 0.01 s, and rounding is 2.4e-7 s.
+    late: float = 2e-3
     # Of the time between two breaks: so far behind the first one, what holds between them does.
     after: float = 1e-6
     # Of the time: a break and an output are one.

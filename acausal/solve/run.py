@@ -22,6 +22,7 @@ from acausal.solve.checks.meeting import first_meeting
 from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
+from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.chattering import Chattering
 from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.course import Course
@@ -204,9 +205,9 @@ def _raise(done: _Done, result: Result) -> NoReturn:
 
 def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
     """Break times inside a run; those only a few rounding errors apart are one."""
-    found: list[float] = []
+    found, apart = list[float](), part_of_time(POLICY.agenda.apart, start, stop)
     for b in sorted(b for b in instants if start < b < stop):
-        if b - (found or [start])[-1] > POLICY.agenda.apart * abs(b) and stop - b > POLICY.agenda.apart * abs(stop):
+        if b - (found or [start])[-1] > apart * abs(b) and stop - b > apart * abs(stop):
             found.append(b)
     return found
 

@@ -10,8 +10,9 @@
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
 #define NEAR 1e-12     /* of the time: instants that near are one, and leave no room for an integration */
+#define LATE 2e-3      /* of the time, where that is long beside the run */
 
-double ac_near(const ac_instance *i) { return NEAR * fmax(fabs(i->now.time), i->of->span); }
+double ac_near(const ac_instance *i) { return NEAR * fmax(LATE * fabs(i->now.time), i->of->span); }
 
 /* The next instant that is known, and a time between the present and that. */
 double ac_next_instant(ac_instance *i, double *between) {

@@ -13,6 +13,19 @@ from acausal.solve.events.instant import Instants
 from acausal.solve.points import Point
 
 
+def part_of_time(part: float, begin: float, end: float) -> float:
+    """Return what part of the time is rounding in a run, given that of a run which begins at 0.
+
+    Parameters
+    ----------
+    part : float
+        One of `POLICY.agenda`.
+    begin, end : float
+        Of the run in s.
+    """
+    return part * min(1.0, max((end - begin) / max(abs(begin), abs(end)), POLICY.agenda.late))
+
+
 class Agenda:
     """Conditions by the clock in one run.
 
@@ -28,7 +41,9 @@ class Agenda:
 
     def __init__(self, guards: Guards, p: np.ndarray, times: np.ndarray) -> None:
         self.guards, self.p, self.times = guards, p, times
-        self.near = POLICY.agenda.apart * max(abs(float(times[0])), abs(float(times[-1])))
+        ends = float(times[0]), float(times[-1])
+        self.near = part_of_time(POLICY.agenda.apart, *ends) * max(map(abs, ends))
+        self.added = part_of_time(POLICY.agenda.added, *ends)
         self.switches = [k < guards.n_switches for k in guards.timed]
         self._plans = bool(guards.planned.function.numel_out(0))
 
@@ -94,7 +109,7 @@ class Agenda:
             return None
         instant = float(np.min(ahead))
         near = float(self.times[np.argmin(np.abs(self.times - instant))])
-        on_output = abs(near - instant) <= POLICY.agenda.added * abs(instant) and near > at.time
+        on_output = abs(near - instant) <= self.added * abs(instant) and near > at.time
         return instant, near if on_output else instant
 
     def held_back(self, at: Point, instants: Instants) -> Point:

@@ -157,7 +157,7 @@ class Course:
     def _sampled(self, at: Point, end: float) -> Point:
         """Pass planned instants at one go, as many as are sure."""
         # What is planned a rounding error before a break acts at the break.
-        before = end - (end < self.times[-1]) * POLICY.agenda.added * abs(end)
+        before = end - (end < self.times[-1]) * self.agenda.added * abs(end)
         passed = self.sampling.go(at, before) if at.time < before else None
         if not passed:
             return at

@@ -13,6 +13,7 @@ import numpy as np
 from acausal.compiler.core_equations import core_equations, core_sampled
 from acausal.core import Back, SampledState, Sampler, library
 from acausal.policy import POLICY
+from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.instant import Instants
 from acausal.solve.integrate.flat import flat_time, looked_at, passes_flat
@@ -143,7 +144,7 @@ class Sampling:
             "reach": POLICY.locate.reach,
             "error": POLICY.locate.error,
             "shortest": self.ahead.locator.shortest,
-            "added": POLICY.agenda.added,
+            "added": part_of_time(POLICY.agenda.added, *self.times[[0, -1]].tolist()),
             "crowded": POLICY.instants.window,
             "enough": POLICY.consistent.settled,
             "noise": POLICY.consistent.noise,
