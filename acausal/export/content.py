@@ -218,7 +218,7 @@ class Content:
     def _jumps(self) -> tuple[ca.SX, list[tuple[int, int]]]:
         guards = self.compiled.guards
         values, places = list[ca.SX](), list[tuple[int, int]]()
-        for k in (*self.watched, *self._timed):
+        for k in range(len(guards.guards)):
             if guards.guards[k].jumps:
                 call, to = guards.jump(k)
                 values.append(call.function(*guards.arguments))
@@ -228,12 +228,12 @@ class Content:
     @property
     def _rules(self) -> list[tuple[int, int, int, int, int]]:
         """For each guard the switch that it sets, whether it holds at 0 and acts at the start, its first jump and how many."""
-        guards, first, found = self.compiled.guards, 0, []
+        guards, found = self.compiled.guards, []
+        first = np.cumsum([0, *(len(guard.jumps) for guard in guards.guards)]).tolist()
         for k in (*self.watched, *self._timed):
             guard = guards.guards[k]
             switch = k if k < guards.n_switches else -1
-            found.append((switch, int(guard.inclusive), int(guard.at_start), first, len(guard.jumps)))
-            first += len(guard.jumps)
+            found.append((switch, int(guard.inclusive), int(guard.at_start), first[k], len(guard.jumps)))
         return found
 
     @property

@@ -110,22 +110,31 @@ static int32_t look_at_conditions(ac_instance *i, round_of *r, int singly) {
     return AC_OK;
 }
 
-/* Let variables jump to what follows from the values before. */
+/* The condition that fires whose jumps are the next, from one on, in the order of statements; -1 for none. */
+static int32_t next_jump(const ac_unit *u, const double *fires, int32_t from) {
+    int32_t found = -1;
+    for (int32_t k = 0; k < u->watched + u->timed; k++) {
+        const ac_guard *g = &u->guard[k];
+        if (fires[k] > 0 && g->jumps && g->jump >= from && (found < 0 || g->jump < u->guard[found].jump)) found = k;
+    }
+    return found;
+}
+
+/* Let variables jump to what follows from the values before; of statements that set the same one, the later counts. */
 static int32_t jump(ac_instance *i, const round_of *r, int32_t *states) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     const ac_tape *t = &u->tape[AC_JUMPS], *own = &u->tape[AC_COORDINATES];
     double *held = i->other, *before = i->order;
-    int32_t jumped = 0;
-    for (int32_t k = 0; k < u->watched + u->timed; k++) jumped |= r->fires[k] > 0 && u->guard[k].jumps;
-    if (!jumped) return AC_OK;
-    jumped = 0;
+    int32_t k = next_jump(u, r->fires, 0), jumped = 0;
+    if (k < 0) return AC_OK;
     const double *w = ac_run(i, AC_JUMPS), *projected = ac_run(i, AC_COORDINATES);
     memset(held, 0, (size_t)e->nx * sizeof *held);
-    for (int32_t k = 0; k < own->outputs; k++) i->x[u->coordinate[k]] = projected[own->output[k]];
+    for (int32_t j = 0; j < own->outputs; j++) i->x[u->coordinate[j]] = projected[own->output[j]];
     ac_put(before, i->x, e->nx);
-    for (int32_t k = 0; k < u->watched + u->timed; k++) {
-        for (int32_t j = u->guard[k].jump; r->fires[k] > 0 && j < u->guard[k].jump + u->guard[k].jumps; j++) {
+    for (int32_t end; k >= 0; k = next_jump(u, r->fires, end)) {
+        end = u->guard[k].jump + u->guard[k].jumps;
+        for (int32_t j = u->guard[k].jump; j < end; j++) {
             const double value = w[t->output[j]];
             const int32_t *to = u->jump + 2 * j;
             if (!isfinite(value)) return ac_fail(i, AC_FAILED, "reinit() gives no finite number.");

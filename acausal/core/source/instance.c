@@ -100,7 +100,7 @@ int32_t ac_reset(ac_instance *i) {
     memset(&i->now, 0, sizeof i->now);
     ac_restart(i);
     ac_put(i->p, m->p, m->equations.np);
-    i->now.time = m->time, i->now.stop = NAN, i->now.next = i->now.event = i->now.end = INFINITY;
+    i->now.time = m->time, i->now.stop = NAN, i->now.crowd = -INFINITY, i->now.next = i->now.event = i->now.end = INFINITY;
     i->now.tolerance = u->tolerance, i->now.most = MOST_STEPS;
     i->now.phase = AC_SET_UP;
     for (int k = 0; k < AC_SQUARES; k++) i->settler[k]->lu->ready = 0;

@@ -184,7 +184,7 @@ class Instants:
         """
         before, discretes, jumped = self.problem.projected(at), constants.discretes.copy(), []
         x = before.x.copy()
-        for guard in fires:
+        for guard in sorted(fires):  # of statements that set the same variable, the later one counts
             call, places = self.guards.jump(guard)
             values = call(at.x, at.z, self.problem.p, at.time, at.constants.vector)[0]
             if not np.all(np.isfinite(values)):
