@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acausal.errors import caution
+from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.events.instant import Instants
 from acausal.solve.events.locate import Crossing, Locator, TooCoarse, Undecided
@@ -112,7 +112,10 @@ class Ahead:
         march = self._march
         if march is None or not march.goes_on(at, end):
             outputs = self.stride.outputs(at.time, end)
-            march = self._march = March(self.integrator, at, outputs, self.step)
+            try:
+                march = self._march = March(self.integrator, at, outputs, self.step)
+            except InitializationError:
+                return self._otherwise(at, self.stride.grid(at.time, end), Refusal(Kind.UNSOLVABLE, at.time))
         leg = march.go(self.stride.density)
         while leg:
             try:

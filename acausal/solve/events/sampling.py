@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal.compiler.core_equations import core_equations, core_sampled
 from acausal.core import Back, SampledState, Sampler, library
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.agenda import part_of_time
 from acausal.solve.events.ahead import Ahead
@@ -64,7 +65,10 @@ class Sampling:
             return None
         integrator = self.integrator
         trace, way = integrator.trace, integrator.way
-        at = integrator.restarted(at, way.moves)
+        try:
+            at = integrator.restarted(at, way.moves)
+        except InitializationError:
+            return None
         state = SampledState(time=at.time, step=self.ahead.step)
         with trace.counting(way.method, lambda: state.counts):
             found = sampler.go(

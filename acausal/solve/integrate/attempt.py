@@ -9,6 +9,7 @@ import numpy as np
 
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import making
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.integrate.energy import refined
@@ -109,7 +110,13 @@ class Integrator:
         self.reach.lasted(time, METHODS[self.way.method].marches)
 
     def restarted(self, at: Point, moves: bool) -> Point:
-        """Return a point where the constraints hold, with a projection that suits the position."""
+        """Return a point where the constraints hold, with a projection that suits the position.
+
+        Raises
+        ------
+        InitializationError
+            If the equations have no solution there with the constraints that are to be kept.
+        """
         if not self.loops:
             return at
         if self._chosen is None or self._chosen[0] is not at or self._chosen[1] != moves:
@@ -162,7 +169,10 @@ class Integrator:
         c = self.compiled
         if not c.nx:
             return everywhere(self.consistent, at, times, self.tolerance if self.settings.energy else None)
-        at = self.restarted(at, way.moves)
+        try:
+            at = self.restarted(at, way.moves)
+        except InitializationError:
+            return Refusal(Kind.UNSOLVABLE, at.time)
         looked_at = self.loops and not (way.moves and (at.constants.all_count or METHODS[way.method].marches))
         parts = -(-POLICY.calls.fine // (len(times) - 1)) if looked_at else 1
         works = works and self.settings.energy
