@@ -14,6 +14,7 @@
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
 #define LEAST 1e-9   /* of the size of an unknown: what is less may be rounding */
 #define LEFT 1e-6    /* of the terms, there: beside a bend more is left */
+#define NOTHING 1e-11 /* change over the size that may be rounding of what else adds up: of an equation whose unknowns are 0, all that is left is */
 
 /* Mark the places of a tape on which its outputs from one on depend. */
 static void mark(const ac_tape *tape, int32_t from, char *marked) {
@@ -115,8 +116,8 @@ static int is_small(double change, double bent, double enough, const double *mad
 
 /* Whether what the equations left before a small step is little, too: a law may bend within much less than the sizes of unknowns. What
    is linear holds after it. */
-static int holds(ac_settler *s, double enough, double bent) {
-    if (bent == 0) return 1;
+static int holds(ac_settler *s, double enough, double change, double bent) {
+    if (bent == 0 || change <= NOTHING) return 1;
     find_terms(s);
     return left_of(s) <= enough;
 }
@@ -143,11 +144,11 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
         /* What follows through products moves in the second step first. */
         if (!(change < before)) {
             find_terms(s);
-            return change <= ROUNDED && left_of(s) <= LEFT; /* nan is not */
+            return change <= NOTHING || (change <= ROUNDED && left_of(s) <= LEFT); /* nan is not */
         }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
         const int small = is_small(change, bent, enough, made);
-        if (small && holds(s, enough, bent)) return 1;
+        if (small && holds(s, enough, change, bent)) return 1;
         if (!tries) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
@@ -157,7 +158,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             widen(s);
             double wide;
             const double widened = change_of(s, s->wide, &wide);
-            if (is_small(widened, wide, enough, made) && holds(s, enough, bent)) {
+            if (is_small(widened, wide, enough, made) && holds(s, enough, change, bent)) {
                 memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */
                 return 1;
             }
@@ -185,12 +186,12 @@ static int damped(ac_settler *s, double enough, int64_t *evaluations) {
         const double change = change_of(s, s->size, &bent);
         if (isnan(change)) return 0;
         for (int halvings = 0;; halvings++, part /= 2) {
-            if (halvings == HALVINGS) return change <= ROUNDED && before <= LEFT;
+            if (halvings == HALVINGS) return change <= NOTHING || (change <= ROUNDED && before <= LEFT);
             for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] = s->from[k] - part * s->step[k];
             run(s, evaluations);
             if (left_of(s) < before) break;
         }
-        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, bent)) return 1;
+        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, change, bent)) return 1;
     }
     return 0;
 }
