@@ -2,6 +2,7 @@
 #include "lu.h"
 #include "settle.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -14,7 +15,8 @@
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
 #define LEAST 1e-9   /* of the size of an unknown: what is less may be rounding */
 #define LEFT 1e-6    /* of the terms, there: beside a bend more is left */
-#define NOTHING 1e-11 /* change over the size that may be rounding of what else adds up: of an equation whose unknowns are 0, all that is left is */
+#define ROUNDINGS 8  /* of each number, by which an equation is asked how far rounding moves it; and by how much more it may */
+#define FURTHER 4
 
 /* Mark the places of a tape on which its outputs from one on depend. */
 static void mark(const ac_tape *tape, int32_t from, char *marked) {
@@ -32,7 +34,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     const ac_tape *tape = square->tape;
     const size_t length = ac_tape_length(tape);
     s->lu = ac_lu_make(square->n, square->start, square->row);
-    s->w = calloc(length + (size_t)tape->outputs + 5 * (size_t)square->n + 1, sizeof *s->w);
+    s->w = calloc(length + (size_t)tape->outputs + 5 * (size_t)square->n + (size_t)tape->inputs + 1, sizeof *s->w);
     s->bends = calloc(length, sizeof *s->bends);
     if (!s->lu || !s->w || !s->bends) {
         ac_settler_free(s);
@@ -42,6 +44,7 @@ ac_settler *ac_settler_make(const ac_square *square) {
     s->step = s->w + length, s->entries = s->step + square->n;
     s->size = s->step + tape->outputs, s->wide = s->size + square->n, s->terms = s->wide + square->n;
     s->first = s->terms + square->n, s->from = s->first + square->n;
+    s->exact = s->from + square->n;
     memcpy(s->w, tape->constant, (size_t)tape->constants * sizeof *s->w);
     return s;
 }
@@ -114,17 +117,42 @@ static int is_small(double change, double bent, double enough, const double *mad
     return (change <= enough || LOST * change <= left) && bent * (made ? *made : bent) <= left;
 }
 
-/* Whether what the equations left before a small step is little, too: a law may bend within much less than the sizes of unknowns. What
-   is linear holds after it. */
-static int holds(ac_settler *s, double enough, double change, double bent) {
-    if (bent == 0 || change <= NOTHING) return 1;
-    find_terms(s);
-    return left_of(s) <= enough;
-}
-
 static void run(ac_settler *s, int64_t *evaluations) {
     ac_tape_run(s->of.tape, s->w, s->of.tape->early, s->of.tape->runs);
     ++*evaluations;
+}
+
+/* Whether what is left after a step is rounding where it is more than a part of the terms: what some rounding errors of all numbers
+   make of an equation. Where its unknowns are 0, that is all there is. */
+static int rounds(ac_settler *s, double enough, int64_t *evaluations) {
+    const ac_tape *tape = s->of.tape;
+    const int32_t n = s->of.n;
+    double *input = s->w + tape->constants, *left = s->step, *noise = s->from;
+    uint32_t sign = 1;
+    int found = 1;
+    run(s, evaluations);
+    for (int32_t k = 0; k < n; k++) left[k] = s->w[tape->output[k]], noise[k] = 0;
+    memcpy(s->exact, input, (size_t)tape->inputs * sizeof *input);
+    for (int tries = 0; tries < 2; tries++) {
+        for (int32_t k = 0; k < tape->inputs; k++) {
+            sign = sign * 1664525u + 1013904223u;
+            input[k] = s->exact[k] * (1 + (sign >> 31 ? ROUNDINGS : -ROUNDINGS) * DBL_EPSILON);
+        }
+        run(s, evaluations);
+        for (int32_t k = 0; k < n; k++) noise[k] = fmax(noise[k], fabs(s->w[tape->output[k]] - left[k]));
+    }
+    for (int32_t k = 0; k < n && found; k++) found = fabs(left[k]) <= fmax(enough * s->terms[k], FURTHER * noise[k]);
+    memcpy(input, s->exact, (size_t)tape->inputs * sizeof *input);
+    if (!found) run(s, evaluations);
+    return found;
+}
+
+/* Whether what the equations left before a small step is little, too, or rounding: a law may bend within much less than the sizes of
+   unknowns. What is linear holds after it. */
+static int holds(ac_settler *s, double enough, double bent, int64_t *evaluations) {
+    if (bent == 0) return 1;
+    find_terms(s);
+    return left_of(s) <= enough || rounds(s, enough, evaluations);
 }
 
 /* Repeat Newton's step from what stands in w; whether it converged. The first factors are kept if two more steps do not need
@@ -144,11 +172,11 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
         /* What follows through products moves in the second step first. */
         if (!(change < before)) {
             find_terms(s);
-            return change <= NOTHING || (change <= ROUNDED && left_of(s) <= LEFT); /* nan is not */
+            return change <= ROUNDED && left_of(s) <= LEFT; /* nan is not */
         }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
         const int small = is_small(change, bent, enough, made);
-        if (small && holds(s, enough, change, bent)) return 1;
+        if (small && holds(s, enough, bent, evaluations)) return 1;
         if (!tries) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
@@ -158,7 +186,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             widen(s);
             double wide;
             const double widened = change_of(s, s->wide, &wide);
-            if (is_small(widened, wide, enough, made) && holds(s, enough, change, bent)) {
+            if (is_small(widened, wide, enough, made) && holds(s, enough, bent, evaluations)) {
                 memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */
                 return 1;
             }
@@ -186,12 +214,12 @@ static int damped(ac_settler *s, double enough, int64_t *evaluations) {
         const double change = change_of(s, s->size, &bent);
         if (isnan(change)) return 0;
         for (int halvings = 0;; halvings++, part /= 2) {
-            if (halvings == HALVINGS) return change <= NOTHING || (change <= ROUNDED && before <= LEFT);
+            if (halvings == HALVINGS) return change <= ROUNDED && before <= LEFT;
             for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] = s->from[k] - part * s->step[k];
             run(s, evaluations);
             if (left_of(s) < before) break;
         }
-        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, change, bent)) return 1;
+        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, bent, evaluations)) return 1;
     }
     return 0;
 }

@@ -8,7 +8,7 @@ struct ac_settler {
     ac_square of;
     ac_lu *lu;
     char *bends; /* of each place of the tape, whether an entry of the Jacobian depends on it */
-    double *w, *entries, *step, *size, *wide, *terms, *first, *from; /* w: all the memory; first: unknowns as they were given */
+    double *w, *entries, *step, *size, *wide, *terms, *first, *from, *exact; /* w: all the memory; first: unknowns as they were given */
 };
 
 #endif

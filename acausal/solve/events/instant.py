@@ -87,7 +87,7 @@ class Instants:
         constants : Constants
             Those that hold by the clock from now on.
         due : array of bool
-            Watched conditions that change now whatever their values, until these do.
+            Watched conditions that change now whatever their values; those that become true hold until their values change.
         crossed : array of bool
             Watched conditions that were found to change now.
 
@@ -119,7 +119,7 @@ class Instants:
                     raise
             fires, changed, after = [], True, at.constants
             if due.any():
-                due = due & (np.abs(self.rates(at)[0] - before) <= self.width(at))
+                due = due & (~forced | (np.abs(self.rates(at)[0] - before) <= self.width(at)))
         raise Cycling(moved)
 
     def _wanted(self, tried: Assignments, at: Point, now: np.ndarray, discretes: np.ndarray) -> np.ndarray:
