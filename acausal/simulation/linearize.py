@@ -17,11 +17,13 @@ from acausal.flatten.inputs import inputs_of
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
+from acausal.policy import POLICY
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import Held
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
@@ -29,6 +31,11 @@ from acausal.symbols import scalars
 NOTHING = 1e-12
 ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
+RESTS_FLAT = (
+    "its closed loops rest in a flat position, where forces of rigid parts are not determined. Let a part of the loop be elastic, "
+    "or start slightly away from there."
+)
+NEAR_FLAT = 1e-7  # smallest singular value of constraints at which their slopes, some of them squared, are rounding
 
 
 @dataclass(frozen=True)
@@ -118,6 +125,7 @@ def linearize(
     compiled, p = ready(model, parameters)
     problem = Problem(compiled, p)
     at = opening(problem, time, how)
+    _refuse_flat(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
     slopes = _slopes(problem, at, ca.vertcat(*[sx for _, sx in inputs]))
     N, chosen = tangent(problem, at)
@@ -134,6 +142,13 @@ def linearize(
         inputs=tuple(name for name, _ in inputs),
         outputs=tuple(names),
     )
+
+
+def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
+    """Refuse flat positions of closed loops; near one, a rest is not known well enough for the forces that are large there."""
+    least = np.min(Held.at(problem, at).sharpness, initial=np.inf) if problem.compiled.constraints.size else np.inf
+    if least <= (POLICY.loops.flat if rests else NEAR_FLAT):
+        raise InitializationError(f"the model cannot be linearised: {RESTS_FLAT if rests else FLAT}")
 
 
 def _slopes(problem: Problem, at: Point, u: ca.SX) -> np.ndarray:
