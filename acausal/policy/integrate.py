@@ -169,6 +169,8 @@ class Energy:
     fewest: int = 48
     rows: int = 192
     most: int = 2**17
+    # Nodes in a step, or between two rows, at most: what a step follows does not vary faster.
+    a_step: int = 32
     # Intervals between rows that make a stretch at least: splines of order 5 need 6 nodes, every second row too.
     least: int = 10
     # Steps of an interval from which on a method of order 2 is right; higher orders are with one (measured on the spin-up).

@@ -172,7 +172,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
         /* What follows through products moves in the second step first. */
         if (!(change < before)) {
             find_terms(s);
-            return change <= ROUNDED && left_of(s) <= LEFT; /* nan is not */
+            return change <= ROUNDED && (left_of(s) <= LEFT || rounds(s, LEFT, evaluations)); /* nan is not */
         }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
         const int small = is_small(change, bent, enough, made);
@@ -214,7 +214,7 @@ static int damped(ac_settler *s, double enough, int64_t *evaluations) {
         const double change = change_of(s, s->size, &bent);
         if (isnan(change)) return 0;
         for (int halvings = 0;; halvings++, part /= 2) {
-            if (halvings == HALVINGS) return change <= ROUNDED && before <= LEFT;
+            if (halvings == HALVINGS) return change <= ROUNDED && (before <= LEFT || rounds(s, LEFT, evaluations));
             for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] = s->from[k] - part * s->step[k];
             run(s, evaluations);
             if (left_of(s) < before) break;

@@ -159,7 +159,8 @@ def _by_splines(
     # Where the nodes are too few for the power, and the integrator agrees as far as they can tell, it is nearer.
     agree = np.abs(np.diff(given[some], axis=0) - each) <= np.abs(error)
     if smooth and not (settled and _seen(solver, rows, t[some] - t[0], power, least)):
-        closer, known = between_rows(solver, rows, tolerance, exchanged)
+        steps = last if taken is None else int(np.ceil(taken[-1] - taken[0]))
+        closer, known = between_rows(solver, rows, tolerance, exchanged, ENERGY.a_step * max(steps, last))
         if known or not np.all(agree):
             return given[0] + closer, known
     steps = np.where(np.repeat(agree, np.diff(some), axis=0), np.diff(given, axis=0), np.diff(fine, axis=0))
@@ -167,7 +168,7 @@ def _by_splines(
 
 
 def between_rows(
-    solver: Consistent, rows: Rows, tolerance: float, exchanged: float | None = None
+    solver: Consistent, rows: Rows, tolerance: float, exchanged: float | None = None, most: int = ENERGY.most
 ) -> tuple[np.ndarray, bool]:
     """Work up to each row from more and more points between them, on cubic splines through the states, until it settles.
 
@@ -177,6 +178,8 @@ def between_rows(
         As of `refined`.
     exchanged : float, optional
         By how much the stored energy varies in J, if that is known.
+    most : int, optional
+        Points at most, in all.
     """
     rows, _ = solver(rows)
     t, n, agreed = rows.times, len(rows) - 1, 0
@@ -185,7 +188,7 @@ def between_rows(
     some = rows[spread(n + 1, ENERGY.looks)]
     exchanged = _exchanged(_stored(solver, some)) if exchanged is None else exchanged
     parts = 2 ** max(1, int(np.ceil(np.log2(ENERGY.fewest / n))))
-    while n * parts <= ENERGY.most:
+    while n * parts <= min(most, ENERGY.most):
         inside, since = _inside(rows, slopes, np.arange(n * parts + 1) / parts)
         power = powers(solver, inside)
         if not np.all(np.isfinite(power)):
