@@ -93,7 +93,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
             system, at, redundancy = _ranked(problem, at, initial)
         else:
             local = problem.local(at, 1.0)
-            system = _system(problem, local, initial)
+            system = _system(problem, _told(problem, at, local), initial)
             at = with_direct(problem, system.given, at, local)
         try:
             at = _solve(problem, system, at)
@@ -128,6 +128,19 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     given = giving(problem.compiled).items()
     first = {state: row for row, state in reversed(given) if not steady or row in lasting(problem.compiled)}
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady))
+
+
+def _told(problem: Problem, at: Point, local: Local) -> Local:
+    """Return the equations where they tell which unknowns the conditions depend on: with algebraic unknowns that are solved.
+
+    A velocity that a condition resolves in the world depends on that of the body by the orientation.
+    """
+    if len(giving(problem.compiled)) == problem.compiled.conditions.numel():
+        return local
+    try:
+        return problem.local(algebraic(problem, at), 1.0)
+    except InitializationError:
+        return local
 
 
 def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
@@ -231,8 +244,9 @@ def _chosen(compiled: CompiledModel, initial: str, order: bytes) -> InitialSyste
     done = complete(equations, conditions, nx + nz)
     guessed = list(done.free)
     if any(k >= nx for k in done.free):
-        # Some algebraic unknown is left over instead: let guesses of states replace conditions.
-        states = sorted(range(nx), key=lambda k: not _is_guessed(compiled, k))
+        # Some algebraic unknown is left over instead: let guesses of states replace conditions, those that conditions tell last.
+        told = {row[0] for row in conditions if row}
+        states = sorted(range(nx), key=lambda k: (not _is_guessed(compiled, k), k in told))
         done = complete(equations, [*conditions, *([k] for k in states)], nx + nz)
         guessed = [states[k - given] for k in done.used if k >= given]
     if guessed and initial == "fixed":
