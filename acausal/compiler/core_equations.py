@@ -134,6 +134,7 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
         watched,
         acts,
         is_switch=np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
+        is_clocked=np.array(guards.clocked, dtype=np.int32),
         jump=np.array(jump, dtype=np.int32),
         to=np.array(to, dtype=np.int32),
         project=project,

@@ -134,6 +134,12 @@ class Guards:
         return [self._open[k][1:] for k in self._planned[0]]
 
     @cached_property
+    def clocked(self) -> list[bool]:
+        """Whether each watched guard compares time with discrete variables alone: it changes at planned instants, exactly."""
+        planned, compared = ([k for k, *_ in parts] for parts in (self.plans, [part[1:] for part in self._open]))
+        return [planned.count(k) == compared.count(k) for k in self.watched]
+
+    @cached_property
     def _planned(self) -> tuple[list[int], ca.SX]:
         return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
 

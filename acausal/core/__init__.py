@@ -6,7 +6,8 @@ from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
-from acausal.core.sampler import Back, Sampled, SampledState, Sampler, Samples
+from acausal.core.sampled import Sampled
+from acausal.core.sampler import Back, SampledState, Sampler, Samples
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
 

@@ -32,8 +32,8 @@ NOTHING = 1e-12
 ALONE = 1e-9  # of a product of matrices that is 0 but for rounding
 FLAT = "its equations are singular there, as for a loop that lies flat. Start slightly away from it."
 RESTS_FLAT = (
-    "its closed loops rest in a flat position, where forces of rigid parts are not determined. Let a part of the loop be elastic, "
-    "or start slightly away from there."
+    "its closed loops rest in a flat position, where forces of rigid parts are not determined. Let a part of the loop be "
+    "elastic, or start slightly away from there."
 )
 NEAR_FLAT = 1e-7  # smallest singular value of constraints at which their slopes, some of them squared, are rounding
 

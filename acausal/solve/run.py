@@ -213,9 +213,8 @@ def _breaks(instants: list[float], start: float, stop: float) -> list[float]:
 
 
 def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics:
-    integrator, trace = done.integrator, done.integrator.trace
-    compiled, begun = integrator.compiled, done.begun
-    settings, way, trials = integrator.settings, integrator.way, list(trace.orders)
+    integrator, trace, begun = done.integrator, done.integrator.trace, done.begun
+    compiled, settings, way, trials = integrator.compiled, integrator.settings, integrator.way, list(trace.orders)
     steps = Counter[str]()
     for key, n in trace.methods.items():
         steps[METHODS[key].name] += n

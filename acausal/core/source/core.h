@@ -163,6 +163,7 @@ typedef struct {
     const ac_tape *project;          /* where closed loops have coordinates; NULL where there are none */
     int32_t conditions, jumps, multipliers;
     const int32_t *is_switch;        /* (conditions) of a switch, not of jumps */
+    const int32_t *is_clocked;       /* (conditions) of time and discrete variables alone */
     const int32_t *jump;             /* (conditions + 1) where the jumps of each begin */
     const int32_t *to;               /* (jumps) place of each new value in c; -1 - place in x */
     const int32_t *coordinate;       /* (outputs of project) places in x */

@@ -119,7 +119,8 @@ static double planned(const ac_sampler *s) {
 static int holds(const ac_sampler *s, int32_t k, int before) {
     const ac_samples *q = &s->request;
     const double value = s->now.found[k], change = s->now.found[s->of.conditions + k] * q->span, width = s->width[k];
-    return ac_holds(value, change, width, q->moves * width, fabs(value) <= fabs(change) * q->soon, before);
+    const double soon = s->of.is_clocked[k] ? q->added * fabs(s->now.time[0]) / q->span : q->soon;
+    return ac_holds(value, change, width, q->moves * width, fabs(value) <= fabs(change) * soon, before);
 }
 
 /* Let variables jump at the present; whether it is sure what happens. */

@@ -47,6 +47,7 @@ class Instants:
         self.guards = problem.compiled.guards
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
+        self._clocked = np.array(self.guards.clocked, dtype=bool)
 
     def width(self, at: Point) -> np.ndarray:
         """How far each watched excess may be off by the tolerance; one of time alone as in a run of 1 s at most."""
@@ -64,7 +65,9 @@ class Instants:
         value, rate = self.rates(at)
         width = self.width(at)
         moving = np.abs(rate) * self.span > INSTANTS.moves * width
-        soon = crossed | (np.abs(value) <= np.abs(rate) * INSTANTS.short * self.span)
+        rounding = POLICY.agenda.added * min(abs(at.time), max(self.span, POLICY.agenda.late * abs(at.time)))
+        reach = np.where(self._clocked, rounding, INSTANTS.short * self.span)
+        soon = crossed | (np.abs(value) <= np.abs(rate) * reach)
         near = moving & (np.abs(value) <= width) & soon
         return np.where(near, rate < 0, np.where(value == 0, at.truth, value < 0))
 
