@@ -76,10 +76,8 @@ def exported(model: Any, path: Path, version: int, **options: Any) -> Path:
 
 def simulated(path: Path, kind: str, stop: float, intervals: int = 40, **options: Any) -> np.ndarray:
     """Run an FMU."""
-    given = {"relative_tolerance": 1e-6, **options}
-    return simulate_fmu(
-        str(path), fmi_type=kind, stop_time=stop, output_interval=stop / intervals, record_events=False, **given
-    )
+    given = {"relative_tolerance": 1e-6, "output_interval": stop / intervals, **options}
+    return simulate_fmu(str(path), fmi_type=kind, stop_time=stop, record_events=False, **given)
 
 
 @contextmanager
