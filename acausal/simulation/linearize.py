@@ -119,6 +119,8 @@ def linearize(
     `feedback`, which keeps invariants in a run, is 1/s here where it is apart from all motion: the norm of the quaternion of a
     body at rest that turns freely adds an eigenvalue of -2 1/s that no input moves and no output shows. Where it is not, as
     for a body that turns, there is none.
+
+    Discrete variables keep their values: a sampled controller does not act.
     """
     how = settled(model, parameters, {"initial": initial})["initial"]
     check_number("time", time)
