@@ -119,7 +119,7 @@ static double planned(const ac_sampler *s) {
 static int holds(const ac_sampler *s, int32_t k, int before) {
     const ac_samples *q = &s->request;
     const double value = s->now.found[k], change = s->now.found[s->of.conditions + k] * q->span, width = s->width[k];
-    const double soon = s->of.is_clocked[k] ? q->added * fabs(s->now.time[0]) / q->span : q->soon;
+    const double soon = s->of.is_clocked[k] ? q->added * fmax(fabs(s->now.time[0]) / q->span, 1) : q->soon;
     return ac_holds(value, change, width, q->moves * width, fabs(value) <= fabs(change) * soon, before);
 }
 

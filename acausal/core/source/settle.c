@@ -17,6 +17,7 @@
 #define LEFT 1e-6    /* of the terms, there: beside a bend more is left */
 #define ROUNDINGS 8  /* of each number, by which an equation is asked how far rounding moves it; and by how much more it may */
 #define FURTHER 4
+#define CREEPS 0.1   /* of the last step: where Newton's steps converge, one is less */
 
 /* Mark the places of a tape on which its outputs from one on depend. */
 static void mark(const ac_tape *tape, int32_t from, char *marked) {
@@ -147,12 +148,12 @@ static int rounds(ac_settler *s, double enough, int64_t *evaluations) {
     return found;
 }
 
-/* Whether what the equations left before a small step is little, too, or rounding: a law may bend within much less than the sizes of
-   unknowns. What is linear holds after it. */
-static int holds(ac_settler *s, double enough, double bent, int64_t *evaluations) {
+/* Whether what the equations left before a small step is little, too, or rounding, where that is asked for as the step is not much
+   less than the last one: a law may bend within much less than the sizes of unknowns. What is linear holds after it. */
+static int holds(ac_settler *s, double enough, double bent, int creeps, int64_t *evaluations) {
     if (bent == 0) return 1;
     find_terms(s);
-    return left_of(s) <= enough || rounds(s, enough, evaluations);
+    return left_of(s) <= enough || (creeps && rounds(s, enough, evaluations));
 }
 
 /* Repeat Newton's step from what stands in w; whether it converged. The first factors are kept if two more steps do not need
@@ -175,8 +176,8 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             return change <= ROUNDED && (left_of(s) <= LEFT || rounds(s, LEFT, evaluations)); /* nan is not */
         }
         for (int32_t k = 0; k < q->n; k++) input[q->unknown[k]] -= s->step[k];
-        const int small = is_small(change, bent, enough, made);
-        if (small && holds(s, enough, bent, evaluations)) return 1;
+        const int small = is_small(change, bent, enough, made), creeps = change > CREEPS * last;
+        if (small && holds(s, enough, bent, creeps, evaluations)) return 1;
         if (!tries) {
             first = bent;
             if (first * first * first <= enough * enough) made = &first;
@@ -186,7 +187,7 @@ static int32_t settle(ac_settler *s, double enough, int64_t *evaluations) {
             widen(s);
             double wide;
             const double widened = change_of(s, s->wide, &wide);
-            if (is_small(widened, wide, enough, made) && holds(s, enough, bent, evaluations)) {
+            if (is_small(widened, wide, enough, made) && holds(s, enough, bent, creeps, evaluations)) {
                 memcpy(s->size, s->wide, (size_t)q->n * sizeof *s->size); /* for the places that follow */
                 return 1;
             }
@@ -219,7 +220,7 @@ static int damped(ac_settler *s, double enough, int64_t *evaluations) {
             run(s, evaluations);
             if (left_of(s) < before) break;
         }
-        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, bent, evaluations)) return 1;
+        if (part == 1 && is_small(change, bent, enough, NULL) && holds(s, enough, bent, 1, evaluations)) return 1;
     }
     return 0;
 }

@@ -65,7 +65,7 @@ class Instants:
         value, rate = self.rates(at)
         width = self.width(at)
         moving = np.abs(rate) * self.span > INSTANTS.moves * width
-        rounding = POLICY.agenda.added * min(abs(at.time), max(self.span, POLICY.agenda.late * abs(at.time)))
+        rounding = POLICY.agenda.added * max(self.span, POLICY.agenda.late * abs(at.time))
         reach = np.where(self._clocked, rounding, INSTANTS.short * self.span)
         soon = crossed | (np.abs(value) <= np.abs(rate) * reach)
         near = moving & (np.abs(value) <= width) & soon
