@@ -135,11 +135,14 @@ def worst_lines(compiled: CompiledModel, value: np.ndarray, rows: np.ndarray) ->
     return lines
 
 
-def unstable_text(compiled: CompiledModel, time: float, rate: float) -> str:
-    """Report that an equilibrium is unstable."""
+def unstable_text(compiled: CompiledModel, time: float, rate: float, flat: bool) -> str:
+    """Report that an equilibrium is unstable; in a flat position of loops the rate of 1/s is rounding, and that it may be."""
+    where = f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is"
+    if flat:
+        return f"{where} a flat position of its closed loops; whether it is stable, the equations of rigid parts do not tell."
     return (
-        f"the equilibrium of {type(compiled.tree).__name__} at t = {time:g} s is unstable: a disturbance grows e-fold in "
-        f"{1 / rate:.3g} s. Give guesses closer to a stable one, such as guess(...) of joints or angles_start of bodies."
+        f"{where} unstable: a disturbance grows e-fold in {1 / rate:.3g} s. Give guesses closer to a stable one, such as "
+        "guess(...) of joints or angles_start of bodies."
     )
 
 
