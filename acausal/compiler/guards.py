@@ -140,6 +140,20 @@ class Guards:
         return [planned.count(k) == compared.count(k) for k in self.watched]
 
     @cached_property
+    def lone(self) -> list[int]:
+        """Those of them whose discrete variables no other statement changes: they plan their next instant themselves."""
+        own = [{jump.discrete for jump in guard.jumps} for guard in self.guards]
+        discretes = scalars(self.reduced.constants)[self.n_switches : self.n_switches + self.n_discretes]
+        place, excess = {s.element_hash(): k for k, s in enumerate(discretes)}, scalars(self.excess)
+        found = []
+        for k, clocked in zip(self.watched, self.clocked, strict=True):
+            held = {place[h] for h in (s.element_hash() for s in ca.symvar(excess[k])) if h in place}
+            others = set[int | None]().union(*(own[j] for j in range(len(own)) if j != k))
+            if clocked and held and held <= own[k] and not held & others:
+                found.append(k)
+        return found
+
+    @cached_property
     def _planned(self) -> tuple[list[int], ca.SX]:
         return planned_times(self.reduced, self._all[[row for row, *_ in self._open]])
 

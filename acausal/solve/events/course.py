@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.errors import InitializationError
+from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
@@ -74,6 +74,7 @@ class Course:
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
         self.first = at = self._happen(at, acts)
+        self._tell_of_idle(at)
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for end in ends:
             if at.time != self.times[0]:
@@ -85,6 +86,16 @@ class Course:
                 self.ahead.begin()
             at = self._segment(at, end)
         self._at_stop(at, held)
+
+    def _tell_of_idle(self, at: Point) -> None:
+        """Warn of statements that hold after the start, and whose condition nothing but they themselves makes false again."""
+        for k in self.guards.lone:
+            if at.truth[self.guards.watched.index(k)]:
+                caution(
+                    f"{self.guards.guards[k].origin}: the condition holds after the start, t = {at.time:g} s, and acts where it "
+                    "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "
+                    "or take at_start=True and plan the next instant after the present, reinit(due, time + period)."
+                )
 
     def _refuse_undecided(self, at: Point, end: float) -> None:
         """Refuse conditions of time alone that have no value up to the next break."""

@@ -136,6 +136,37 @@ def test_what_acts_as_nothing_leads_on_acts_again(least: float) -> None:
     assert found["filled"][-1] == 5
 
 
+class Idle(Model):
+    """A sample that is due at 0 unless told otherwise."""
+
+    x: Scalar = variable("state", start=0, fixed=True)
+    n: Scalar = discrete("samples")
+    due: Scalar = discrete("next sample")
+
+    def equations(self):
+        yield der(self.x) == self.n
+        yield when(time >= self.due, reinit(self.due, self.due + 0.1), reinit(self.n, self.n + 1))
+
+
+class Moved(Idle):
+    """Another statement lets it act."""
+
+    def equations(self):
+        yield from super().equations()
+        yield when(self.x + time > 0.5, reinit(self.due, 0.7))
+
+
+def test_a_sample_that_can_never_act_is_told(recwarn: pytest.WarningsRecorder) -> None:
+    with pytest.warns(
+        ac.AcausalWarning, match=r"Idle, .*: the condition holds after the start, t = 0 s, and .* it never does"
+    ):
+        assert ac.simulate(Idle(), stop_time=1.0)["n"][-1] == 0
+    recwarn.clear()
+    assert ac.simulate(Idle(), start_time=-0.5, stop_time=1.0)["n"][-1] == 11
+    assert ac.simulate(Moved(), stop_time=1.0)["n"][-1] == 4
+    assert not recwarn
+
+
 class Near(Model):
     """The second sampler reads what the first has set just before."""
 
