@@ -25,20 +25,18 @@ class Back(IntEnum):
 
 
 THRESHOLDS = (
-    *(
-        "span",
-        "tolerance",
-        "soon",
-        "moves",
-        "level",
-        "reach",
-        "error",
-        "shortest",
-        "added",
-        "crowded",
-        "enough",
-        "noise",
-    ),
+    "span",
+    "tolerance",
+    "soon",
+    "moves",
+    "level",
+    "reach",
+    "error",
+    "shortest",
+    "added",
+    "crowded",
+    "enough",
+    "noise",
     "apart",
 )
 
