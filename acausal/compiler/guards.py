@@ -141,15 +141,15 @@ class Guards:
 
     @cached_property
     def lone(self) -> list[int]:
-        """Those of them whose discrete variables no other statement changes: they plan their next instant themselves."""
+        """Those of them with one comparison, of discrete variables that no other statement changes: they plan what is next."""
         own = [{jump.discrete for jump in guard.jumps} for guard in self.guards]
-        discretes = scalars(self.reduced.constants)[self.n_switches : self.n_switches + self.n_discretes]
-        place, excess = {s.element_hash(): k for k, s in enumerate(discretes)}, scalars(self.excess)
-        found = []
+        constants = {s.element_hash(): k - self.n_switches for k, s in enumerate(scalars(self.reduced.constants))}
+        excess, compared, found = scalars(self.excess), [k for _, k, _ in self._open], []
         for k, clocked in zip(self.watched, self.clocked, strict=True):
-            held = {place[h] for h in (s.element_hash() for s in ca.symvar(excess[k])) if h in place}
+            held = {constants[h] for h in (s.element_hash() for s in ca.symvar(excess[k])) if h in constants}
             others = set[int | None]().union(*(own[j] for j in range(len(own)) if j != k))
-            if clocked and held and held <= own[k] and not held & others:
+            # Switches are among the constants, too, and let a condition become false again.
+            if clocked and compared.count(k) == 1 and held and held <= own[k] and not held & others:
                 found.append(k)
         return found
 

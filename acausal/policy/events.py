@@ -73,7 +73,7 @@ class Agenda:
     # Likewise: instants that add up, due + 0.1 again and again, are on an output that near.
     added: float = 1e-11
     # In seconds since 1970 a sample comes every 0.01 s, and rounding is 2.4e-7 s.
-    late: float = 2e-3
+    late: float = 2e-2
     # Of the time between two breaks: so far behind the first one, what holds between them does.
     after: float = 1e-6
     # Of the time: a break and an output are one.

@@ -260,7 +260,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
     dropped = done.begun.redundancy.dropped
     found += locked(integrator.problem, done.begun.point, dropped)
-    found += opened(integrator.consistent, rows)
+    found += opened(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:
         if integrator.trace.rough:

@@ -10,8 +10,7 @@
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
 #define NEAR 1e-12     /* of the time: instants that near are one, and leave no room for an integration */
-#define ADDED 10       /* times that: sums of periods may be apart from each other */
-#define LATE 2e-3      /* of the time, where that is long beside the run */
+#define LATE 2e-2      /* of the time, where that is long beside the run */
 
 double ac_near(const ac_instance *i) { return NEAR * fmax(LATE * fabs(i->now.time), i->of->span); }
 
@@ -39,10 +38,7 @@ double ac_width(const ac_instance *i, int32_t guard) {
 /* Whether a watched condition holds from now on. */
 static int holds(const ac_instance *i, int32_t k, double rate) {
     const double value = i->guards[k], width = ac_width(i, k), change = rate * i->of->span;
-    /* What depends on time and discrete variables alone is met exactly. */
-    const int clocked = i->guards[i->of->watched + k] == 0;
-    const double reach = clocked ? ADDED * ac_near(i) : SOON * i->of->span;
-    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(rate) * reach;
+    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * SOON;
     return ac_holds(value, change, width, MOVES * width, soon, i->truth[k] > 0);
 }
 

@@ -15,7 +15,7 @@
 #define ROUNDED 1e-5 /* change over the size that does not become less: beside a singular position rounding is that large */
 #define LEAST 1e-9   /* of the size of an unknown: what is less may be rounding */
 #define LEFT 1e-6    /* of the terms, there: beside a bend more is left */
-#define ROUNDINGS 8  /* of each number, by which an equation is asked how far rounding moves it; and by how much more it may */
+#define ROUNDINGS 8  /* of each input, by which an equation is asked how far rounding moves it; and by how much more it may */
 #define FURTHER 4
 #define CREEPS 0.1   /* of the last step: where Newton's steps converge, one is less */
 
@@ -123,8 +123,9 @@ static void run(ac_settler *s, int64_t *evaluations) {
     ++*evaluations;
 }
 
-/* Whether what is left after a step is rounding where it is more than a part of the terms: what some rounding errors of all numbers
-   make of an equation. Where its unknowns are 0, that is all there is. */
+/* Whether what is left after a step is rounding where it is more than a part of the terms: what some rounding errors of the inputs, as
+   they enter the late runs, make of an equation. Where its unknowns are 0, that is all there is. Results are not those of the inputs
+   then. */
 static int rounds(ac_settler *s, double enough, int64_t *evaluations) {
     const ac_tape *tape = s->of.tape;
     const int32_t n = s->of.n;

@@ -51,6 +51,10 @@ class Agenda:
         """Which timed guards hold at a time; comparisons that would be 0 within the span `near` are 0."""
         return self._holds(time, near) > 0.5
 
+    def reach(self, time: float) -> float:
+        """How far from a row the instant that is on it may be, in s."""
+        return max(self.near, self.added * abs(time))
+
     def undecided(self, time: float) -> list[int]:
         """Timed guards whose conditions have no value at a time."""
         return [k for k, h in zip(self.guards.timed, self._holds(time, 0.0), strict=True) if np.isnan(h)]
@@ -109,7 +113,7 @@ class Agenda:
             return None
         instant = float(np.min(ahead))
         near = float(self.times[np.argmin(np.abs(self.times - instant))])
-        on_output = abs(near - instant) <= self.added * abs(instant) and near > at.time
+        on_output = abs(near - instant) <= self.reach(instant) and near > at.time
         return instant, near if on_output else instant
 
     def held_back(self, at: Point, instants: Instants) -> Point:
@@ -120,7 +124,7 @@ class Agenda:
         if not len(at.truth):
             return at
         value, rate = instants.rates(at)
-        later = ~self._inclusive(at) & ~instants.is_switch & (np.abs(value) <= -rate * 2 * self.near)
+        later = ~self._inclusive(at) & ~instants.is_switch & (np.abs(value) <= -rate * 2 * self.reach(at.time))
         return replace(at, truth=at.truth | later)
 
     def _inclusive(self, at: Point) -> np.ndarray:
@@ -129,6 +133,6 @@ class Agenda:
         for (k, inclusive), instant in zip(
             self.guards.plans, self.guards.planned(self.p, at.constants.vector)[0], strict=True
         ):
-            if abs(instant - at.time) <= 2 * self.near:
+            if abs(instant - at.time) <= 2 * self.reach(at.time):
                 found[k] = inclusive
         return np.array([found[k] for k in self.guards.watched], dtype=bool)

@@ -188,9 +188,27 @@ class Ahead:
         integrator.take(following[0], refusal)
         return Found(at)
 
+    def _closely(self, at: Point, times: np.ndarray, passes: bool) -> Leg | Refusal | None:
+        """Integrate an interval carefully, and look as closely into it as its steps ask for; None where it is to be shorter.
+
+        By every means, if it `passes` in no other way: then its ends alone are seen.
+        """
+        integrator = self.integrator
+        way = replace(integrator.way, max_steps=POLICY.rescue.long, careful=True)
+        while True:
+            density = self.stride.density
+            leg = integrator.attempt(at, self.stride.looks(times), way)
+            passed = passes and isinstance(leg, Refusal)
+            leg = passage(integrator, at, times, 1) if passed else leg
+            if isinstance(leg, Refusal) or self.stride.is_enough(leg, times):
+                return leg
+            if passed and self.stride.piece > LOOKS.fine * self.locator.shortest:
+                return None
+            if self.stride.density == density:
+                return leg
+
     def _shorter(self, at: Point, grid: np.ndarray, failure: Failure) -> Found:
         """Shorten the time: the law may no longer be valid beyond an event."""
-        integrator = self.integrator
         if self.stride.shorten(grid):
             return Found(at)
         if failure.kind is Kind.STEPS and self.stride.cut(failure.time - at.time, self.locator.shortest):
@@ -199,11 +217,8 @@ class Ahead:
             times = np.array([at.time, at.time + (grid[1] - at.time) / 2**k])
             if times[1] - times[0] <= self.locator.shortest:
                 break
-            way = replace(integrator.way, max_steps=POLICY.rescue.long, careful=True)
-            leg = integrator.attempt(at, self.stride.looks(times), way)
-            if isinstance(leg, Refusal) and not k:
-                leg = passage(integrator, at, times, 1)
-            if isinstance(leg, Leg) and not self.stride.is_enough(leg, times):
+            leg = self._closely(at, times, passes=not k)
+            if leg is None:
                 return Found(at)
             try:
                 return Found(at, accepted(leg), self.locator.first(at, accepted(leg), depth=1))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler.constants import Constants
-from acausal.errors import InitializationError, caution
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause
 from acausal.solve.events.agenda import Agenda
@@ -74,7 +74,6 @@ class Course:
         held = self.agenda.between(at.time, ends[0])
         at, acts = self.agenda.at_start(at, held, self.instants)
         self.first = at = self._happen(at, acts)
-        self._tell_of_idle(at)
         self.integrator.trace.before = np.zeros(2)  # the first row is the point after it
         for end in ends:
             if at.time != self.times[0]:
@@ -87,15 +86,16 @@ class Course:
             at = self._segment(at, end)
         self._at_stop(at, held)
 
-    def _tell_of_idle(self, at: Point) -> None:
-        """Warn of statements that hold after the start, and whose condition nothing but they themselves makes false again."""
-        for k in self.guards.lone:
-            if at.truth[self.guards.watched.index(k)]:
-                caution(
-                    f"{self.guards.guards[k].origin}: the condition holds after the start, t = {at.time:g} s, and acts where it "
-                    "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "
-                    "or take at_start=True and plan the next instant after the present, reinit(due, time + period)."
-                )
+    def idle(self) -> list[str]:
+        """Name statements that hold after the start, and whose condition nothing but they themselves makes false again."""
+        at = self.first
+        held = [] if at is None else [k for k in self.guards.lone if at.truth[self.guards.watched.index(k)]]
+        return [
+            f"{self.guards.guards[k].origin}: the condition holds after the start, t = {self.times[0]:g} s, and acts where it "
+            "becomes true: it never does, as nothing else moves its instant. Give that a start= after the start time, "
+            "or take at_start=True and plan the next instant after the present, reinit(due, time + period)."
+            for k in held
+        ]
 
     def _refuse_undecided(self, at: Point, end: float) -> None:
         """Refuse conditions of time alone that have no value up to the next break."""
@@ -113,11 +113,12 @@ class Course:
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
         """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
-        plan = self.agenda.planned(at, at.time - self.agenda.near)
+        reach = self.agenda.reach(at.time)
+        plan = self.agenda.planned(at, at.time - reach)
         new = self._happen(at, fired, constants)
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
-        if acted and plan and plan[0] <= at.time + self.agenda.near:
+        if acted and plan and plan[0] <= at.time + reach:
             self.ahead.stride.begin()
             if self.events[-1:] != [at.time]:
                 self._count(at.time, self.guards.watched)
@@ -128,9 +129,10 @@ class Course:
         """Let happen what is true at the stop time itself, and show the laws that hold after it."""
         agenda = self.agenda
         now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
-        plan, fired = agenda.planned(at, at.time - agenda.near), agenda.fired(now, held)
+        reach = agenda.reach(at.time)
+        plan, fired = agenda.planned(at, at.time - reach), agenda.fired(now, held)
         switched = bool((now != held).any() and len(at.truth))
-        if fired or switched or (plan and plan[0] <= at.time + agenda.near):
+        if fired or switched or (plan and plan[0] <= at.time + reach):
             at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
         constants = agenda.constants(at.constants, after)
         if (constants.vector != at.constants.vector).any():

@@ -21,6 +21,7 @@ from acausal import (
     reinit,
     sin,
     sqrt,
+    structural,
     time,
     variable,
     when,
@@ -117,6 +118,37 @@ def test_samples_of_late_runs(start: float, period: float, intervals: int, metho
     assert found["slow"][-1] in (20, 21)
 
 
+class Counted(Model):
+    """A sample every 0.1 s, counted with the others by the run."""
+
+    n: Scalar = discrete("samples")
+    shown: Scalar = variable("the same")
+    due: Scalar = discrete("next sample", start=time)
+
+    def equations(self):
+        yield self.shown == self.n
+        yield when(time >= self.due, reinit(self.n, self.n + 1), reinit(self.due, self.due + 0.1), at_start=True)
+
+
+class Moving(Counted):
+    """With a state."""
+
+    x: Scalar = variable("state", start=0, fixed=True)
+
+    def equations(self):
+        yield from super().equations()
+        yield der(self.x) == self.n - self.x
+
+
+@pytest.mark.parametrize("model", [Counted, Moving])
+@pytest.mark.parametrize("start", [0.0, 1e5, 1.7e9, -1.7e9, -5.0])
+@pytest.mark.parametrize("intervals", [100, 500])
+def test_the_sample_at_the_stop_acts_and_counts(model: type[Model], start: float, intervals: int) -> None:
+    """A sum of periods is some rounding errors of a late time away from the outputs."""
+    found = ac.simulate(model(), start_time=start, stop_time=start + 10, intervals=intervals)
+    assert (found["n"][-1], found.stats.events) == (101, 100)
+
+
 class Tank(Model):
     """It runs empty as the root of its level, and is filled again where nothing leads on."""
 
@@ -156,6 +188,18 @@ class Moved(Idle):
         yield when(self.x + time > 0.5, reinit(self.due, 0.7))
 
 
+class Ended(Idle):
+    """It acts as a case of the law of its instant ends, or in the second of two times."""
+
+    which: int = structural("of the two")
+
+    def equations(self):
+        yield der(self.x) == 1
+        again = piecewise((2, (self.x > 0.5) & (self.x < 0.7)), 0)
+        held = time >= self.due + again if self.which else (time >= self.due) & ((time < 0.5) | (time > 0.7))
+        yield when(held, reinit(self.due, time + 0.1), reinit(self.n, self.n + 1))
+
+
 def test_a_sample_that_can_never_act_is_told(recwarn: pytest.WarningsRecorder) -> None:
     with pytest.warns(
         ac.AcausalWarning, match=r"Idle, .*: the condition holds after the start, t = 0 s, and .* it never does"
@@ -164,6 +208,8 @@ def test_a_sample_that_can_never_act_is_told(recwarn: pytest.WarningsRecorder) -
     recwarn.clear()
     assert ac.simulate(Idle(), start_time=-0.5, stop_time=1.0)["n"][-1] == 11
     assert ac.simulate(Moved(), stop_time=1.0)["n"][-1] == 4
+    assert ac.simulate(Ended(which=0), stop_time=1.05)["n"][-1] == 4
+    assert ac.simulate(Ended(which=1), stop_time=1.05)["n"][-1] == 4
     assert not recwarn
 
 
