@@ -109,7 +109,7 @@ def test_constraints_at_a_free_frame_are_those_behind_a_rigid_link(part: type[Co
     for name in ("body.r_0", "body.w_a", "held.force"):
         np.testing.assert_allclose(runs[0][name], runs[1][name], rtol=1e-7, atol=1e-7)
     stats: Any = runs[0].stats
-    assert abs(stats.energy_method) < 1e-7
+    assert abs(stats.energy_method) < 1e-6  # a thousand tolerances, with whichever method
     assert abs(stats.energy_supplied) < 1e-12
     assert abs(runs[0]["body.w_a"][-1, 0] - 0.5) > 0.1
 
