@@ -259,10 +259,14 @@ class CompiledModel:
         return Rowwise(ca.Function("rates", self.arguments[:-1], [ca.densify(self.reduced.running.ode)]))
 
     @cached_property
+    def energy(self) -> ca.SX:
+        """Stored energy, in x, z, parameters and time."""
+        return self.reduced.running.resolve(self.reduced.flat.energies["stored_energy"])
+
+    @cached_property
     def stored(self) -> Call:
         """Function of x, z, parameters, time and constants: stored energy."""
-        energy = self.reduced.running.resolve(self.reduced.flat.energies["stored_energy"])
-        return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(energy)]))
+        return Call(ca.Function("stored", self.arguments[:-1], [ca.densify(self.energy)]))
 
     @cached_property
     def hoist(self) -> Call:

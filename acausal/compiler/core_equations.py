@@ -119,7 +119,7 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
         project = make_tape(ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE))
     energetic, energies = list[int](), None
     if works:
-        column = ca.vertcat(compiled.powers, r.running.resolve(r.flat.energies["stored_energy"]))
+        column = ca.vertcat(compiled.powers, compiled.energy)
         energies = make_tape(ca.Function("energies", arguments[:-1], [ca.densify(column)], READABLE), early=(0, 1))
         energetic = compiled.dependence.needed(compiled.dependence.inside(column))[0].tolist()
     everything = tuple(range(compiled.nz))

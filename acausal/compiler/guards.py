@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cached_property
 from typing import Any
 
@@ -136,20 +137,26 @@ class Guards:
     @cached_property
     def clocked(self) -> list[bool]:
         """Whether each watched guard compares time with discrete variables alone: it changes at planned instants, exactly."""
-        planned, compared = ([k for k, *_ in parts] for parts in (self.plans, [part[1:] for part in self._open]))
-        return [planned.count(k) == compared.count(k) for k in self.watched]
+        planned = Counter(k for k, _ in self.plans)
+        return [planned[k] == self._compared_in[k] for k in self.watched]
+
+    @cached_property
+    def _compared_in(self) -> Counter[int]:
+        """Number of comparisons of each watched guard that the clock does not decide."""
+        return Counter(k for _, k, _ in self._open)
 
     @cached_property
     def lone(self) -> list[int]:
         """Those of them with one comparison, of discrete variables that no other statement changes: they plan what is next."""
         own = [{jump.discrete for jump in guard.jumps} for guard in self.guards]
+        changed = Counter(discrete for jumps in own for discrete in jumps)
         constants = {s.element_hash(): k - self.n_switches for k, s in enumerate(scalars(self.reduced.constants))}
-        excess, compared, found = scalars(self.excess), [k for _, k, _ in self._open], []
+        excess, found = scalars(self.excess), []
         for k, clocked in zip(self.watched, self.clocked, strict=True):
             held = {constants[h] for h in (s.element_hash() for s in ca.symvar(excess[k])) if h in constants}
-            others = set[int | None]().union(*(own[j] for j in range(len(own)) if j != k))
             # Switches are among the constants, too, and let a condition become false again.
-            if clocked and compared.count(k) == 1 and held and held <= own[k] and not held & others:
+            alone = held <= own[k] and all(changed[discrete] == 1 for discrete in held)
+            if clocked and self._compared_in[k] == 1 and held and alone:
                 found.append(k)
         return found
 

@@ -23,7 +23,7 @@ from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.kept import Held
+from acausal.solve.start.kept import least_sharpness
 from acausal.solve.start.tangent import Elimination, tangent
 from acausal.symbols import scalars
 
@@ -148,8 +148,7 @@ def linearize(
 
 def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
     """Refuse flat positions of closed loops; near one, a rest is not known well enough for the forces that are large there."""
-    least = np.min(Held.at(problem, at).sharpness, initial=np.inf) if problem.compiled.constraints.size else np.inf
-    if least <= (POLICY.loops.flat if rests else NEAR_FLAT):
+    if least_sharpness(problem, at) <= (POLICY.loops.flat if rests else NEAR_FLAT):
         raise InitializationError(f"the model cannot be linearised: {RESTS_FLAT if rests else FLAT}")
 
 

@@ -27,17 +27,22 @@ static void interpolate(const ac_rodas *r, double s, double *y) {
     ac_interpolate(r->n, r->y, r->next, r->dense, s, 0, r->n, y);
 }
 
-/* Integral of the powers over a part of the step: Lobatto's rule of order 6 on the interpolant. */
+double ac_lobatto(int k, double *weight) {
+    const double at[AC_NODES] = {0, 0.5 - 0.5 / sqrt(5), 0.5 + 0.5 / sqrt(5), 1};
+    *weight = k == 0 || k == AC_NODES - 1 ? 1. / 12 : 5. / 12;
+    return at[k];
+}
+
+/* Integral of the powers over a part of the step, on the interpolant. */
 static void gather(ac_rodas *r, double from, double to, double h) {
-    static const double WEIGHT[4] = {1. / 12, 5. / 12, 5. / 12, 1. / 12};
-    const double at[4] = {0, 0.5 - 0.5 / sqrt(5), 0.5 + 0.5 / sqrt(5), 1};
     const ac_tape *tape = r->of.powers;
-    for (int k = 0; k < 4; k++) {
-        const double s = from + at[k] * (to - from);
+    for (int k = 0; k < AC_NODES; k++) {
+        double weight;
+        const double s = from + ac_lobatto(k, &weight) * (to - from);
         interpolate(r, s, r->stage);
         ac_rodas_evaluate(r, tape, r->powers, r->stage, r->t + s * h);
         for (int32_t j = 0; j < tape->outputs && j < 2; j++) {
-            r->gathered[j] += WEIGHT[k] * (to - from) * h * r->powers[tape->output[j]];
+            r->gathered[j] += weight * (to - from) * h * r->powers[tape->output[j]];
         }
     }
 }

@@ -38,6 +38,9 @@ void ac_rodas_keep(ac_rodas *r);
 void ac_rodas_return(ac_rodas *r, double h);
 void ac_rodas_tell(ac_rodas *r);
 int ac_rodas_doubts(ac_rodas *r);
+#define AC_NODES 4
+/* Place between 0 and 1 of a node of Lobatto's rule of order 6, and its weight. */
+double ac_lobatto(int k, double *weight);
 void ac_interpolate(int32_t n, const double *before, const double *after, const double *dense, double s, int32_t first,
                     int32_t count, double *y);
 

@@ -21,7 +21,7 @@ struct ac_sampler {
     double *c;                        /* constants now */
     double *tape, *size, *sizes, *picked, *rates, *ones; /* tape: of whichever is evaluated */
     double *acted, *width, *coordinates; /* what acts; how far conditions may be off; what is projected */
-    double *energies, work[2];        /* (LOOKS + 1) powers and stored energy; supplied and dissipated energy so far */
+    double *energies, work[2];        /* (LOOKS + 1, 3) powers and stored energy; supplied and dissipated energy so far */
     double *step_y, *dense, *before;  /* end of a step, its interpolant, its start */
     ac_samples request;
     int64_t evaluations;

@@ -6,7 +6,6 @@
 #include <math.h>
 
 #define PANELS 8 /* of a step, or between two outputs in it: as close as conditions are looked at */
-#define NODES 4  /* of a panel: Lobatto's rule of order 6 */
 
 /* Powers and stored energy in some rows; whether all have values. */
 static int evaluate(ac_sampler *s, int32_t rows, ac_looks *at) {
@@ -20,20 +19,21 @@ static int evaluate(ac_sampler *s, int32_t rows, ac_looks *at) {
 
 /* Add what the powers supply and dissipate in a part of the last step, which goes from begin to end; whether they have values. */
 int ac_sampler_work(ac_sampler *s, double begin, double end, double from, double to) {
-    const int32_t nx = s->of.equations->nx, nz = s->of.equations->nz, n = nx + nz, rows = PANELS * NODES;
-    const double node[NODES] = {0, 0.5 - 0.5 / sqrt(5), 0.5 + 0.5 / sqrt(5), 1};
-    const double weight[NODES] = {1. / 12, 5. / 12, 5. / 12, 1. / 12}, h = (to - from) / PANELS;
+    const int32_t nx = s->of.equations->nx, nz = s->of.equations->nz, n = nx + nz, rows = PANELS * AC_NODES;
+    const double h = (to - from) / PANELS;
+    double weight;
     ac_looks *l = &s->looks, rest = {l->time + 1, l->x + nx, l->z + nz, NULL};
     if (!s->of.energies) return 1;
     for (int32_t k = 0; k < rows; k++) {
-        rest.time[k] = from + (k / NODES + node[k % NODES]) * h;
+        rest.time[k] = from + (k / AC_NODES + ac_lobatto(k % AC_NODES, &weight)) * h;
         const double part = (rest.time[k] - begin) / (end - begin);
         ac_interpolate(n, s->before, s->step_y, s->dense, part, 0, nx, rest.x + k * nx);
         ac_interpolate(n, s->before, s->step_y, s->dense, part, nx, nz, rest.z + k * nz);
     }
     if (!evaluate(s, rows, &rest)) return 0;
     for (int32_t k = 0; k < rows; k++) {
-        for (int32_t j = 0; j < 2; j++) s->work[j] += weight[k % NODES] * h * s->energies[3 * k + j];
+        ac_lobatto(k % AC_NODES, &weight);
+        for (int32_t j = 0; j < 2; j++) s->work[j] += weight * h * s->energies[3 * k + j];
     }
     return 1;
 }

@@ -116,6 +116,12 @@ class Agenda:
         on_output = abs(near - instant) <= self.reach(instant) and near > at.time
         return instant, near if on_output else instant
 
+    def is_planned(self, at: Point) -> bool:
+        """Whether discrete variables plan the present instant."""
+        reach = self.reach(at.time)
+        plan = self.planned(at, at.time - reach)
+        return plan is not None and plan[0] <= at.time + reach
+
     def held_back(self, at: Point, instants: Instants) -> Point:
         """Return a point at the stop time at which what becomes true only after it does not act.
 

@@ -113,12 +113,11 @@ class Course:
 
     def _at_row(self, at: Point, fired: list[int] | None = None, constants: Constants | None = None) -> Point:
         """Let happen what happens at the last row; an event if discrete variables have planned this instant."""
-        reach = self.agenda.reach(at.time)
-        plan = self.agenda.planned(at, at.time - reach)
+        planned = self.agenda.is_planned(at)
         new = self._happen(at, fired, constants)
         self.integrator.trace.put(-1, new)
         acted = new.differs(at if constants is None else replace(at, constants=constants))
-        if acted and plan and plan[0] <= at.time + reach:
+        if acted and planned:
             self.ahead.stride.begin()
             if self.events[-1:] != [at.time]:
                 self._count(at.time, self.guards.watched)
@@ -129,10 +128,9 @@ class Course:
         """Let happen what is true at the stop time itself, and show the laws that hold after it."""
         agenda = self.agenda
         now, after = agenda.on(at.time, agenda.near), agenda.on(at.time + 2 * agenda.near)
-        reach = agenda.reach(at.time)
-        plan, fired = agenda.planned(at, at.time - reach), agenda.fired(now, held)
+        fired = agenda.fired(now, held)
         switched = bool((now != held).any() and len(at.truth))
-        if fired or switched or (plan and plan[0] <= at.time + reach):
+        if fired or switched or agenda.is_planned(at):
             at = self._at_row(agenda.held_back(at, self.instants), fired, agenda.constants(at.constants, now))
         constants = agenda.constants(at.constants, after)
         if (constants.vector != at.constants.vector).any():

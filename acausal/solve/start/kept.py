@@ -100,6 +100,13 @@ class Held:
         return found
 
 
+def least_sharpness(problem: Problem, at: Point) -> float:
+    """Return the smallest singular value of the constraints at a point, 0 in a flat position, inf without loops."""
+    return (
+        float(np.min(Held.at(problem, at).sharpness, initial=np.inf)) if problem.compiled.constraints.size else np.inf
+    )
+
+
 def refitted(problem: Problem, at: Point) -> Constants:
     """Return the constants of a point, with others of the constraints kept where those that are hold the others hardly.
 

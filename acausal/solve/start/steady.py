@@ -13,7 +13,7 @@ from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.start.at_rest import at_rest, motion_text
-from acausal.solve.start.kept import Held
+from acausal.solve.start.kept import least_sharpness
 from acausal.solve.start.least_change import least_change
 from acausal.solve.start.linearized import Linearized, Linearizer, moved
 from acausal.solve.start.relaxation import relax
@@ -71,8 +71,8 @@ class Equilibrium(Linearizer):
             found = self.linearized(nearly)
             rate = self._growing(found)[0]
         if rate:
-            least = np.min(Held.at(self.problem, found.point).sharpness, initial=np.inf)
-            caution(unstable_text(self.problem.compiled, self.guess.time, rate, least <= POLICY.loops.flat))
+            flat = least_sharpness(self.problem, found.point) <= POLICY.loops.flat
+            caution(unstable_text(self.problem.compiled, self.guess.time, rate, flat))
         return found.point
 
     def _tried(self, first: Point | None) -> Linearized | None:
