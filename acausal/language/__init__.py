@@ -48,6 +48,7 @@ from acausal.language.functions import (
     tanh,
     time,
 )
+from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import TWINS
 from acausal.language.twins import twins
 from acausal.language.types import Matrix33, Scalar, Vector3
@@ -113,18 +114,24 @@ __all__ = [
     "port",
     "ports",
     "potential_root",
+    "pulse",
     "quantity",
+    "ramp",
     "reinit",
     "require",
     "root",
     "rooted",
     "sign",
     "sin",
+    "sine",
     "sqrt",
+    "step",
     "structural",
     "tan",
     "tanh",
     "time",
+    "time_table",
+    "trapezoid",
     "variable",
     "when",
 ]

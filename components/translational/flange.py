@@ -1,0 +1,20 @@
+"""TranslationalFlange: the connector of one-dimensional translation."""
+
+from __future__ import annotations
+
+from acausal import Component, Connector, Scalar, flow, port, variable
+
+
+class TranslationalFlange(Connector):
+    """End of a rod in one-dimensional translation."""
+
+    s: Scalar = variable("absolute position", unit="m")
+    f: Scalar = flow("cut force", unit="N")
+
+
+class TwoFlanges(Component):
+    """Base of components with two flanges."""
+
+    ends = ("flange_a", "flange_b")
+    flange_a: TranslationalFlange = port(TranslationalFlange, "first rod end")
+    flange_b: TranslationalFlange = port(TranslationalFlange, "second rod end")
