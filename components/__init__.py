@@ -1,6 +1,6 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
-from components import rotational
+from components import rotational, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
 from components.body import Body
 from components.body_box import BodyBox
@@ -36,7 +36,7 @@ from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
 from components.torque import Torque
 from components.translation import FixedTranslation
-from components.translational_flange import TranslationalFlange
+from components.translational.flange import TranslationalFlange
 from components.two_frame_body import TwoFrameBody
 from components.world import World
 from components.world_force import WorldForce
@@ -86,4 +86,6 @@ __all__ = [
     "resolve1",
     "resolve2",
     "rotational",
+    "thermal",
+    "translational",
 ]

@@ -8,7 +8,7 @@ from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, port, 
 from components.driven_joint import DrivenJoint
 from components.frame import move
 from components.orientation import null_rotation, resolve1, unit_vector
-from components.translational_flange import TranslationalFlange
+from components.translational.flange import TranslationalFlange
 
 
 class Prismatic(DrivenJoint):

@@ -21,8 +21,11 @@ from components import (
     World,
     fe,
     rotational,
+    thermal,
+    translational,
 )
 from components.flange import TwoFlanges
+from tests.components.scenes import heat, rods
 from tests.components.scenes.bodies import (
     OnBeam,
     OnBodyBox,
@@ -95,6 +98,40 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Torque": OnShaftTorque,
     "rotational.Position": OnShaftPosition,
     "rotational.Speed": OnShaftSpeed,
+    "translational.Spring": rods.OnRodSpring,
+    "translational.Damper": rods.OnRodDamper,
+    "translational.SpringDamper": rods.OnRodSpringDamper,
+    "translational.ElastoGap": rods.OnRodElastoGap,
+    "translational.Mass": rods.OnRodMass,
+    "translational.Rod": rods.OnRodRod,
+    "translational.Fixed": rods.OnRodFixed,
+    "translational.Force": rods.OnRodForce,
+    "translational.Force2": rods.OnRodForce2,
+    "translational.ConstantForce": rods.OnRodConstantForce,
+    "translational.ForceStep": rods.OnRodForceStep,
+    "translational.SignForce": rods.OnRodSignForce,
+    "translational.LinearSpeedDependentForce": rods.OnRodLinearForce,
+    "translational.QuadraticSpeedDependentForce": rods.OnRodQuadraticForce,
+    "translational.InverseSpeedDependentForce": rods.OnRodInverseForce,
+    "translational.Position": rods.OnRodPosition,
+    "translational.Speed": rods.OnRodSpeed,
+    "translational.ConstantSpeed": rods.OnRodConstantSpeed,
+    "translational.Accelerate": rods.OnRodAccelerate,
+    "translational.RelativeStates": rods.OnRodRelativeStates,
+    "translational.PositionSensor": rods.OnRodPositionSensor,
+    "translational.SpeedSensor": rods.OnRodSpeedSensor,
+    "translational.AccSensor": rods.OnRodAccSensor,
+    "translational.RelPositionSensor": rods.OnRodRelPositionSensor,
+    "translational.RelSpeedSensor": rods.OnRodRelSpeedSensor,
+    "translational.RelAccSensor": rods.OnRodRelAccSensor,
+    "translational.ForceSensor": rods.OnRodForceSensor,
+    "translational.PowerSensor": rods.OnRodPowerSensor,
+    "translational.MultiSensor": rods.OnRodMultiSensor,
+    "thermal.HeatCapacitor": heat.OnCapacitor,
+    "thermal.ThermalConductor": heat.OnConductor,
+    "thermal.Convection": heat.OnConvection,
+    "thermal.FixedTemperature": heat.OnFixedTemperature,
+    "thermal.PrescribedTemperature": heat.OnPrescribedTemperature,
 }
 TURNED = SCENES | {"Prismatic": OnPrismatic}
 BASES = {
@@ -107,24 +144,38 @@ BASES = {
     "rotational.Compliant",
     "rotational.OneFlange",
 }
-BASES |= {"rotational.TwoFlanges", "rotational.Slipping"}
+BASES |= {"rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
+BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
+BASES |= {f"translational.{name}" for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")}
 
 
 def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
-    found |= {f"rotational.{name}": getattr(rotational, name) for name in rotational.__all__}
-    found |= {f"fe.{name}": getattr(fe, name) for name in fe.__all__}
+    for package in (rotational, translational, thermal, fe):
+        short = package.__name__.rpartition(".")[2]
+        found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}
 
 
 EXPORTED = exported()
-SIDED = [name for name in SCENES if issubclass(EXPORTED[name], TwoFrames | TwoFlanges) or name == "fe.FEBody"]
+SIDED = [
+    name
+    for name in SCENES
+    if issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody"
+]
 DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
 DISSIPATING |= {"fe.FEBody"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
-SUPPLYING |= {"rotational.Position", "rotational.Speed"}
+SUPPLYING |= {"rotational.Position", "rotational.Speed", "thermal.FixedTemperature", "thermal.PrescribedTemperature"}
+SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
+DISSIPATING |= {f"translational.{name}" for name in ("Damper", "SpringDamper", "ElastoGap")}
+SUPPLYING |= {
+    f"translational.{name}" for name in ("Mass", "Force", "Force2", "ConstantForce", "ForceStep", "SignForce")
+}
+SUPPLYING |= {f"translational.{kind}SpeedDependentForce" for kind in ("Linear", "Quadratic", "Inverse")}
+SUPPLYING |= {f"translational.{name}" for name in ("Position", "Speed", "ConstantSpeed", "Accelerate")}
 
 
 @dataclass
@@ -253,6 +304,7 @@ DIMENSIONLESS = {
     ("Clutch", "mode"),
     ("Clutch", "f_normalized"),
     ("Clutch", "peak"),
+    ("ElastoGap", "n"),
 }
 
 

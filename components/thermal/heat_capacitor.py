@@ -1,0 +1,25 @@
+"""HeatCapacitor: stores heat."""
+
+from __future__ import annotations
+
+from acausal import PREFER, Component, Scalar, der, parameter, port, variable
+from components.thermal.heat_port import HeatPort
+
+
+class HeatCapacitor(Component):
+    """Body of one temperature that stores heat."""
+
+    ends = ("port", "port")
+    C: Scalar = parameter("heat capacity", unit="J/K", minimum=0)
+    T: Scalar = variable("temperature", unit="K", start=293.15, select=PREFER)
+    der_T: Scalar = variable("der(T)", unit="K/s")
+    port: HeatPort = port(HeatPort, "where heat enters")
+
+    def equations(self):
+        yield self.T == self.port.T
+        yield self.der_T == der(self.T)
+        yield self.C * self.der_T == self.port.Q_flow
+
+    def stored_energy(self):
+        """Heat, from 0 K on."""
+        return self.C * self.T

@@ -1,0 +1,23 @@
+"""AbsoluteSensor: base of sensors at one rod end."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import Component, port
+from components.translational.flange import TranslationalFlange
+
+
+class AbsoluteSensor(Component):
+    """Base of sensors of a rod end, which bear no force; a subclass states what it measures."""
+
+    ends = ("flange", "flange")
+    flange: TranslationalFlange = port(TranslationalFlange, "measured rod end")
+
+    def equations(self):
+        yield self.flange.f == 0
+        yield from self.measure()
+
+    def measure(self) -> Any:
+        """Yield the equations of the measured values."""
+        raise NotImplementedError("states what it measures", "yield self.y == ...")

@@ -1,0 +1,16 @@
+"""ConstantForce: a constant force."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.translational.loading_force import LoadingForce
+
+
+class ConstantForce(LoadingForce):
+    """Constant force, whatever the speed."""
+
+    f_constant: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load where the rod moves forward.")
+
+    def law(self):
+        """Constant force."""
+        yield self.f == -self.f_constant

@@ -1,0 +1,20 @@
+"""CutSensor: base of sensors of a cut through a rod."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from components.translational.flange import TwoFlanges
+
+
+class CutSensor(TwoFlanges):
+    """Base of sensors that a rod is cut for; a subclass states what it measures."""
+
+    def equations(self):
+        yield self.flange_a.s == self.flange_b.s
+        yield self.flange_a.f + self.flange_b.f == 0
+        yield from self.measure()
+
+    def measure(self) -> Any:
+        """Yield the equations of the measured values."""
+        raise NotImplementedError("states what it measures", "yield self.y == ...")

@@ -1,0 +1,17 @@
+"""Fixed: a rod end that is held."""
+
+from __future__ import annotations
+
+from acausal import Component, Scalar, parameter, port
+from components.translational.flange import TranslationalFlange
+
+
+class Fixed(Component):
+    """Rod end that is held at a constant position."""
+
+    ends = ("flange", "flange")
+    s0: Scalar = parameter("position of the flange", unit="m", default=0)
+    flange: TranslationalFlange = port(TranslationalFlange, "the held rod end")
+
+    def equations(self):
+        yield self.flange.s == self.s0

@@ -1,0 +1,18 @@
+"""ForceStep: a force that steps up."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, piecewise, time
+from components.translational.loading_force import LoadingForce
+
+
+class ForceStep(LoadingForce):
+    """Force that jumps at start_time."""
+
+    step_force: Scalar = parameter("height of the step", unit="N", doc="Negative: a load where the rod moves forward.")
+    offset_force: Scalar = parameter("force before the step", unit="N", default=0)
+    start_time: Scalar = parameter("time of the step", unit="s", default=0)
+
+    def law(self):
+        """Offset, and the step from start_time on."""
+        yield self.f == piecewise((-self.offset_force, time < self.start_time), -self.offset_force - self.step_force)

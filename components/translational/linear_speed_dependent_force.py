@@ -1,0 +1,23 @@
+"""LinearSpeedDependentForce: a force proportional to the speed."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, structural
+from components.translational.loading_force import LoadingForce
+
+
+class LinearSpeedDependentForce(LoadingForce):
+    """Force proportional to the speed."""
+
+    f_nominal: Scalar = parameter(
+        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forward."
+    )
+    force_direction: bool = structural(
+        "whether the force has one sense in both directions of motion", default=True, choices=(True, False)
+    )
+    v_nominal: Scalar = parameter("nominal speed", unit="m/s", positive=True)
+
+    def law(self):
+        """Force proportional to the speed or to its magnitude."""
+        ratio = self.v / self.v_nominal
+        yield self.f == -self.f_nominal * (abs(ratio) if self.force_direction else ratio)

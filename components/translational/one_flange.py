@@ -1,0 +1,33 @@
+"""OneFlange: base of drives."""
+
+from __future__ import annotations
+
+from acausal import Component, Scalar, der, port, structural, variable
+from components.translational.flange import TranslationalFlange
+
+
+class OneFlange(Component):
+    """Base of drives with one rod end, whose housing stands still or is a flange of its own."""
+
+    ends = ("flange", "flange")
+    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
+    flange: TranslationalFlange = port(TranslationalFlange, "rod end")
+    s: Scalar = variable("position of the flange relative to the support", unit="m")
+    v: Scalar = variable("der(s)", unit="m/s")
+
+    @port
+    def support(self):
+        """Housing."""
+        return TranslationalFlange() if self.use_support else None
+
+    def equations(self):
+        yield self.v == der(self.s)
+        if self.use_support:
+            yield self.s == self.flange.s - self.support.s
+            yield self.support.f == -self.flange.f
+        else:
+            yield self.s == self.flange.s
+
+    def supplied_power(self):
+        """Power into the rod and the housing."""
+        return -self.flange.f * self.v

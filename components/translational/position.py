@@ -1,0 +1,41 @@
+"""Position: a drive that prescribes the position."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal import PREFER, Scalar, der, input, parameter, structural, variable
+from components.translational.one_flange import OneFlange
+
+# Bessel filter of the second order, -3 dB at its critical frequency.
+AF, BF = 1.3617, 0.6180
+
+
+class Position(OneFlange):
+    """Drive that moves the rod as prescribed."""
+
+    s_ref: Scalar = input("position of the flange", unit="m", doc="Forces jump where its second derivative does.")
+    exact: bool = structural(
+        "whether the flange follows s_ref exactly",
+        default=True,
+        choices=(True, False),
+        doc="False lets it follow s_ref through a filter of the second order, begun at rest: for a position of "
+        "which no derivative is known, such as an input of the whole model, or one that jumps.",
+    )
+    f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
+    s: Scalar = variable("position of the flange relative to the support", unit="m", select=PREFER)
+    a: Scalar = variable("der(v)", unit="m/s2")
+
+    def equations(self):
+        yield from super().equations()
+        yield self.a == der(self.v)
+        if self.exact:
+            yield self.s == self.s_ref
+        else:
+            w_crit = 2 * np.pi * self.f_crit
+            yield self.a == ((self.s_ref - self.s) * w_crit - AF * self.v) * w_crit / BF
+
+    def initial_equations(self):
+        if not self.exact:
+            yield self.s == self.s_ref
+            yield self.v == 0

@@ -1,0 +1,21 @@
+"""RelativeStates: makes a relative motion the state."""
+
+from __future__ import annotations
+
+from acausal import PREFER, Scalar, der, variable
+from components.translational.flange import TwoFlanges
+
+
+class RelativeStates(TwoFlanges):
+    """Makes the relative position and speed of two rod ends states; it transmits no force."""
+
+    s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m", select=PREFER)
+    v_rel: Scalar = variable("der(s_rel)", unit="m/s", select=PREFER)
+    a_rel: Scalar = variable("der(v_rel)", unit="m/s2")
+
+    def equations(self):
+        yield self.s_rel == self.flange_b.s - self.flange_a.s
+        yield self.v_rel == der(self.s_rel)
+        yield self.a_rel == der(self.v_rel)
+        yield self.flange_a.f == 0
+        yield self.flange_b.f == 0

@@ -1,0 +1,13 @@
+"""Rod: a massless rod."""
+
+from __future__ import annotations
+
+from components.translational.rigid import Rigid
+
+
+class Rod(Rigid):
+    """Massless rigid rod."""
+
+    def equations(self):
+        yield from super().equations()
+        yield self.flange_a.f + self.flange_b.f == 0

@@ -1,0 +1,19 @@
+"""SignForce: a constant force that changes its sign with the speed."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, structural
+from components.regularized_sign import KINDS, regularized_sign
+from components.translational.loading_force import LoadingForce
+
+
+class SignForce(LoadingForce):
+    """Constant force that changes its sign with the speed."""
+
+    f_nominal: Scalar = parameter("force on the rod", unit="N", doc="Negative: a load in both directions of motion.")
+    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
+    v0: Scalar = parameter("speed below which it is regularised", unit="m/s", default=0.1, positive=True)
+
+    def law(self):
+        """Regularised sign of the speed."""
+        yield self.f == -self.f_nominal * regularized_sign(self.v, self.v0, self.reg)
