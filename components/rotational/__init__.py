@@ -1,34 +1,96 @@
-"""Drive trains: rotors, torsional springs and dampers, and drives in one-dimensional rotation."""
+"""Rotation: inertias, torsional springs, dampers, gears, drives and sensors in one dimension."""
 
 from components.flange import Flange, TwoFlanges
+from components.rotational.absolute_sensor import AbsoluteSensor
+from components.rotational.acc_sensor import AccSensor
+from components.rotational.accelerate import Accelerate
+from components.rotational.angle_sensor import AngleSensor
 from components.rotational.clutch import Clutch
 from components.rotational.compliant import Compliant
+from components.rotational.constant_speed import ConstantSpeed
+from components.rotational.constant_torque import ConstantTorque
+from components.rotational.cut_sensor import CutSensor
 from components.rotational.damper import Damper
+from components.rotational.disc import Disc
+from components.rotational.elasto_backlash import ElastoBacklash
+from components.rotational.elasto_backlash2 import ElastoBacklash2
 from components.rotational.fixed import Fixed
 from components.rotational.friction import Friction
+from components.rotational.ideal_gear import IdealGear
+from components.rotational.ideal_planetary import IdealPlanetary
 from components.rotational.inertia import Inertia
+from components.rotational.inverse_speed_dependent_torque import InverseSpeedDependentTorque
+from components.rotational.linear_speed_dependent_torque import LinearSpeedDependentTorque
+from components.rotational.loading_torque import LoadingTorque
+from components.rotational.multi_sensor import MultiSensor
 from components.rotational.one_flange import OneFlange
 from components.rotational.position import Position
+from components.rotational.power_sensor import PowerSensor
+from components.rotational.quadratic_speed_dependent_torque import QuadraticSpeedDependentTorque
+from components.rotational.rel_acc_sensor import RelAccSensor
+from components.rotational.rel_angle_sensor import RelAngleSensor
+from components.rotational.rel_speed_sensor import RelSpeedSensor
+from components.rotational.relative_sensor import RelativeSensor
+from components.rotational.relative_states import RelativeStates
+from components.rotational.sign_torque import SignTorque
 from components.rotational.slipping import Slipping
 from components.rotational.speed import Speed
+from components.rotational.speed_sensor import SpeedSensor
 from components.rotational.spring import Spring
 from components.rotational.spring_damper import SpringDamper
 from components.rotational.torque import Torque
+from components.rotational.torque2 import Torque2
+from components.rotational.torque_sensor import TorqueSensor
+from components.rotational.torque_step import TorqueStep
+from components.rotational.two_flanges_and_support import TwoFlangesAndSupport
+from components.translational.ideal_gear_r2t import IdealGearR2T
+from components.translational.ideal_rolling_wheel import IdealRollingWheel
 
 __all__ = [
+    "AbsoluteSensor",
+    "AccSensor",
+    "Accelerate",
+    "AngleSensor",
     "Clutch",
     "Compliant",
+    "ConstantSpeed",
+    "ConstantTorque",
+    "CutSensor",
     "Damper",
+    "Disc",
+    "ElastoBacklash",
+    "ElastoBacklash2",
     "Fixed",
     "Flange",
     "Friction",
+    "IdealGear",
+    "IdealGearR2T",
+    "IdealPlanetary",
+    "IdealRollingWheel",
     "Inertia",
+    "InverseSpeedDependentTorque",
+    "LinearSpeedDependentTorque",
+    "LoadingTorque",
+    "MultiSensor",
     "OneFlange",
     "Position",
+    "PowerSensor",
+    "QuadraticSpeedDependentTorque",
+    "RelAccSensor",
+    "RelAngleSensor",
+    "RelSpeedSensor",
+    "RelativeSensor",
+    "RelativeStates",
+    "SignTorque",
     "Slipping",
     "Speed",
+    "SpeedSensor",
     "Spring",
     "SpringDamper",
     "Torque",
+    "Torque2",
+    "TorqueSensor",
+    "TorqueStep",
     "TwoFlanges",
+    "TwoFlangesAndSupport",
 ]

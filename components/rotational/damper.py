@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, parameter
 from components.rotational.compliant import Compliant
+from components.thermal.heat_loss import HeatLoss
 
 
-class Damper(Compliant):
+class Damper(HeatLoss, Compliant):
     """Linear torsional damper."""
 
     d: Scalar = parameter("damping constant", unit="N.m.s/rad", minimum=0)
@@ -15,6 +16,6 @@ class Damper(Compliant):
         """Torque proportional to the speed."""
         yield self.tau == self.d * self.w_rel
 
-    def dissipated_power(self):
+    def loss(self):
         """Power of the torque."""
         return self.d * self.w_rel**2

@@ -1,21 +1,33 @@
-"""OneFlange: base of supports and drives."""
+"""OneFlange: base of drives."""
 
 from __future__ import annotations
 
-from acausal import Component, Scalar, der, port, variable
+from acausal import Component, Scalar, der, port, structural, variable
 from components.flange import Flange
 
 
 class OneFlange(Component):
-    """Base of drives with one shaft end, whose housing stands still."""
+    """Base of drives with one shaft end, whose housing stands still or is a flange of its own."""
 
     ends = ("flange", "flange")
+    use_support: bool = structural("whether the housing has a flange, support", default=False, choices=(True, False))
     flange: Flange = port(Flange, "shaft end")
-    w: Scalar = variable("der(flange.phi)", unit="rad/s")
+    phi: Scalar = variable("angle of the flange relative to the support", unit="rad")
+    w: Scalar = variable("der(phi)", unit="rad/s")
+
+    @port
+    def support(self):
+        """Housing."""
+        return Flange() if self.use_support else None
 
     def equations(self):
-        yield self.w == der(self.flange.phi)
+        yield self.w == der(self.phi)
+        if self.use_support:
+            yield self.phi == self.flange.phi - self.support.phi
+            yield self.support.tau == -self.flange.tau
+        else:
+            yield self.phi == self.flange.phi
 
     def supplied_power(self):
-        """Power into the shaft."""
+        """Power into the shaft and the housing."""
         return -self.flange.tau * self.w

@@ -23,12 +23,11 @@ class Position(OneFlange):
         "which no derivative is known, such as an input of the whole model, or one that jumps.",
     )
     f_crit: Scalar = parameter("critical frequency of the filter", unit="Hz", default=50, positive=True)
-    phi: Scalar = variable("angle of the flange", unit="rad", select=PREFER)
+    phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)
     a: Scalar = variable("der(w)", unit="rad/s2")
 
     def equations(self):
         yield from super().equations()
-        yield self.phi == self.flange.phi
         yield self.a == der(self.w)
         if self.exact:
             yield self.phi == self.phi_ref

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, parameter
 from components.rotational.compliant import Compliant
+from components.thermal.heat_loss import HeatLoss
 
 
-class SpringDamper(Compliant):
+class SpringDamper(HeatLoss, Compliant):
     """Linear torsional spring and linear torsional damper."""
 
     c: Scalar = parameter("spring constant", unit="N.m/rad", minimum=0)
@@ -23,6 +24,6 @@ class SpringDamper(Compliant):
         """Elastic energy."""
         return self.c * (self.phi_rel - self.phi_rel0) ** 2 / 2
 
-    def dissipated_power(self):
+    def loss(self):
         """Power of the damper."""
         return self.d * self.w_rel**2

@@ -15,6 +15,8 @@ from components.translational.force import Force
 from components.translational.force2 import Force2
 from components.translational.force_sensor import ForceSensor
 from components.translational.force_step import ForceStep
+from components.translational.ideal_gear_r2t import IdealGearR2T
+from components.translational.ideal_rolling_wheel import IdealRollingWheel
 from components.translational.inverse_speed_dependent_force import InverseSpeedDependentForce
 from components.translational.linear_speed_dependent_force import LinearSpeedDependentForce
 from components.translational.loading_force import LoadingForce
@@ -32,6 +34,7 @@ from components.translational.relative_sensor import RelativeSensor
 from components.translational.relative_states import RelativeStates
 from components.translational.rigid import Rigid
 from components.translational.rod import Rod
+from components.translational.rotational_to_translational import RotationalToTranslational
 from components.translational.sign_force import SignForce
 from components.translational.speed import Speed
 from components.translational.speed_sensor import SpeedSensor
@@ -53,6 +56,8 @@ __all__ = [
     "Force2",
     "ForceSensor",
     "ForceStep",
+    "IdealGearR2T",
+    "IdealRollingWheel",
     "InverseSpeedDependentForce",
     "LinearSpeedDependentForce",
     "LoadingForce",
@@ -70,6 +75,7 @@ __all__ = [
     "RelativeStates",
     "Rigid",
     "Rod",
+    "RotationalToTranslational",
     "SignForce",
     "Speed",
     "SpeedSensor",

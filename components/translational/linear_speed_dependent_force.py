@@ -10,7 +10,7 @@ class LinearSpeedDependentForce(LoadingForce):
     """Force proportional to the speed."""
 
     f_nominal: Scalar = parameter(
-        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forward."
+        "force on the rod at v_nominal", unit="N", doc="Negative: a load where the rod moves forwards."
     )
     force_direction: bool = structural(
         "whether the force has one sense in both directions of motion", default=True, choices=(True, False)

@@ -11,7 +11,7 @@ from components.translational.one_flange import OneFlange
 class LoadingForce(OneFlange):
     """Base of forces at a rod end; a subclass states what f is."""
 
-    f: Scalar = variable("cut force, flange.f: positive against the motion forward", unit="N")
+    f: Scalar = variable("cut force, flange.f: positive against the motion forwards", unit="N")
 
     def equations(self):
         yield from super().equations()

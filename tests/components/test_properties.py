@@ -25,7 +25,7 @@ from components import (
     translational,
 )
 from components.flange import TwoFlanges
-from tests.components.scenes import heat, rods
+from tests.components.scenes import gears, heat, rods
 from tests.components.scenes.bodies import (
     OnBeam,
     OnBodyBox,
@@ -98,6 +98,34 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Torque": OnShaftTorque,
     "rotational.Position": OnShaftPosition,
     "rotational.Speed": OnShaftSpeed,
+    "rotational.IdealGear": gears.OnIdealGear,
+    "rotational.IdealPlanetary": gears.OnIdealPlanetary,
+    "rotational.Disc": gears.OnDisc,
+    "translational.IdealGearR2T": gears.OnGearR2T,
+    "translational.IdealRollingWheel": gears.OnRollingWheel,
+    "rotational.IdealGearR2T": gears.OnGearR2T,
+    "rotational.IdealRollingWheel": gears.OnRollingWheel,
+    "rotational.ElastoBacklash": gears.OnBacklash,
+    "rotational.ElastoBacklash2": gears.OnBacklash2,
+    "rotational.Torque2": gears.OnShaftTorque2,
+    "rotational.ConstantTorque": gears.OnConstantTorque,
+    "rotational.TorqueStep": gears.OnTorqueStep,
+    "rotational.SignTorque": gears.OnSignTorque,
+    "rotational.LinearSpeedDependentTorque": gears.OnLinearTorque,
+    "rotational.QuadraticSpeedDependentTorque": gears.OnQuadraticTorque,
+    "rotational.InverseSpeedDependentTorque": gears.OnInverseTorque,
+    "rotational.ConstantSpeed": gears.OnConstantSpeed,
+    "rotational.Accelerate": gears.OnAccelerate,
+    "rotational.RelativeStates": gears.OnRelativeStates,
+    "rotational.AngleSensor": gears.OnAngleSensor,
+    "rotational.SpeedSensor": gears.OnSpeedSensor,
+    "rotational.AccSensor": gears.OnAccSensor,
+    "rotational.RelAngleSensor": gears.OnRelAngleSensor,
+    "rotational.RelSpeedSensor": gears.OnRelSpeedSensor,
+    "rotational.RelAccSensor": gears.OnRelAccSensor,
+    "rotational.TorqueSensor": gears.OnTorqueSensor,
+    "rotational.PowerSensor": gears.OnPowerSensor,
+    "rotational.MultiSensor": gears.OnMultiSensor,
     "translational.Spring": rods.OnRodSpring,
     "translational.Damper": rods.OnRodDamper,
     "translational.SpringDamper": rods.OnRodSpringDamper,
@@ -146,7 +174,10 @@ BASES = {
 }
 BASES |= {"rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
-BASES |= {f"translational.{name}" for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")}
+BASES |= {
+    f"{p}.{name}" for p in ("translational", "rotational") for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")
+}
+BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "translational.RotationalToTranslational"}
 
 
 def exported() -> dict[str, type]:
@@ -170,6 +201,10 @@ DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Fric
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {"rotational.Position", "rotational.Speed", "thermal.FixedTemperature", "thermal.PrescribedTemperature"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
+DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2"}
+SUPPLYING |= {f"rotational.{name}" for name in ("Torque2", "ConstantTorque", "TorqueStep", "SignTorque")}
+SUPPLYING |= {f"rotational.{kind}SpeedDependentTorque" for kind in ("Linear", "Quadratic", "Inverse")}
+SUPPLYING |= {"rotational.ConstantSpeed", "rotational.Accelerate"}
 DISSIPATING |= {f"translational.{name}" for name in ("Damper", "SpringDamper", "ElastoGap")}
 SUPPLYING |= {
     f"translational.{name}" for name in ("Mass", "Force", "Force2", "ConstantForce", "ForceStep", "SignForce")
@@ -305,6 +340,8 @@ DIMENSIONLESS = {
     ("Clutch", "f_normalized"),
     ("Clutch", "peak"),
     ("ElastoGap", "n"),
+    ("IdealGear", "ratio"),
+    ("IdealPlanetary", "ratio"),
 }
 
 

@@ -1,0 +1,17 @@
+"""ConstantSpeed: a drive of constant speed."""
+
+from __future__ import annotations
+
+from acausal import PREFER, Scalar, parameter, variable
+from components.rotational.loading_torque import LoadingTorque
+
+
+class ConstantSpeed(LoadingTorque):
+    """Drive of constant speed, whatever the torque."""
+
+    w_fixed: Scalar = parameter("speed of the flange", unit="rad/s")
+    phi: Scalar = variable("angle of the flange relative to the support", unit="rad", select=PREFER)
+
+    def law(self):
+        """Constant speed."""
+        yield self.w == self.w_fixed

@@ -1,0 +1,18 @@
+"""ConstantTorque: a constant torque."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter
+from components.rotational.loading_torque import LoadingTorque
+
+
+class ConstantTorque(LoadingTorque):
+    """Constant torque, whatever the speed."""
+
+    tau_constant: Scalar = parameter(
+        "torque on the shaft", unit="N.m", doc="Negative: a load where the shaft turns forwards."
+    )
+
+    def law(self):
+        """Constant torque."""
+        yield self.tau == self.tau_constant

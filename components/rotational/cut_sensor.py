@@ -1,0 +1,20 @@
+"""CutSensor: base of sensors of a cut through a shaft."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from components.flange import TwoFlanges
+
+
+class CutSensor(TwoFlanges):
+    """Base of sensors that a shaft is cut for; a subclass states what it measures."""
+
+    def equations(self):
+        yield self.flange_a.phi == self.flange_b.phi
+        yield self.flange_a.tau + self.flange_b.tau == 0
+        yield from self.measure()
+
+    def measure(self) -> Any:
+        """Yield the equations of the measured values."""
+        raise NotImplementedError("states what it measures", "yield self.y == ...")

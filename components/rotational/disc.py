@@ -1,0 +1,18 @@
+"""Disc: a massless rigid shaft."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, variable
+from components.flange import TwoFlanges
+
+
+class Disc(TwoFlanges):
+    """Massless rigid shaft, whose flange_b is turned against flange_a by a constant angle."""
+
+    delta_phi: Scalar = parameter("angle of flange_b relative to flange_a", unit="rad", default=0)
+    phi: Scalar = variable("angle halfway between the flanges", unit="rad")
+
+    def equations(self):
+        yield self.flange_a.phi == self.phi - self.delta_phi / 2
+        yield self.flange_b.phi == self.phi + self.delta_phi / 2
+        yield self.flange_a.tau + self.flange_b.tau == 0

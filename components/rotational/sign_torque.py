@@ -1,0 +1,21 @@
+"""SignTorque: a constant torque that changes its sign with the speed."""
+
+from __future__ import annotations
+
+from acausal import Scalar, parameter, structural
+from components.regularized_sign import KINDS, regularized_sign
+from components.rotational.loading_torque import LoadingTorque
+
+
+class SignTorque(LoadingTorque):
+    """Constant torque that changes its sign with the speed."""
+
+    tau_nominal: Scalar = parameter(
+        "torque on the shaft", unit="N.m", doc="Negative: a load in both directions of rotation."
+    )
+    reg: str = structural("how the sign is regularised", default="exp", choices=KINDS)
+    w0: Scalar = parameter("speed below which it is regularised", unit="rad/s", default=0.1, positive=True)
+
+    def law(self):
+        """Regularised sign of the speed."""
+        yield self.tau == self.tau_nominal * regularized_sign(self.w, self.w0, self.reg)

@@ -1,0 +1,1 @@
+"""Published results of the Modelica Standard Library's examples, and the same machines in Python."""
