@@ -7,14 +7,18 @@ from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
 from components.body_rod import BodyRod
 from components.body_shape import BodyShape
+from components.cylindrical import Cylindrical
 from components.damper import Damper
 from components.driven_joint import DrivenJoint
 from components.fixed import Fixed
 from components.fixed_rotation import FixedRotation
 from components.flange import Flange, TwoFlanges
 from components.force import Force
+from components.force_and_torque import ForceAndTorque
 from components.frame import Frame, TwoFrames, move
+from components.free_motion import FreeMotion
 from components.line_force import LineForce
+from components.load import FrameLoad, WorldLoad
 from components.moving_body import MovingBody
 from components.orientation import (
     Orientation,
@@ -28,18 +32,22 @@ from components.orientation import (
     resolve1,
     resolve2,
 )
+from components.planar import Planar
 from components.prismatic import Prismatic
 from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
 from components.spherical import Spherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
+from components.spring_damper_series import SpringDamperSeries
 from components.torque import Torque
 from components.translation import FixedTranslation
 from components.translational.flange import TranslationalFlange
 from components.two_frame_body import TwoFrameBody
+from components.universal import Universal
 from components.world import World
 from components.world_force import WorldForce
+from components.world_force_and_torque import WorldForceAndTorque
 from components.world_torque import WorldTorque
 
 __all__ = [
@@ -48,6 +56,7 @@ __all__ = [
     "BodyCylinder",
     "BodyRod",
     "BodyShape",
+    "Cylindrical",
     "Damper",
     "DrivenJoint",
     "Fixed",
@@ -56,10 +65,14 @@ __all__ = [
     "Flange",
     "FlexibleBeam",
     "Force",
+    "ForceAndTorque",
     "Frame",
+    "FrameLoad",
+    "FreeMotion",
     "LineForce",
     "MovingBody",
     "Orientation",
+    "Planar",
     "Prismatic",
     "RelativeOrientation",
     "Revolute",
@@ -67,14 +80,18 @@ __all__ = [
     "Spherical",
     "Spring",
     "SpringDamperParallel",
+    "SpringDamperSeries",
     "SubstructuredBeam",
     "Torque",
     "TranslationalFlange",
     "TwoFlanges",
     "TwoFrameBody",
     "TwoFrames",
+    "Universal",
     "World",
     "WorldForce",
+    "WorldForceAndTorque",
+    "WorldLoad",
     "WorldTorque",
     "absolute_rotation",
     "fixed_rotation",

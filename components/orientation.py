@@ -37,6 +37,11 @@ def unit_vector(n: Any) -> np.ndarray:
     return n / np.linalg.norm(n)
 
 
+def parallel(a: Any, b: Any) -> bool:
+    """True if two directions of numbers lie on one line, to 1e-6 rad: less is taken for an error of the user."""
+    return bool(np.linalg.norm(np.cross(unit_vector(a), unit_vector(b))) < 1e-6)
+
+
 def skew(v: Any) -> Any:
     """Return the matrix S with S u = v x u."""
     return as_expr([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
@@ -167,3 +172,10 @@ def axis_rotation(n: Any, angle: float) -> np.ndarray:
     outer = np.outer(n, n)
     T = outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)
     return np.where(np.abs(T) < 1e-15, 0.0, T)
+
+
+def two_axes_rotation(n_x: Any, n_y: Any) -> np.ndarray:
+    """Rotation matrix of numbers, from the x-axis of the turned frame and a direction in its xy plane."""
+    e_x = unit_vector(n_x)
+    e_z = unit_vector(np.cross(e_x, unit_vector(n_y)))
+    return np.array([e_x, np.cross(e_z, e_x), e_z])

@@ -25,7 +25,7 @@ from components import (
     translational,
 )
 from components.flange import TwoFlanges
-from tests.components.scenes import gears, heat, rods
+from tests.components.scenes import forces, gears, heat, joints, rods
 from tests.components.scenes.bodies import (
     OnBeam,
     OnBodyBox,
@@ -77,6 +77,13 @@ SCENES: dict[str, type[Scene]] = {
     "Revolute": OnRevolute,
     "RevolutePlanarLoopConstraint": OnPlanarLoop,
     "Prismatic": OnDrivenPrismatic,
+    "Universal": joints.OnUniversal,
+    "Cylindrical": joints.OnCylindrical,
+    "Planar": joints.OnPlanar,
+    "FreeMotion": joints.OnFreeMotion,
+    "SpringDamperSeries": forces.OnSpringDamperSeries,
+    "ForceAndTorque": forces.OnForceAndTorque,
+    "WorldForceAndTorque": forces.OnWorldForceAndTorque,
     "Spherical": OnSphericalJoint,
     "Spring": OnSpring,
     "Damper": OnDamper,
@@ -172,7 +179,7 @@ BASES = {
     "rotational.Compliant",
     "rotational.OneFlange",
 }
-BASES |= {"rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
+BASES |= {"FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
     f"{p}.{name}" for p in ("translational", "rotational") for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")
@@ -196,10 +203,17 @@ SIDED = [
     if issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody"
 ]
 DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
-DISSIPATING |= {"fe.FEBody"}
+DISSIPATING |= {"fe.FEBody", "SpringDamperSeries"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
-SUPPLYING |= {"rotational.Position", "rotational.Speed", "thermal.FixedTemperature", "thermal.PrescribedTemperature"}
+SUPPLYING |= {
+    "ForceAndTorque",
+    "WorldForceAndTorque",
+    "rotational.Position",
+    "rotational.Speed",
+    "thermal.FixedTemperature",
+    "thermal.PrescribedTemperature",
+}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2"}
 SUPPLYING |= {f"rotational.{name}" for name in ("Torque2", "ConstantTorque", "TorqueStep", "SignTorque")}
@@ -334,6 +348,7 @@ DIMENSIONLESS = {
     ("FEBody", "stiffness"),
     ("Frame", "Q"),
     ("Spherical", "Q"),
+    ("FreeMotion", "Q"),
     ("Friction", "mode"),
     ("Slipping", "mode"),
     ("Clutch", "mode"),

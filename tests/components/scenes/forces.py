@@ -12,13 +12,16 @@ from components import (
     Damper,
     FixedTranslation,
     Force,
+    ForceAndTorque,
     Prismatic,
     Revolute,
     Spherical,
     Spring,
     SpringDamperParallel,
+    SpringDamperSeries,
     Torque,
     WorldForce,
+    WorldForceAndTorque,
     WorldTorque,
 )
 from tests.components.scenes.scene import SPIN, OnSpherical, Plain, Scene
@@ -49,6 +52,12 @@ class OnDamper(Line):
 
 class OnSpringDamper(Line):
     it = SpringDamperParallel(c=70.0, d=2.0, s_unstretched=0.4)
+
+
+class OnSpringDamperSeries(Line):
+    """From the damper to the spring; turned round, from the spring to the damper, which is the same force."""
+
+    it = SpringDamperSeries(c=70.0, d=8.0, s_unstretched=0.4, s_damper=fixed(0.1))
 
 
 PUSH = np.array([3.0, -2.0, 4.0])
@@ -88,6 +97,22 @@ class OnTorque(Between):
         return self.load(Torque, "torque")
 
 
+class OnForceAndTorque(Between):
+    """Both at once, resolved in a frame of its own, which turns with the place."""
+
+    mobile = Spherical(angles_fixed=True, w_rel_a=fixed((0.5, -0.3, 0.2)))
+
+    @part
+    def it(self):
+        sign = -1 if self.turned else 1
+        force, torque = (tuple(sign * c * (1 + cos(6 * time)) for c in v) for v in (PUSH, 0.1 * PUSH[::-1]))
+        return ForceAndTorque(force=force, torque=torque, resolve_in_frame="frame_resolve")
+
+    def graph(self):
+        yield from super().graph()
+        yield connect(self.it.frame_resolve, self.place.frame_b)
+
+
 class Outside(Plain):
     """A load from outside, in one scene resolved in the world, added to one resolved in frame_b."""
 
@@ -115,3 +140,10 @@ class OnWorldForce(Outside):
 
 class OnWorldTorque(Outside):
     kind, what = WorldTorque, "torque"
+
+
+class OnWorldForceAndTorque(OnWorldForce):
+    @part
+    def it(self):
+        force, torque = (tuple(c * (1 + cos(6 * time)) for c in self.turn.apply(v)) for v in (PUSH, 0.1 * PUSH[::-1]))
+        return WorldForceAndTorque(force=force, torque=torque)

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 import acausal as ac
 from acausal import Component, chain, connect, fixed, part, sin, structural, time
 from components import (
     Body,
     BodyRod,
+    Cylindrical,
     FixedTranslation,
+    FreeMotion,
+    Planar,
     Prismatic,
     Revolute,
     RevolutePlanarLoopConstraint,
     Spherical,
     Spring,
     TranslationalFlange,
+    Universal,
 )
 from tests.components.scenes.scene import SPIN, OnSpherical, Scene
 
@@ -108,6 +113,75 @@ class OnSphericalJoint(Scene):
             w = fixed(tuple(-SPIN))
             return Spherical(angles_start=opposite, sequence_start=sequence[::-1], angles_fixed=True, w_rel=w)
         return Spherical(angles_start=angles, sequence_start=sequence, angles_fixed=True, w_rel_a=fixed(tuple(SPIN)))
+
+    def graph(self):
+        yield from self.path(self.it)
+
+
+class OnUniversal(Scene):
+    @part
+    def it(self):
+        a, b = {"n": (1, 2, 0), "phi": 0.3, "w": 2.0}, {"n": (0, 1, 1), "phi": -0.4, "w": -1.5}
+        if self.turned:
+            a, b = ({**x, "phi": -x["phi"], "w": -x["w"]} for x in (b, a))
+        start = {"phi_a": fixed(a["phi"]), "phi_b": fixed(b["phi"]), "w_a": fixed(a["w"]), "w_b": fixed(b["w"])}
+        return Universal(n_a=a["n"], n_b=b["n"], **start)
+
+    def graph(self):
+        yield from self.path(self.it)
+
+
+class OnCylindrical(OnSpherical):
+    """The joint slides and turns on a body that turns; a spring keeps it near."""
+
+    base = Body(m=2.0, I=np.diag([0.1, 0.2, 0.15]))
+    spring = Spring(c=60.0)
+
+    @part
+    def it(self):
+        sign = -1 if self.turned else 1
+        start = {"s": 0.3, "v": 0.5, "phi": 0.4, "w": 3.0}
+        return Cylindrical(n=(1, 2, 2), **{name: fixed(sign * value) for name, value in start.items()})
+
+    def graph(self):
+        yield from super().graph()
+        yield connect(self.joint.frame_b, self.base.frame_a)
+        yield connect(self.base.frame_a, self.spring.frame_a)
+        yield connect(self.spring.frame_b, self.tip.frame_a)
+
+
+class OnPlanar(OnCylindrical):
+    """Turned round, the directions in the plane turn with the tip; there the start is that of the same motion."""
+
+    @part
+    def it(self):
+        s_x, s_y, phi, v_x, v_y, w = 0.3, 0.1, 0.4, 0.5, -0.3, 3.0
+        if self.turned:
+            (s_x, s_y), (v_x, v_y) = seen_from_the_other(phi, w, (s_x, s_y), (v_x, v_y))
+            phi, w = -phi, -w
+        start = {"s_x": s_x, "s_y": s_y, "phi": phi, "v_x": v_x, "v_y": v_y, "w": w}
+        return Planar(n=(1, 2, 2), n_x=(2, -1, 1), **{name: fixed(value) for name, value in start.items()})
+
+
+def seen_from_the_other(phi: float, w: float, s, v):
+    """Position and velocity of frame_a in the axes of frame_b, in a plane: -T s, and its derivative."""
+    T = np.array([[np.cos(phi), np.sin(phi)], [-np.sin(phi), np.cos(phi)]])
+    rate = w * np.array([[-np.sin(phi), np.cos(phi)], [-np.cos(phi), -np.sin(phi)]])
+    return -T @ s, -T @ v - rate @ s
+
+
+class OnFreeMotion(Scene):
+    @part
+    def it(self):
+        angles, sequence = (0.3, -0.2, 0.5), (1, 2, 3)
+        r, v = np.array([0.1, 0.2, -0.1]), np.array([0.5, 1.0, 0.3])
+        if self.turned:
+            T = Rotation.from_euler("XYZ", angles).as_matrix().T  # from frame_a to frame_b
+            start = {"angles_start": tuple(-a for a in angles[::-1]), "sequence_start": sequence[::-1]}
+            start |= {"w_rel": fixed(tuple(-SPIN)), "r_rel_a": fixed(tuple(-T @ r))}
+            return FreeMotion(**start, v_rel_a=fixed(tuple(-T @ (v - np.cross(SPIN, r)))), angles_fixed=True)
+        start = {"angles_start": angles, "sequence_start": sequence, "w_rel_a": fixed(tuple(SPIN))}
+        return FreeMotion(**start, r_rel_a=fixed(tuple(r)), v_rel_a=fixed(tuple(v)), angles_fixed=True)
 
     def graph(self):
         yield from self.path(self.it)
