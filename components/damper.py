@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, parameter
 from components.line_force import LineForce
+from components.thermal.heat_loss import HeatLoss
 
 
-class Damper(LineForce):
+class Damper(HeatLoss, LineForce):
     """Linear damper along the line from frame_a to frame_b."""
 
     d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
@@ -15,6 +16,6 @@ class Damper(LineForce):
         """Force proportional to the speed."""
         yield self.f == self.d * self.v
 
-    def dissipated_power(self):
+    def loss(self):
         """Power of the force."""
         return self.d * self.v**2

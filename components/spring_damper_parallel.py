@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, geometry, parameter
 from components.line_force import LineForce
+from components.thermal.heat_loss import HeatLoss
 
 
-class SpringDamperParallel(LineForce):
+class SpringDamperParallel(HeatLoss, LineForce):
     """Linear spring and linear damper along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
@@ -27,6 +28,6 @@ class SpringDamperParallel(LineForce):
         """Elastic energy."""
         return self.c * (self.s - self.s_unstretched) ** 2 / 2
 
-    def dissipated_power(self):
+    def loss(self):
         """Power of the damper."""
         return self.d * self.v**2

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from acausal import Scalar, der, geometry, parameter, variable
 from components.line_force import LineForce
+from components.thermal.heat_loss import HeatLoss
 
 
-class SpringDamperSeries(LineForce):
+class SpringDamperSeries(HeatLoss, LineForce):
     """Linear damper from frame_a on, and linear spring from there to frame_b, along one line."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
@@ -29,6 +30,6 @@ class SpringDamperSeries(LineForce):
         """Elastic energy."""
         return self.c * (self.s - self.s_unstretched - self.s_damper) ** 2 / 2
 
-    def dissipated_power(self):
+    def loss(self):
         """Power of the damper."""
         return self.f**2 / self.d

@@ -8,8 +8,10 @@ events, at which only what is continuous is compared.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Mapping
 from functools import cache
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +28,21 @@ def published() -> dict[str, Any]:
     return json.loads((Path(__file__).parent / "published.json").read_text())
 
 
+def read(result: ac.Result, path: str) -> np.ndarray:
+    """Read a variable by its path, in which indices count from 1."""
+    name, *index = re.match(r"(.*?)(?:\[(\d+)\])?$", path).groups()
+    return result[name] if index == [None] else result[name][:, int(index[0]) - 1]
+
+
+def unit_of(result: ac.Result, ours: Any) -> str:
+    """Unit of a variable, by which magnitudes are compared; functions of the result have none in common."""
+    return repr(ours) if callable(ours) else str(attrgetter(ours.partition("[")[0])(result.tree).unit)
+
+
 def compare(
     name: str,
     model: ac.Model,
-    names: Mapping[str, Any] | Callable[[str], Any],
+    names: Mapping[str, Any] | None = None,
     left_out: tuple[str, ...] = (),
     tolerance: float = TOLERANCE,
     **settings: Any,
@@ -42,13 +55,13 @@ def compare(
         Full name of the model in the Modelica Standard Library.
     model : Model
         Its twin.
-    names : mapping or callable
-        What in our result stands for each published variable: a path, or a function of the result.
+    names : mapping of str to str or callable, optional
+        Our path of a published variable, or a function of the result that gives its values; others have the same path.
     left_out : tuple of str
         Published variables without a counterpart, at most a tenth of all.
     tolerance : float
         Largest difference over the scale of a variable: its range in the run, or where that is less than 1e-6 of the
-        largest magnitude among the compared variables of its kind, that magnitude.
+        largest magnitude among the compared variables of its unit, that magnitude.
     """
     data = published()[name]
     time = np.array(data["time"])
@@ -63,13 +76,11 @@ def compare(
         **settings,
     )
     away = np.setdiff1d(np.arange(len(time)), data["_near_event"])
-    largest = {v: float(np.max(np.abs(data[v]))) for v in compared}
+    units = {v: unit_of(result, (names or {}).get(v, v)) for v in compared}
     for v in compared:
-        ours = names(v) if callable(names) else names[v]
-        values = ours(result) if callable(ours) else result[ours]
-        got = np.interp(time, result.time, values)
-        alike = max(largest[w] for w in compared if w.rpartition(".")[2] == v.rpartition(".")[2])
-        most = max(alike, 1e-3)
+        ours = (names or {}).get(v, v)
+        got = np.interp(time, result.time, ours(result) if callable(ours) else read(result, ours))
+        most = max(1e-3, *(np.max(np.abs(data[w])) for w in compared if units[w] == units[v]))
         spread = data["_range"][v]
         scale = spread if spread > 1e-6 * most else most
         error = np.max(np.abs(got - data[v])[away]) / scale

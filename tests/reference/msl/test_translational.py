@@ -24,10 +24,6 @@ from tests.reference.msl.published import compare
 EXAMPLES = "Modelica.Mechanics.Translational.Examples."
 
 
-def same(path: str) -> str:
-    return path
-
-
 class Accelerated(Model):
     accelerate, mass = Accelerate(a_ref=1, s=fixed(0), v=fixed(0)), Mass(L=1, m=1)
 
@@ -36,7 +32,7 @@ class Accelerated(Model):
 
 
 def test_accelerate():
-    compare(EXAMPLES + "Accelerate", Accelerated(), same)
+    compare(EXAMPLES + "Accelerate", Accelerated())
 
 
 def thrown():
@@ -57,7 +53,7 @@ class Dampers(Model):
 
 
 def test_damper():
-    compare(EXAMPLES + "Damper", Dampers(), same)
+    compare(EXAMPLES + "Damper", Dampers())
 
 
 class Gaps(Model):
@@ -73,7 +69,7 @@ class Gaps(Model):
 
 
 def test_elasto_gap():
-    compare(EXAMPLES + "ElastoGap", Gaps(), same)
+    compare(EXAMPLES + "ElastoGap", Gaps())
 
 
 class InitialConditions(Model):
@@ -88,7 +84,7 @@ class InitialConditions(Model):
 
 
 def test_initial_conditions():
-    compare(EXAMPLES + "InitialConditions", InitialConditions(), same)
+    compare(EXAMPLES + "InitialConditions", InitialConditions())
 
 
 def oscillating():
@@ -107,7 +103,7 @@ class Oscillator(Model):
 
 
 def test_oscillator():
-    compare(EXAMPLES + "Oscillator", Oscillator(), same)
+    compare(EXAMPLES + "Oscillator", Oscillator())
 
 
 class Sensors(Model):
@@ -127,7 +123,7 @@ class Sensors(Model):
 
 
 def test_sensors():
-    compare(EXAMPLES + "Sensors", Sensors(), same)
+    compare(EXAMPLES + "Sensors", Sensors())
 
 
 def resting():
@@ -145,7 +141,7 @@ class SignConvention(Model):
 
 
 def test_sign_convention():
-    compare(EXAMPLES + "SignConvention", SignConvention(), same)
+    compare(EXAMPLES + "SignConvention", SignConvention())
 
 
 class WhyArrows(Model):
@@ -160,7 +156,7 @@ class WhyArrows(Model):
 
 
 def test_why_arrows():
-    compare(EXAMPLES + "WhyArrows", WhyArrows(), same)
+    compare(EXAMPLES + "WhyArrows", WhyArrows())
 
 
 def contact(s_rel0):
@@ -191,4 +187,4 @@ class PreLoad(Model):
 
 
 def test_preload():
-    compare(EXAMPLES + "PreLoad", PreLoad(), same)
+    compare(EXAMPLES + "PreLoad", PreLoad())
