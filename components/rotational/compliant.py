@@ -13,11 +13,13 @@ class Compliant(TwoFlanges):
 
     phi_rel: Scalar = variable("angle from flange_a to flange_b", unit="rad")
     w_rel: Scalar = variable("der(phi_rel)", unit="rad/s")
+    a_rel: Scalar = variable("der(w_rel)", unit="rad/s2")
     tau: Scalar = variable("torque between the flanges, flange_b.tau", unit="N.m")
 
     def equations(self):
         yield self.phi_rel == self.flange_b.phi - self.flange_a.phi
         yield self.w_rel == der(self.phi_rel)
+        yield self.a_rel == der(self.w_rel)
         yield self.flange_b.tau == self.tau
         yield self.flange_a.tau == -self.tau
         yield from self.law()
