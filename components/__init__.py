@@ -2,6 +2,7 @@
 
 from components import rotational, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
+from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
 from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
@@ -17,8 +18,10 @@ from components.force import Force
 from components.force_and_torque import ForceAndTorque
 from components.frame import Frame, TwoFrames, move
 from components.free_motion import FreeMotion
+from components.gear_constraint import GearConstraint
 from components.line_force import LineForce
 from components.load import FrameLoad, WorldLoad
+from components.mounting_1d import Mounting1D
 from components.moving_body import MovingBody
 from components.orientation import (
     Orientation,
@@ -36,6 +39,7 @@ from components.planar import Planar
 from components.prismatic import Prismatic
 from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
+from components.rotor_1d import Rotor1D
 from components.spherical import Spherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
@@ -51,6 +55,7 @@ from components.world_force_and_torque import WorldForceAndTorque
 from components.world_torque import WorldTorque
 
 __all__ = [
+    "BevelGear1D",
     "Body",
     "BodyBox",
     "BodyCylinder",
@@ -69,7 +74,9 @@ __all__ = [
     "Frame",
     "FrameLoad",
     "FreeMotion",
+    "GearConstraint",
     "LineForce",
+    "Mounting1D",
     "MovingBody",
     "Orientation",
     "Planar",
@@ -77,6 +84,7 @@ __all__ = [
     "RelativeOrientation",
     "Revolute",
     "RevolutePlanarLoopConstraint",
+    "Rotor1D",
     "Spherical",
     "Spring",
     "SpringDamperParallel",

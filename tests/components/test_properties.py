@@ -25,7 +25,7 @@ from components import (
     translational,
 )
 from components.flange import TwoFlanges
-from tests.components.scenes import forces, gears, heat, joints, rods
+from tests.components.scenes import drives, forces, gears, heat, joints, rods
 from tests.components.scenes.bodies import (
     OnBeam,
     OnBodyBox,
@@ -81,6 +81,10 @@ SCENES: dict[str, type[Scene]] = {
     "Cylindrical": joints.OnCylindrical,
     "Planar": joints.OnPlanar,
     "FreeMotion": joints.OnFreeMotion,
+    "GearConstraint": drives.OnGearConstraint,
+    "Rotor1D": drives.OnRotor,
+    "Mounting1D": drives.OnMounting,
+    "BevelGear1D": drives.OnBevelGear,
     "SpringDamperSeries": forces.OnSpringDamperSeries,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
@@ -214,6 +218,7 @@ SUPPLYING |= {
     "thermal.FixedTemperature",
     "thermal.PrescribedTemperature",
 }
+SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2"}
 SUPPLYING |= {f"rotational.{name}" for name in ("Torque2", "ConstantTorque", "TorqueStep", "SignTorque")}
@@ -356,6 +361,8 @@ DIMENSIONLESS = {
     ("Clutch", "peak"),
     ("ElastoGap", "n"),
     ("IdealGear", "ratio"),
+    ("BevelGear1D", "ratio"),
+    ("GearConstraint", "ratio"),
     ("IdealPlanetary", "ratio"),
 }
 

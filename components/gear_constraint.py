@@ -1,0 +1,46 @@
+"""GearConstraint: a gear between two bodies in one bearing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import PREFER, Component, Scalar, Vector3, chain, connect, der, parameter, port, structural, variable
+from components.frame import Frame
+from components.revolute import Revolute
+from components.rotational.ideal_gear import IdealGear
+from components.translation import FixedTranslation
+
+
+class GearConstraint(Component):
+    """Gear without inertia: frame_a and frame_b turn in a bearing, the angle of frame_a `ratio` times that of frame_b."""
+
+    ends = ("frame_a", "frame_b")
+    ratio: Scalar = parameter("transmission ratio, angle of frame_a over that of frame_b", unit="1")
+    n_a: Any = structural(
+        "axis of frame_a, resolved in frame_a", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+    )
+    n_b: Any = structural(
+        "axis of frame_b, resolved in frame_b", default=(1, 0, 0), shape=(3,), doc="Any length but 0."
+    )
+    r_a: Vector3 = parameter("from the bearing to frame_a, resolved in the bearing", unit="m", default=(0, 0, 0))
+    r_b: Vector3 = parameter("from the bearing to frame_b, resolved in the bearing", unit="m", default=(0, 0, 0))
+    frame_a: Frame = port(Frame, "first turning body")
+    frame_b: Frame = port(Frame, "second turning body")
+    bearing: Frame = port(Frame, "body that holds both")
+    phi_b: Scalar = variable("angle from the bearing to frame_b", unit="rad", select=PREFER)
+    w_b: Scalar = variable("der(phi_b)", unit="rad/s", select=PREFER)
+    a_b: Scalar = variable("der(w_b)", unit="rad/s2")
+    bar_a, bar_b = FixedTranslation(r=r_a), FixedTranslation(r=r_b)
+    joint_a, joint_b = Revolute(n=n_a, use_axis_flange=True), Revolute(n=n_b, use_axis_flange=True)
+    gear = IdealGear(ratio=ratio)
+
+    def connections(self):
+        yield chain(self.bearing, self.bar_a, self.joint_a, self.frame_a)
+        yield chain(self.bearing, self.bar_b, self.joint_b, self.frame_b)
+        yield connect(self.joint_a.axis, self.gear.flange_a)
+        yield connect(self.gear.flange_b, self.joint_b.axis)
+
+    def equations(self):
+        yield self.phi_b == self.joint_b.phi
+        yield self.w_b == der(self.phi_b)
+        yield self.a_b == der(self.w_b)
