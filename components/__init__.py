@@ -1,6 +1,6 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
-from components import rotational, thermal, translational
+from components import rotational, sensors, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
@@ -111,6 +111,7 @@ __all__ = [
     "resolve1",
     "resolve2",
     "rotational",
+    "sensors",
     "thermal",
     "translational",
 ]

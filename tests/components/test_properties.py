@@ -21,11 +21,13 @@ from components import (
     World,
     fe,
     rotational,
+    sensors,
     thermal,
     translational,
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import drives, forces, gears, heat, joints, rods
+from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
     OnBeam,
     OnBodyBox,
@@ -166,6 +168,21 @@ SCENES: dict[str, type[Scene]] = {
     "translational.ForceSensor": rods.OnRodForceSensor,
     "translational.PowerSensor": rods.OnRodPowerSensor,
     "translational.MultiSensor": rods.OnRodMultiSensor,
+    "sensors.AbsolutePosition": sensor_scenes.OnAbsolutePosition,
+    "sensors.AbsoluteVelocity": sensor_scenes.OnAbsoluteVelocity,
+    "sensors.AbsoluteAngularVelocity": sensor_scenes.OnAbsoluteAngularVelocity,
+    "sensors.AbsoluteAngles": sensor_scenes.OnAbsoluteAngles,
+    "sensors.AbsoluteSensor": sensor_scenes.OnAbsoluteSensor,
+    "sensors.RelativePosition": sensor_scenes.OnRelativePosition,
+    "sensors.RelativeVelocity": sensor_scenes.OnRelativeVelocity,
+    "sensors.RelativeAngularVelocity": sensor_scenes.OnRelativeAngularVelocity,
+    "sensors.RelativeAngles": sensor_scenes.OnRelativeAngles,
+    "sensors.RelativeSensor": sensor_scenes.OnRelativeSensor,
+    "sensors.Distance": sensor_scenes.OnDistance,
+    "sensors.CutForce": sensor_scenes.OnCutForce,
+    "sensors.CutTorque": sensor_scenes.OnCutTorque,
+    "sensors.CutForceAndTorque": sensor_scenes.OnCutForceAndTorque,
+    "sensors.Power": sensor_scenes.OnPower,
     "thermal.HeatCapacitor": heat.OnCapacitor,
     "thermal.ThermalConductor": heat.OnConductor,
     "thermal.Convection": heat.OnConvection,
@@ -183,6 +200,7 @@ BASES = {
     "rotational.Compliant",
     "rotational.OneFlange",
 }
+BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
 BASES |= {"FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
@@ -194,7 +212,7 @@ BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "transl
 def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
-    for package in (rotational, translational, thermal, fe):
+    for package in (rotational, translational, thermal, sensors, fe):
         short = package.__name__.rpartition(".")[2]
         found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}

@@ -1,0 +1,23 @@
+"""RelativeAngles: measures the orientation of a frame relative to another one by three angles."""
+
+from __future__ import annotations
+
+from acausal import Vector3, output
+from components.frame import TwoFrames
+from components.sensors.angles import HasAngles, axes_angles
+
+
+class RelativeAngles(HasAngles, TwoFrames):
+    """Measures the angles from frame_a to frame_b about the axes of a sequence."""
+
+    angles: Vector3 = output("angles from frame_a to frame_b, each about the turned axis", unit="rad")
+
+    def equations(self):
+        for frame in (self.frame_a, self.frame_b):
+            yield frame.f == (0, 0, 0)
+            yield frame.t == (0, 0, 0)
+        yield self.angles == axes_angles(self.frame_b.R.T @ self.frame_a.R.T.T, self.sequence, self.guess_angle1)
+
+    def shapes(self):
+        """Nothing: it has no size."""
+        yield from ()
