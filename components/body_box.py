@@ -17,11 +17,10 @@ from acausal import (
     geometry,
     parameter,
     require,
-    sqrt,
     structural,
 )
 from components.frame import pose
-from components.orientation import outer_product
+from components.orientation import norm, outer_product
 from components.two_frame_body import TwoFrameBody
 from components.world import require_direction
 
@@ -29,36 +28,55 @@ PARALLEL = 1e-6  # sine of an angle below which two directions are one
 
 
 class BodyBox(TwoFrameBody):
-    """Box with its axis along r; mass, centre of mass and inertia follow from size and density."""
+    """Box or pipe, by default from frame_a to frame_b; mass, centre of mass and inertia follow from size and density."""
 
-    r: Vector3 = parameter(
-        "from frame_a to frame_b, resolved in frame_a",
+    r: Vector3 = parameter("from frame_a to frame_b, resolved in frame_a", unit="m")
+    r_shape: Vector3 = parameter("from frame_a to the beginning of the box", unit="m", default=(0, 0, 0))
+    length_direction: Vector3 = parameter(
+        "direction of the length, resolved in frame_a",
         unit="m",
-        doc="It is the axis of the box; its entries that are 0 are structural.",
+        default=lambda s: s.r - s.r_shape,
+        doc="From r_shape to frame_b if not given; its entries that are 0 are structural.",
     )
-    width: Scalar = parameter("width", unit="m", positive=True, doc="It lies along width_direction.")
+    length: Scalar = parameter(
+        "length", unit="m", default=lambda s: norm(s.r - s.r_shape), doc="From r_shape to frame_b if not given."
+    )
+    width: Scalar = parameter(
+        "width", unit="m", default=lambda s: s.length / 20, positive=True, doc="It lies along width_direction."
+    )
     height: Scalar = parameter(
         "height",
         unit="m",
         default=lambda s: s.width,
         positive=True,
-        doc="It lies across r and the width, and is equal to the width if not given.",
+        doc="It lies across the length and the width, and is equal to the width if not given.",
+    )
+    inner_width: Scalar = parameter("inner width", unit="m", default=0, minimum=0, doc="Not 0 for a pipe.")
+    inner_height: Scalar = parameter(
+        "inner height",
+        unit="m",
+        default=lambda s: s.inner_width,
+        minimum=0,
+        doc="Equal to the inner width if not given.",
     )
     density: Scalar = parameter("density", unit="kg/m3", default=7700, minimum=0)
     width_direction: Any = structural(
         "direction of the width, resolved in frame_a",
         default=None,
-        doc="Its part across r counts; (0, 1, 0) if not given, or (1, 0, 0) if r has no other part than y.",
+        doc="Its part across the length counts; (0, 1, 0) if not given, or (1, 0, 0) if that lies along y.",
     )
     m: Scalar = parameter(
         "mass",
         unit="kg",
-        default=lambda s: s.density * s.length * s.width * s.height,
+        default=lambda s: s.density * s.length * (s.width * s.height - s.inner_width * s.inner_height),
         minimum=0,
         doc="That of the box if not given.",
     )
     r_CM: Vector3 = parameter(
-        "centre of mass, resolved in frame_a", unit="m", default=lambda s: s.r / 2, doc="That of the box if not given."
+        "centre of mass, resolved in frame_a",
+        unit="m",
+        default=lambda s: s.centre(),
+        doc="That of the box if not given.",
     )
     I: Matrix33 = parameter(
         "inertia tensor about the centre of mass",
@@ -70,10 +88,13 @@ class BodyBox(TwoFrameBody):
     def requirements(self):
         name = self._path or "BodyBox"
         yield require(self.length > 0, f"`r` of {name} has length 0; give the axis of the box, r=(1, 0, 0)")
+        for inner, outer in (("inner_width", "width"), ("inner_height", "height")):
+            text = f"`{inner}` of {name} is not less than `{outer}`; give the size of the hole, or 0 if it has none"
+            yield require(getattr(self, inner) < getattr(self, outer), text)
         given = self._direction()
-        aside = cross(given, self.r / self.length)
+        aside = cross(given, self.length_direction / norm(self.length_direction))
         text = (
-            f"`width_direction` of {name} lies along `r`, so that it names no side of the box; give a direction across, "
+            f"`width_direction` of {name} lies along the length, so that it names no side of the box; give a direction across, "
             "such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
         )
         yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(given, given)), text)
@@ -82,21 +103,19 @@ class BodyBox(TwoFrameBody):
     def shapes(self):
         """The box."""
         size = as_expr((self.length, self.width, self.height))
-        yield geometry.Box(pose(self.frame_a), self.r / 2, size, as_expr(self.axes()))
+        yield geometry.Box(pose(self.frame_a), self.centre(), size, as_expr(self.axes()))
 
-    @property
-    def length(self) -> Any:
-        """Length in m."""
-        return sqrt(dot(self.r, self.r))
+    def centre(self) -> Any:
+        """Centre, resolved in frame_a, in m."""
+        return self.r_shape + self.length_direction * (self.length / norm(self.length_direction) / 2)
 
     def axes(self) -> tuple[Any, Any, Any]:
         """Directions of length, width and height, resolved in frame_a."""
-        zero = [entry.sx.is_zero() for entry in self.r]
-        if all(zero):
+        if all(entry.sx.is_zero() for entry in self.length_direction):
             raise DeclarationError("`r` has length 0; give the axis of the box, r=(1, 0, 0).")
-        given, along = self._direction(), self.r / self.length
+        given, along = self._direction(), self.length_direction / norm(self.length_direction)
         across = as_expr(given) - dot(given, along) * along
-        across = across / sqrt(dot(across, across))
+        across = across / norm(across)
         return along, across, cross(along, across)
 
     def _direction(self) -> tuple[float, ...]:
@@ -109,11 +128,14 @@ class BodyBox(TwoFrameBody):
                 raise DeclarationError(f"`width_direction` of {where} is {given!r}; give three numbers, (0, 1, 0).")
             require_direction(self, array, "width_direction")
             return tuple(float(entry) for entry in array)
-        along_y = self.r[0].sx.is_zero() and self.r[2].sx.is_zero()
+        along_y = self.length_direction[0].sx.is_zero() and self.length_direction[2].sx.is_zero()
         return (1.0, 0.0, 0.0) if along_y else (0.0, 1.0, 0.0)
 
     def box_inertia(self) -> Any:
         """Inertia tensor about the centre of mass, resolved in frame_a, in kg.m2."""
         along, across, up = (outer_product(e, e) for e in self.axes())
-        l2, w2, h2 = self.length**2, self.width**2, self.height**2
+        whole, hole = self.width * self.height, self.inner_width * self.inner_height
+        w2 = (whole * self.width**2 - hole * self.inner_width**2) / (whole - hole)
+        h2 = (whole * self.height**2 - hole * self.inner_height**2) / (whole - hole)
+        l2 = self.length**2
         return self.m / 12 * ((w2 + h2) * along + (l2 + h2) * across + (l2 + w2) * up)

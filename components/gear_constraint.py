@@ -31,16 +31,19 @@ class GearConstraint(Component):
     w_b: Scalar = variable("der(phi_b)", unit="rad/s", select=PREFER)
     a_b: Scalar = variable("der(w_b)", unit="rad/s2")
     bar_a, bar_b = FixedTranslation(r=r_a), FixedTranslation(r=r_b)
-    joint_a, joint_b = Revolute(n=n_a, use_axis_flange=True), Revolute(n=n_b, use_axis_flange=True)
-    gear = IdealGear(ratio=ratio)
+    actuated_revolute_a, actuated_revolute_b = (
+        Revolute(n=n_a, use_axis_flange=True),
+        Revolute(n=n_b, use_axis_flange=True),
+    )
+    ideal_gear = IdealGear(ratio=ratio)
 
     def connections(self):
-        yield chain(self.bearing, self.bar_a, self.joint_a, self.frame_a)
-        yield chain(self.bearing, self.bar_b, self.joint_b, self.frame_b)
-        yield connect(self.joint_a.axis, self.gear.flange_a)
-        yield connect(self.gear.flange_b, self.joint_b.axis)
+        yield chain(self.bearing, self.bar_a, self.actuated_revolute_a, self.frame_a)
+        yield chain(self.bearing, self.bar_b, self.actuated_revolute_b, self.frame_b)
+        yield connect(self.actuated_revolute_a.axis, self.ideal_gear.flange_a)
+        yield connect(self.ideal_gear.flange_b, self.actuated_revolute_b.axis)
 
     def equations(self):
-        yield self.phi_b == self.joint_b.phi
+        yield self.phi_b == self.actuated_revolute_b.phi
         yield self.w_b == der(self.phi_b)
         yield self.a_b == der(self.w_b)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, feedback, sin, variable
+from acausal import Expr, Matrix33, Record, Vector3, as_expr, cos, cross, der, dot, feedback, sin, sqrt, variable
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,11 @@ def unit_vector(n: Any) -> np.ndarray:
     n = np.asarray(n, dtype=float)
     n = n / np.max(np.abs(n))  # squares neither overflow nor vanish
     return n / np.linalg.norm(n)
+
+
+def norm(v: Any) -> Any:
+    """Length of a vector."""
+    return sqrt(dot(v, v))
 
 
 def parallel(a: Any, b: Any) -> bool:
