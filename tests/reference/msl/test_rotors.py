@@ -198,4 +198,10 @@ class Starts(Model):
 
 
 def test_starts_of_rotors():
-    compare("ModelicaTest.MultiBody.InitializationConversion.Rotor1D", Starts(), run=1e-10)
+    """The published phase of the two oscillations is late, which makes 1 % of their speeds; they are known exactly."""
+    result = compare("ModelicaTest.MultiBody.InitializationConversion.Rotor1D", Starts(), tolerance=1.1e-2, run=1e-10)
+    w, (w_9, a_9) = np.sqrt(2e4), np.deg2rad([2, 3])
+    w_rel = -a_9 / 1e4 * w * np.sin(w * result.time) - w_9 * np.cos(w * result.time)
+    for first, second in (("rotor1D9", "rotor1D10"), ("rotor1D7", "rotor1D8")):
+        np.testing.assert_allclose(result[f"{first}.w"], (w_9 - w_rel) / 2, atol=1e-7)
+        np.testing.assert_allclose(result[f"{second}.w"], (w_9 + w_rel) / 2, atol=1e-7)
