@@ -20,7 +20,10 @@ from components.frame import Frame, TwoFrames, move
 from components.free_motion import FreeMotion
 from components.gear_constraint import GearConstraint
 from components.line_force import LineForce
+from components.line_force_with_mass import LineForceWithMass
+from components.line_force_with_two_masses import LineForceWithTwoMasses
 from components.load import FrameLoad, WorldLoad
+from components.mass_on_line import MassOnLine
 from components.mounting_1d import Mounting1D
 from components.moving_body import MovingBody
 from components.orientation import (
@@ -36,6 +39,7 @@ from components.orientation import (
     resolve2,
 )
 from components.planar import Planar
+from components.point_mass import PointMass
 from components.prismatic import Prismatic
 from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
@@ -76,10 +80,14 @@ __all__ = [
     "FreeMotion",
     "GearConstraint",
     "LineForce",
+    "LineForceWithMass",
+    "LineForceWithTwoMasses",
+    "MassOnLine",
     "Mounting1D",
     "MovingBody",
     "Orientation",
     "Planar",
+    "PointMass",
     "Prismatic",
     "RelativeOrientation",
     "Revolute",

@@ -6,7 +6,7 @@ import numpy as np
 
 from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, geometry, outer, parameter, port, require
 from components.frame import pose
-from components.moving_body import MovingBody
+from components.moving_body import MovingBody, off_centre, past_centre
 from components.orientation import resolve1, resolve2
 from components.rigid import wrong_inertia
 from components.world import World
@@ -57,11 +57,10 @@ class Body(MovingBody):
 
     def requirements(self):
         yield require(self.I, wrong_inertia)
-        yield from self.off_centre(self.world, self._centre())
+        yield from off_centre(self, self.world, self._centre())
 
     def validity(self):
-        velocity = self.v_0 + resolve1(self.frame_a.R, cross(self.w_a, self.r_CM))
-        yield from self.past_centre(self.world, self.m, self._centre(), velocity)
+        yield from past_centre(self.world, self.m, self._centre(), self._velocity())
 
     def initial_equations(self):
         yield from self.free_start(self.frame_a)
@@ -70,7 +69,11 @@ class Body(MovingBody):
         """Kinetic and potential energy."""
         frame, w = self.frame_a, self.frame_a.R.w
         v = frame.v + cross(w, self.r_CM)
-        return self.m * (dot(v, v) / 2 + self.world.potential(self._centre())) + dot(w, self.I @ w) / 2
+        return self.m * (dot(v, v) / 2 + self.world.gravity_potential(self._centre())) + dot(w, self.I @ w) / 2
+
+    def supplied_power(self):
+        """Power of gravity that has no potential."""
+        return self.world.power(self.m, self._centre(), self._velocity())
 
     def shapes(self):
         """A sphere at the centre of mass, and a thin rod to it."""
@@ -80,3 +83,6 @@ class Body(MovingBody):
 
     def _centre(self):
         return self.frame_a.r_0 + resolve1(self.frame_a.R, self.r_CM)
+
+    def _velocity(self):
+        return self.v_0 + resolve1(self.frame_a.R, cross(self.w_a, self.r_CM))

@@ -7,7 +7,20 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from acausal import Component, Connector, Vector3, as_expr, cross, der, flow, geometry, port, rooted, variable
+from acausal import (
+    Component,
+    Connector,
+    Vector3,
+    as_expr,
+    cross,
+    der,
+    flow,
+    geometry,
+    port,
+    rooted,
+    structural,
+    variable,
+)
 from components.orientation import (
     Orientation,
     from_quaternion,
@@ -30,6 +43,7 @@ class Frame(Connector):
         "R.w": "w_a=fixed(...)",
         "Q": "angles_fixed=True",
     }
+    turns: bool = structural("whether a frame that nothing guides turns", default=True, choices=(True, False))
     r_0: Vector3 = variable("position of the origin, resolved in the world", unit="m")
     R: Any = Orientation()
     v: Vector3 = variable("velocity of the origin, resolved in this frame", unit="m/s")
@@ -59,9 +73,13 @@ class Frame(Connector):
         return {"ftt": "planar loop", "fff": "spherical loop"}.get("".join(sorted(kinds)), "loop")
 
     def root_equations(self) -> Iterator[Any]:
-        """Quaternion of a free frame."""
-        yield self.R.T == from_quaternion(self.Q).T
-        yield from quaternion_equations(self.Q, self.R.w)
+        """Quaternion of a free frame, or the axes of the world."""
+        if self.turns:
+            yield self.R.T == from_quaternion(self.Q).T
+            yield from quaternion_equations(self.Q, self.R.w)
+        else:
+            yield np.eye(3) == self.R.T
+            yield self.Q == (0, 0, 0, 1)
 
 
 class TwoFrames(Component):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from acausal import Scalar, apart, dot, parameter, piecewise, require, sqrt, variable
 from components.frame import TwoFrames
 from components.orientation import resolve1, resolve2
@@ -39,8 +41,10 @@ class LineForce(TwoFrames):
         yield self.s == length
         yield self.v == dot(e_0, resolve1(b.R, b.v) - resolve1(a.R, a.v))
         yield from self.law()
-        yield a.f == -resolve2(a.R, e_0 * self.f)
-        yield b.f == resolve2(b.R, e_0 * self.f)
+        f_a, f_b = self.pulls()
+        carried_a, carried_b = self.carried(e_0)
+        yield a.f == resolve2(a.R, carried_a - e_0 * f_a)
+        yield b.f == resolve2(b.R, carried_b + e_0 * f_b)
         yield a.t == (0, 0, 0)
         yield b.t == (0, 0, 0)
 
@@ -62,6 +66,14 @@ class LineForce(TwoFrames):
             "where they meet (s_unstretched=0). A spring along a guide, in both directions, acts on the axis of its joint: "
             "Prismatic(use_axis_flange=True)",
         )
+
+    def pulls(self) -> tuple[Any, Any]:
+        """Forces at frame_a and frame_b along the line, positive if they pull the ends together."""
+        return self.f, self.f
+
+    def carried(self, e_0: Any) -> tuple[Any, Any]:
+        """Forces that accelerate masses on the line at frame_a and frame_b, resolved in the world; e_0 is its direction."""
+        return np.zeros(3), np.zeros(3)
 
     def law(self) -> Any:
         """Yield the equation of f."""

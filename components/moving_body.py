@@ -73,27 +73,29 @@ class MovingBody(Component):
         yield self.w_a == frame.R.w
         yield self.z_a == frame.z
 
-    def off_centre(self, world: Any, centre: Any) -> Iterator[Any]:
-        """What must hold at the start: where gravity is that of a point, no body is there."""
-        if world.gravity == "point":
-            name = self._path or type(self).__name__
-            yield require(
-                dot(centre, centre) > 0,
-                f"{name} starts at the origin of the world, where gravity of a point is infinite; start it elsewhere, "
-                "for instance r_0=fixed((7e6, 0, 0)), or take World(gravity=None)",
-            )
-
-    def past_centre(self, world: Any, m: Any, centre: Any, velocity: Any) -> Iterator[Any]:
-        """What must hold in a run: where gravity is that of a point, no body of mass m comes there."""
-        if world.gravity == "point":
-            distance = sqrt(dot(centre, centre))
-            yield apart(
-                centre,
-                dot(centre, velocity) / distance,
-                m * world.mu / dot(centre, centre),
-                "it reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
-                "or let the body pass beside it: v_0=fixed(...) at right angles to the line to the origin",
-            )
-
     def _orientation(self) -> Any:
         return quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
+
+
+def off_centre(body: Any, world: Any, centre: Any) -> Iterator[Any]:
+    """What must hold at the start: where gravity is that of a point, no body is there."""
+    if world.gravity == "point":
+        name = body._path or type(body).__name__
+        yield require(
+            dot(centre, centre) > 0,
+            f"{name} starts at the origin of the world, where gravity of a point is infinite; start it elsewhere, "
+            "for instance r_0=fixed((7e6, 0, 0)), or take World(gravity=None)",
+        )
+
+
+def past_centre(world: Any, m: Any, centre: Any, velocity: Any) -> Iterator[Any]:
+    """What must hold in a run: where gravity is that of a point, no body of mass m comes there."""
+    if world.gravity == "point":
+        distance = sqrt(dot(centre, centre))
+        yield apart(
+            centre,
+            dot(centre, velocity) / distance,
+            m * world.mu / dot(centre, centre),
+            "it reaches the origin of the world, where point gravity is infinite. End the run before that, stop_time=..., "
+            "or let the body pass beside it: v_0=fixed(...) at right angles to the line to the origin",
+        )

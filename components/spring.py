@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from acausal import Scalar, geometry, parameter
-from components.line_force import LineForce
+from components.mass_on_line import MassOnLine
 
 
-class Spring(LineForce):
-    """Linear spring along the line from frame_a to frame_b."""
+class Spring(MassOnLine):
+    """Linear spring along the line from frame_a to frame_b, with a point mass on it if m is given."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
     s_unstretched: Scalar = parameter(
@@ -23,5 +23,5 @@ class Spring(LineForce):
         yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
 
     def stored_energy(self):
-        """Elastic energy."""
-        return self.c * (self.s - self.s_unstretched) ** 2 / 2
+        """Elastic energy, and the energy of the mass."""
+        return super().stored_energy() + self.c * (self.s - self.s_unstretched) ** 2 / 2

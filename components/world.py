@@ -6,7 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Component, DeclarationError, Scalar, dot, effect, geometry, parameter, port, root, sqrt, structural
+from acausal import (
+    Component,
+    DeclarationError,
+    Scalar,
+    as_expr,
+    dot,
+    effect,
+    geometry,
+    parameter,
+    port,
+    root,
+    sqrt,
+    structural,
+)
 from components.frame import Frame
 from components.orientation import unit_vector
 
@@ -18,9 +31,16 @@ class World(Component):
     gravity: Any = effect(
         "gravity",
         default="uniform",
-        choices=("uniform", "point", None),
+        choices=("uniform", "point", callable, None),
         tries=(None,),
-        doc="uniform: g n everywhere; point: -mu r / |r|^3.",
+        doc="uniform: g n everywhere; point: -mu r / |r|^3; a function of the position r, both resolved in the world, "
+        "returns the acceleration in m/s2.",
+    )
+    potential: Any = structural(
+        "potential of gravity as a function of the position",
+        default=None,
+        choices=(None, callable),
+        doc="In J/kg, where gravity is a function. Without it the work of gravity counts as supplied energy.",
     )
     g: Scalar = parameter("acceleration of gravity", unit="m/s2", default=9.80665, doc="Where it is uniform.")
     n: Any = structural(
@@ -59,15 +79,20 @@ class World(Component):
             return unit_vector(self.n) * self.g
         if self.gravity == "point":
             return -self.mu / (dot(r, r) * sqrt(dot(r, r))) * r
-        return np.zeros(3)
+        return as_expr(self.gravity(r)) if callable(self.gravity) else np.zeros(3)
 
-    def potential(self, r: Any) -> Any:
+    def gravity_potential(self, r: Any) -> Any:
         """Potential of gravity at the position r, resolved in the world, in J/kg."""
         if self.gravity == "uniform":
             return -self.g * dot(unit_vector(self.n), r)
         if self.gravity == "point":
             return -self.mu / sqrt(dot(r, r))
-        return 0.0
+        return self.potential(r) if callable(self.gravity) and self.potential else 0.0
+
+    def power(self, m: Any, r: Any, v: Any) -> Any:
+        """Power of gravity without a potential on a mass m at r that moves with v, resolved in the world, in W."""
+        known = not callable(self.gravity) or self.potential is not None
+        return 0.0 if known else m * dot(self.acceleration(r), v)
 
     def shapes(self):
         """The ground, normal to gravity where that has a direction."""

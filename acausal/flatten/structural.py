@@ -74,7 +74,7 @@ def one_of(choices: tuple[Any, ...]) -> str:
     """Write choices for a message."""
     if choices and all(isinstance(c, bool) for c in choices):
         return " or ".join(map(repr, choices))
-    return f"one of {', '.join(map(shown_or_kind, choices))}"
+    return f"one of {', '.join('a function' if c is callable else shown_or_kind(c) for c in choices)}"
 
 
 def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
@@ -94,7 +94,9 @@ def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
 
 
 def _is(value: Any, choice: Any) -> bool:
-    """Whether a value is a choice; arrays are none."""
+    """Whether a value is a choice; arrays are none, and `callable` stands for any function."""
+    if choice is callable:
+        return callable(value) and not isinstance(value, type)
     return value is choice or (np.ndim(value) == 0 and data.same(value, choice))
 
 

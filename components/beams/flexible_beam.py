@@ -241,7 +241,7 @@ class FlexibleBeam(Beam):
         motion, ref = self._motion(), self.ref
         inertia = self._inertia(motion)
         kinetic = inertia.kinetic_energy(ref.v, ref.R.w) + self._sections(motion).kinetic_energy(ref.R.w)
-        potential = inertia.mass * self.world.potential(self._centre(inertia)) if self.weight else 0.0
+        potential = inertia.mass * self.world.gravity_potential(self._centre(inertia)) if self.weight else 0.0
         return kinetic + potential + self._strain.energy(motion[0], stretches=self.axial == "dynamic")
 
     def dissipated_power(self):

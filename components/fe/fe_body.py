@@ -36,7 +36,7 @@ from components.fe.reconfigured_inertia import ReconfiguredInertia
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
-from components.moving_body import MovingBody
+from components.moving_body import MovingBody, off_centre, past_centre
 from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
 from components.world import World
 
@@ -193,11 +193,11 @@ class FEBody(MovingBody):
                 yield q == as_expr(np.zeros(self.modes))
 
     def requirements(self):
-        yield from self.off_centre(self.world, self._centre())
+        yield from off_centre(self, self.world, self._centre())
         yield from (Moments(self._body).none(interface, frame) for interface, frame in self._points)
 
     def validity(self):
-        yield from self.past_centre(self.world, self._inertia.mass, self._centre(), self._velocity())
+        yield from past_centre(self.world, self._inertia.mass, self._centre(), self._velocity())
         yield from (Moments(self._body).stays_none(interface, frame) for interface, frame in self._points)
         if self.check_range and np.any(self._body.frequencies > 0):
             yield spinning(self._body, self.reference.R.w, self.stiffness)
@@ -205,7 +205,7 @@ class FEBody(MovingBody):
     def stored_energy(self):
         """Kinetic, elastic and potential energy."""
         kinetic = self._inertia.kinetic_energy(self.reference.v, self.reference.R.w)
-        potential = self._inertia.mass * self.world.potential(self._centre()) if self.weight else 0.0
+        potential = self._inertia.mass * self.world.gravity_potential(self._centre()) if self.weight else 0.0
         return kinetic + potential + dot(self.q, self._elastic()) / 2
 
     def dissipated_power(self):

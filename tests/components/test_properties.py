@@ -26,7 +26,7 @@ from components import (
     translational,
 )
 from components.flange import TwoFlanges
-from tests.components.scenes import drives, forces, gears, heat, joints, rods
+from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
     OnBeam,
@@ -88,6 +88,9 @@ SCENES: dict[str, type[Scene]] = {
     "Mounting1D": drives.OnMounting,
     "BevelGear1D": drives.OnBevelGear,
     "SpringDamperSeries": forces.OnSpringDamperSeries,
+    "LineForceWithMass": forces.OnLineForceWithMass,
+    "LineForceWithTwoMasses": forces.OnLineForceWithTwoMasses,
+    "PointMass": bodies.OnPointMass,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
     "Spherical": OnSphericalJoint,
@@ -201,7 +204,7 @@ BASES = {
     "rotational.OneFlange",
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
-BASES |= {"FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
+BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
     f"{p}.{name}" for p in ("translational", "rotational") for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")
@@ -225,7 +228,7 @@ SIDED = [
     if issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody"
 ]
 DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
-DISSIPATING |= {"fe.FEBody", "SpringDamperSeries"}
+DISSIPATING |= {"fe.FEBody", "SpringDamperSeries", "LineForceWithMass", "LineForceWithTwoMasses"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {
@@ -378,6 +381,9 @@ DIMENSIONLESS = {
     ("Clutch", "f_normalized"),
     ("Clutch", "peak"),
     ("ElastoGap", "n"),
+    ("LineForceWithMass", "length_fraction"),
+    ("MassOnLine", "length_fraction"),
+    ("Spring", "length_fraction"),
     ("IdealGear", "ratio"),
     ("BevelGear1D", "ratio"),
     ("GearConstraint", "ratio"),

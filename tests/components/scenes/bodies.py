@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from acausal import connect, fixed, part
+from acausal import chain, connect, fixed, part
 from components import (
     BodyBox,
     BodyCylinder,
@@ -17,6 +17,7 @@ from components import (
     FixedRotation,
     FixedTranslation,
     FlexibleBeam,
+    PointMass,
     Spherical,
     Spring,
     SubstructuredBeam,
@@ -40,6 +41,16 @@ class OnFixed(Plain):
         yield connect(self.tip.frame_a, self.arm.frame_a)
         yield connect(self.arm.frame_b, self.spring.frame_a)
         yield connect(self.it.frame_b, self.spring.frame_b)
+
+
+class OnPointMass(Plain):
+    """A point mass on an arm at the tip."""
+
+    arm, it = FixedTranslation(r=(0.3, 0.1, 0.0)), PointMass(m=0.4)
+
+    def graph(self):
+        yield from super().graph()
+        yield chain(self.tip.frame_a, self.arm, self.it)
 
 
 class OnTranslation(OnSpherical):

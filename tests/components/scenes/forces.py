@@ -13,6 +13,8 @@ from components import (
     FixedTranslation,
     Force,
     ForceAndTorque,
+    LineForceWithMass,
+    LineForceWithTwoMasses,
     Prismatic,
     Revolute,
     Spherical,
@@ -23,6 +25,7 @@ from components import (
     WorldForce,
     WorldForceAndTorque,
     WorldTorque,
+    translational,
 )
 from tests.components.scenes.scene import SPIN, OnSpherical, Plain, Scene
 
@@ -43,7 +46,9 @@ class Line(Scene):
 
 
 class OnSpring(Line):
-    it = Spring(c=70.0, s_unstretched=0.4)
+    @part
+    def it(self):
+        return Spring(c=70.0, s_unstretched=0.4, m=0.6, length_fraction=0.8 if self.turned else 0.2)
 
 
 class OnDamper(Line):
@@ -52,6 +57,29 @@ class OnDamper(Line):
 
 class OnSpringDamper(Line):
     it = SpringDamperParallel(c=70.0, d=2.0, s_unstretched=0.4)
+
+
+class OnLineForceWithMass(Line):
+    """A spring and a damper of one-dimensional translation, and a mass on the line."""
+
+    spring, damper = translational.Spring(c=70.0, s_rel0=0.4), translational.Damper(d=2.0)
+
+    @part
+    def it(self):
+        return LineForceWithMass(m=0.7, length_fraction=0.7 if self.turned else 0.3)
+
+    def graph(self):
+        yield from super().graph()
+        for member in (self.spring, self.damper):
+            yield connect(self.it.flange_a, member.flange_a)
+            yield connect(member.flange_b, self.it.flange_b)
+
+
+class OnLineForceWithTwoMasses(OnLineForceWithMass):
+    @part
+    def it(self):
+        m_a, m_b, L_a, L_b = (0.5, 0.7, 0.2, 0.1) if self.turned else (0.7, 0.5, 0.1, 0.2)
+        return LineForceWithTwoMasses(m_a=m_a, m_b=m_b, L_a=L_a, L_b=L_b)
 
 
 class OnSpringDamperSeries(Line):

@@ -11,7 +11,6 @@ import json
 import re
 from collections.abc import Mapping
 from functools import cache
-from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +35,12 @@ def read(result: ac.Result, path: str) -> np.ndarray:
 
 def unit_of(result: ac.Result, ours: Any) -> str:
     """Unit of a variable, by which magnitudes are compared; functions of the result have none in common."""
-    return repr(ours) if callable(ours) else str(attrgetter(ours.partition("[")[0])(result.tree).unit)
+    if callable(ours):
+        return repr(ours)
+    found: Any = result.tree
+    for name, index in re.findall(r"(\w+)(?:\[(\d+)\](?=\.))?", re.sub(r"\[\d+\]$", "", ours)):
+        found = getattr(found, name) if not index else getattr(found, name)[int(index)]
+    return str(found.unit)
 
 
 def compare(
