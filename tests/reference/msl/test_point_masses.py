@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 from acausal import Model, chain, connect, fixed, quantity
 from components import Body, FixedTranslation, FreeMotion, PointMass, Revolute, Spring, World, rotational
@@ -54,7 +56,24 @@ class Star(Model):
             yield connect(self.others[0].frame_a, other.frame_a)
 
 
+def star_by_hand(times):
+    """Positions and velocities of the star's centre: Newton and Euler for six masses of 1 kg, whose inertia is 4 kg.m2."""
+
+    def rates(_, y):
+        r, v, Q, w = y[:3], y[3:6], Rotation.from_quat(y[6:10]), y[10:]
+        arms = Q.apply(DIRECTIONS)
+        places = r + arms
+        forces = -5 * places / np.linalg.norm(places, axis=1)[:, None] ** 3
+        e, s = y[6:9], y[9]
+        rate = np.array([*(s * w + np.cross(w, e)), -w @ e]) / 2
+        return np.concatenate([v, forces.sum(axis=0) / 6, rate, np.cross(arms, forces).sum(axis=0) / 4])
+
+    start = np.array([2, 0, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0], dtype=float)
+    return solve_ivp(rates, (0, times[-1]), start, method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times).y[:6].T
+
+
 def test_point_gravity_with_a_star_of_masses():
+    """The published velocities are off by 1.4e-3 of their range, ours by less than 1e-6."""
     names = {f"freeMotion.{v}[{k}]": f"joint.{v}[{k}]" for v in ("r_rel_a", "v_rel_a") for k in (1, 2, 3)}
     for number, body in ((1, "first"), (3, "bodies[1]"), (6, "bodies[4]")):
         names |= {
@@ -62,7 +81,9 @@ def test_point_gravity_with_a_star_of_masses():
             for v in ("w_a", "v_0", "frame_a.r_0")
             for k in (1, 2, 3)
         }
-    compare(ELEMENTARY + "PointGravityWithPointMasses2", Star(), names)
+    result = compare(ELEMENTARY + "PointGravityWithPointMasses2", Star(), names, tolerance=1.5e-3, run=1e-11)
+    right = star_by_hand(result.time)
+    np.testing.assert_allclose(np.hstack([result["joint.r_rel_a"], result["joint.v_rel_a"]]), right, atol=3e-6)
 
 
 def normal_gravity(r):
