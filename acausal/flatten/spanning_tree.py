@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
 from typing import Any
 
 from acausal.errors import ConnectError
@@ -33,27 +34,30 @@ class Cut:
 
 
 class _Tree:
-    """Breadth first from the roots; what a branch ties together is reached at once, so that no branch is cut.
+    """Spanning tree of least weight (Prim 1957), grown from the roots: branches, which cannot be cut, come first, then the
+    connections stated deepest in the tree of parts, and among these the nearest to the root.
 
-    What is connected inside a part is reached with the part, so that loops are cut between parts.
+    So a loop is cut where the outermost component on it is connected: between parts wherever it passes through several.
     """
 
     def __init__(
-        self, nodes: list[Connector], connects: Iterable[Connect], branches: Iterable[Branch], inner: set[int]
+        self, nodes: list[Connector], connects: list[tuple[Component, Connect, str]], branches: Iterable[Branch]
     ) -> None:
-        self.inner = inner
-        self.links: dict[int, list[tuple[Connector, Connect | None]]] = {id(n): [] for n in nodes}
+        self.branches: dict[int, list[Connector]] = {id(n): [] for n in nodes}
         for b in branches:
-            self.links[id(b.a)].append((b.b, None))
-            self.links[id(b.b)].append((b.a, None))
-        for c in connects:
+            self.branches[id(b.a)].append(b.b)
+            self.branches[id(b.b)].append(b.a)
+        self.links: dict[int, list[tuple[Connector, Connect]]] = {id(n): [] for n in nodes}
+        for _, c, _ in connects:
             if id(c.a) in self.links:
                 self.links[id(c.a)].append((c.b, c))
                 self.links[id(c.b)].append((c.a, c))
+        self.depth = {id(c): len(owner._path.split(".")) if owner._path else 0 for owner, c, _ in connects}
         self.reached: set[int] = set()
         self.used: set[int] = set()
         self.parent: dict[int, Connector] = {}
-        self.queue: deque[Connector] = deque()
+        self.order = count()
+        self.waiting: list[tuple[int, int, Connector, Connector, Connect]] = []
 
     def enter(self, node: Connector) -> None:
         """Reach a node and everything that branches tie to it."""
@@ -61,33 +65,29 @@ class _Tree:
         self.reached.add(id(node))
         while stack:
             here = stack.pop()
-            self.queue.append(here)
             for there, statement in self.links[id(here)]:
-                if id(statement) in self.inner and id(there) not in self.reached:
-                    self.used.add(id(statement))
-                    self.reached.add(id(there))
-                    self.parent[id(there)] = here
-                    stack.append(there)
-                elif statement is None and there not in here._parents:
-                    if id(there) in self.reached:
-                        raise ConnectError(
-                            f"{here._path} and {there._path} are joined to each other, or to roots, by two paths without a "
-                            "connection that could be cut."
-                        )
-                    self.reached.add(id(there))
-                    there._parents = (here,)
-                    self.parent[id(there)] = here
-                    stack.append(there)
+                heappush(self.waiting, (-self.depth[id(statement)], next(self.order), here, there, statement))
+            for there in self.branches[id(here)]:
+                if there in here._parents:
+                    continue
+                if id(there) in self.reached:
+                    raise ConnectError(
+                        f"{here._path} and {there._path} are joined to each other, or to roots, by two paths without a "
+                        "connection that could be cut."
+                    )
+                self.reached.add(id(there))
+                there._parents = (here,)
+                self.parent[id(there)] = here
+                stack.append(there)
 
     def grow(self) -> None:
         """Reach all that is connected to what is reached."""
-        while self.queue:
-            here = self.queue.popleft()
-            for there, statement in self.links[id(here)]:
-                if statement is not None and id(there) not in self.reached:
-                    self.used.add(id(statement))
-                    self.parent[id(there)] = here
-                    self.enter(there)
+        while self.waiting:
+            *_, here, there, statement = heappop(self.waiting)
+            if id(there) not in self.reached:
+                self.used.add(id(statement))
+                self.parent[id(there)] = here
+                self.enter(there)
 
     def loop(self, cut: Connect) -> tuple[Component, ...]:
         """Components between the two sides of a cut, along the tree."""
@@ -121,8 +121,7 @@ def spanning_tree(
         The potential roots that were needed.
     """
     nodes = [c for c in connectors if type(c).residual is not Connector.residual]
-    inner = {id(c) for owner, c, _ in connects if owner._path}
-    tree = _Tree(nodes, [c for _, c, _ in connects], branches, inner)
+    tree = _Tree(nodes, connects, branches)
     for r in roots:
         if r.priority is None:
             tree.enter(r.connector)
