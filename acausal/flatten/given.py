@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -55,12 +56,18 @@ class Given:
         Values by path that replace those of the model; those that were used are taken out.
     free : collection of str
         Parameters, or entries of them, that have a symbol even if they are 0; `kept` says which of them there are.
+
+    Attributes
+    ----------
+    late : list of (Component, str, callable, Origin)
+        Inputs of parts whose values may hold variables: they are formed when these exist.
     """
 
     def __init__(self, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> None:
         self.overrides = dict(overrides or {})
         self.free, self.kept = set(free), set[str]()
         self.parameters = Parameters()
+        self.late: list[tuple[Component, str, Callable[[], Any], Origin]] = []
         self._open: list[tuple[Component, str]] = []
 
     def fill(self, bound: Component, owner: Component | None) -> None:
@@ -75,7 +82,12 @@ class Given:
         for name, declared in bound.fields.items() if bound._class_values or owner is None else ():
             if isinstance(declared, f.Variable):
                 if name in bound._class_values and name not in own["_values"]:
-                    own["_values"][name] = self._of_class(bound, name)
+                    value = own["_values"][name] = bound._class_values[name]
+                    if owner is not None and takes_variables(declared, value):
+                        here = value_origin(bound, name, text=f"default of {name}")
+                        self.late.append((bound, name, partial(self._of_class, bound, name), here))
+                    else:
+                        own["_values"][name] = self._of_class(bound, name)
                 if owner is None and declared.causality == "input":
                     self._top_input(bound, name, declared)
 
@@ -193,6 +205,11 @@ class Given:
             entries.append(symbol)
         sx = entries[0] if not value.shape else ca.vertcat(*entries)
         return Expr(ca.reshape(sx, *value.shape[::-1]).T if value.ndim == 2 else sx, unit, path, value.shape)
+
+
+def takes_variables(declared: f.Field | None, value: Any) -> bool:
+    """True if the value of a field of a part may hold variables: that of an input, not a start value."""
+    return isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue)
 
 
 def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:

@@ -9,12 +9,13 @@ from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.family import enter_family, no_part
-from acausal.flatten.given import Given, owner_text
+from acausal.flatten.given import Given, owner_text, takes_variables
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
+from acausal.language.functions import PENDING
 from acausal.language.source import refuse_dropped, returns_nothing
 from acausal.language.values import refuse_constructor, shown
 from acausal.nearest import missing
@@ -63,6 +64,12 @@ class Instantiation:
             if isinstance(declared, f.Structural | f.Parameter)
         ]
 
+    def give_inputs(self) -> None:
+        """Give the inputs of parts their values, now that the variables exist which these may hold."""
+        for bound, name, value, origin in self._given.late:
+            vars(bound)["_values"][name] = with_place(value, origin)
+            PENDING.get().place(origin)
+
     def _build(self, template: Component, path: str, owner: Component | None) -> Component:
         cls = type(template)
         here = Origin(path, cls.__name__, template._origin)
@@ -78,9 +85,12 @@ class Instantiation:
         own = vars(bound)
         own.update(vars(template))  # what a constructor of the user's own has set
         own.update(_is_bound=True, _path=path, _origin=template._origin)
-        own["_values"] = {
-            name: with_place(lambda v=value: f.evaluate(v, owner), here) for name, value in template._values.items()
-        }
+        own["_values"] = values = dict(template._values)
+        for name, value in template._values.items():
+            if owner is not None and takes_variables(cls.fields.get(name), value):
+                self._given.late.append((bound, name, lambda v=value: f.evaluate(v, owner), here))
+            else:
+                values[name] = with_place(lambda v=value: f.evaluate(v, owner), here)
         self.components.append(bound)
         self._given.fill(bound, owner)
         with_place(lambda: _check(bound), here)

@@ -66,6 +66,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         pending.varying = pending.discrete | index.keys()
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
+        build.give_inputs()
         # Far more statements than any component needs, few enough to count them quickly.
         most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
