@@ -108,7 +108,8 @@ def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
     loops = reduced.flat.loops
     dropped_of: list[list[FlatClosure]] = [[] for _ in loops.cuts]
     for k in sorted(at_start.dropped):
-        dropped_of[loops.closures[k].loop].append(loops.closures[k])
+        if loops.closures[k].loop >= 0:
+            dropped_of[loops.closures[k].loop].append(loops.closures[k])
     found = []
     for loop, dropped in zip(loops.cuts, dropped_of, strict=True):
         by_rank = len(dropped)

@@ -26,26 +26,30 @@ from acausal.symbols import combined, dense, scalars, vec
 
 @dataclass(frozen=True)
 class Closure:
-    """A scalar residual that closes a loop.
+    """A scalar residual that closes a loop, or a constraint that a part states, of which `cut` is None.
 
     `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual is redundant.
     """
 
     row: int
     dual: ca.SX
-    cut: Cut
+    cut: Cut | None
     statement: int
 
 
 @dataclass
 class Equations:
-    """Scalar residuals with their origins; `sides` keeps both sides of each array equation, `of_roots` tells those of roots."""
+    """Scalar residuals with their origins.
+
+    `sides` keeps both sides of each array equation, `of_roots` tells those of roots, `owned` those of each component.
+    """
 
     residuals: list[ca.SX]
     sides: list[tuple[ca.SX, ca.SX]]
     origins: list[Origin]
     closures: list[Closure] = field(default_factory=list)
     of_roots: range = range(0)
+    owned: list[tuple[Component, range]] = field(default_factory=list)
 
     def add(self, statement: Equation, origin: Origin) -> ca.SX:
         """Append an equation; return its residual."""
@@ -63,7 +67,9 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike) 
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
+        start = len(found.sides)
         _run(component, "equations", found, most, alike)
+        found.owned.append((component, range(start, len(found.sides))))
         for name, value in component._values.items():
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):

@@ -45,14 +45,15 @@ def loops_of(
     cuts = raw.graph.cuts
     number = {id(cut): k for k, cut in enumerate(cuts)}
     closures = tuple(
-        FlatClosure(place[c.row], entries[substitutes[c.row]], number[id(c.cut)], c.statement)
+        FlatClosure(place[c.row], entries[substitutes[c.row]], number.get(id(c.cut), -1), c.statement)
         for c in raw.equations.closures
         if c.row in place
     )
     flows = [(name, a.declared.flow) for a in raw.arrays for name in a.names]
     own: list[list[Closure]] = [[] for _ in cuts]
     for c in raw.equations.closures:
-        own[number[id(c.cut)]].append(c)
+        if c.cut is not None:
+            own[number[id(c.cut)]].append(c)
     return FlatLoops(
         tuple(_loop(raw, redundant, values, flows, *both) for both in zip(cuts, own, strict=True)), closures
     )

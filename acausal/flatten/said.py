@@ -14,6 +14,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.flatten.alike import Alike
 from acausal.flatten.collect import Equations, collect, collect_initial
+from acausal.flatten.constraints import add_constraints
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
@@ -72,6 +73,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         leads = [group[0] for group in graph.same]
         alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
         equations = collect(components, graph, most, alike)
+        add_constraints(equations, index, variables, pending.derivatives)
         starts = collect_initial(components, most, alike)
         declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES))]
         energies = {name: _total(name, components, alike) for name in ENERGIES}
