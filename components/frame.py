@@ -67,6 +67,11 @@ class Frame(Connector):
         turn = as_expr((T[1, 2] - T[2, 1], T[2, 0] - T[0, 2], T[0, 1] - T[1, 0])) / (1 + T[0, 0] + T[1, 1] + T[2, 2])
         yield turn == as_expr(np.zeros(3)), self.t
 
+    def power(self) -> Iterator[tuple[Any, Any]]:
+        """Force times velocity and torque times angular velocity."""
+        yield self.v, self.f
+        yield self.R.w, self.t
+
     def loop_kind(self, undetermined: tuple[str, ...]) -> str:
         """Planar: a force across the plane and the torques in it; spherical: the forces alone."""
         kinds = [name.rpartition(".")[2][0] for name in undetermined]

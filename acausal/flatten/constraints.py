@@ -1,14 +1,14 @@
-"""Constraints that parts state, and the reactions that enforce them.
+"""Constraints that parts state, and the flows that work on them.
 
-A component that states one equation in its over-determined potentials alone leaves one of its unknowns to the rest of the
+A component that states an equation in its over-determined potentials alone leaves one of its unknowns to the rest of the
 model: the reaction. Such an equation enters the mechanism of those that close loops: where it follows from others, its
-reaction is undetermined.
+reaction is undetermined. For c = C v in the velocities v of the ports, reactions that do no work on what the constraints
+allow are flows f = C' m; C f tells them, whatever the component calls them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import casadi as ca
@@ -17,11 +17,12 @@ from acausal.flatten.collect import Closure, Equations
 from acausal.flatten.tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
+from acausal.language.expression import as_expr
 from acausal.symbols import dense, scalars, stacked, vec
 
 
 def add_constraints(
-    equations: Equations, index: dict[int, int], variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]
+    equations: Equations, index: Mapping[int, int], variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]
 ) -> None:
     """Append the constraints of parts to the closures.
 
@@ -29,7 +30,7 @@ def add_constraints(
     ----------
     equations : Equations
         Those of the whole model; `closures` is extended.
-    index : dict of int to int
+    index : mapping of int to int
         Hash of each variable -> its place.
     variables : casadi.SX
         All variables, a column.
@@ -39,112 +40,81 @@ def add_constraints(
     owners = [(c, statements) for c, statements in equations.owned if any(map(_is_given, c._ports))]
     if not owners:
         return
-    first, rows = [0], _columns(stacked(equations.residuals), variables, derivatives)
+    column, first = stacked(equations.residuals), [0]
     for residual in equations.residuals:
         first.append(first[-1] + residual.numel())
-    entries, statement_of = scalars(variables), [k for k, r in enumerate(equations.residuals) for _ in range(r.numel())]
+    statement_of = [k for k, r in enumerate(equations.residuals) for _ in range(r.numel())]
+    columns, residuals = _columns(column, variables, derivatives), scalars(column)
     for component, statements in owners:
-        unknowns = _unknowns(component, index)
-        own = {row: rows[row] for row in range(first[statements.start], first[statements.stop])}
-        stated, reactions = _left_over(own, unknowns)
-        if 0 < len(stated) <= len(reactions):
-            found = zip(stated, reactions, strict=False)
-            equations.closures += [Closure(row, entries[k], None, statement_of[row]) for row, k in found]
+        rows = range(first[statements.start], first[statements.stop])
+        stated = _stated({row: columns[row] for row in rows}, *_unknowns(component, index))
+        duals = _working([residuals[row] for row in stated], component)
+        for row, dual in zip(stated, duals, strict=True):
+            if not dual.is_zero():
+                equations.closures.append(Closure(row, dual, None, statement_of[row]))
 
 
 def _is_given(port: Any) -> bool:
     """True if the rest of the model gives the over-determined record of a port."""
-    if not isinstance(port, Connector) or type(port).residual is Connector.residual:
-        return False
-    return not port._is_root and not any(p._owner is port._owner for p in port._parents)
+    return _has_record(port) and not port._is_root and not any(p._owner is port._owner for p in port._parents)
 
 
-@dataclass(frozen=True)
-class _Unknowns:
-    """Places of variables: what a component must determine, in the order in which its equations do so, and what it is given.
-
-    `records` are over-determined potentials that are given, `free` the unknowns that may be reactions.
-    """
-
-    own: list[int]
-    records: set[int]
-    free: set[int]
+def _has_record(port: Any) -> bool:
+    return isinstance(port, Connector) and type(port).residual is not Connector.residual
 
 
-def _unknowns(component: Component, index: dict[int, int]) -> _Unknowns:
-    flows, potentials, records = list[int](), list[int](), set[int]()
+def _unknowns(component: Component, index: Mapping[int, int]) -> tuple[set[int], set[int]]:
+    """Places of the variables that a component determines, and of the over-determined potentials that it is given."""
+    own, given = set[int](), set[int]()
     for port in component._ports:
-        given, root = _is_given(port), type(port).residual is not Connector.residual
         for member in walk(port):
             for name, declared in member.fields.items():
-                places = _places(vars(member).get(name), index) if isinstance(declared, f.Variable) else ()
-                if declared.flow if isinstance(declared, f.Variable) else False:
-                    flows += places
-                elif given:
-                    records.update(places)
-                elif root:
-                    potentials += places
-    variables = [
-        place
-        for name, declared in component.fields.items()
-        if isinstance(declared, f.Variable) and declared.causality not in ("input", "discrete")
-        for place in _places(vars(component).get(name), index)
-    ]
-    return _Unknowns([*potentials, *flows, *variables], records, {*flows, *variables})
+                if isinstance(declared, f.Variable):
+                    of = given if _is_given(port) else own if _has_record(port) else set[int]()
+                    (own if declared.flow else of).update(_places(vars(member).get(name), index))
+    for name, declared in component.fields.items():
+        if isinstance(declared, f.Variable) and declared.causality not in ("input", "discrete"):
+            own.update(_places(vars(component).get(name), index))
+    return own, given
 
 
-def _places(value: Any, index: dict[int, int]) -> Iterator[int]:
+def _places(value: Any, index: Mapping[int, int]) -> Iterator[int]:
     """Places of the entries of a variable."""
     found = (index.get(s.element_hash()) for s in scalars(value.sx)) if value is not None else ()
     return (k for k in found if k is not None)
 
 
-def _columns(
-    residuals: ca.SX, variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]
-) -> list[dict[int, bool]]:
-    """Variables in each residual, and whether they occur there by themselves, not by a derivative alone."""
-    n = variables.numel()
-    placeholders = stacked([p for p, _ in derivatives])
-    inside = _incidence(stacked([vec(dense(e)) for _, e in derivatives]), variables) if derivatives else []
-    found = list[dict[int, bool]]()
-    for row in _incidence(residuals, ca.vertcat(variables, placeholders)):
-        columns = {v: False for k in row if k >= n for v in inside[k - n]}
-        found.append(columns | {k: True for k in row if k < n})
-    return found
+def _columns(residuals: ca.SX, variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]) -> list[set[int]]:
+    """Variables in each residual, those of which it holds derivatives included."""
+    n, inside = variables.numel(), list[set[int]]()
+    if derivatives:
+        inside = _incidence(stacked([vec(dense(e)) for _, e in derivatives]), variables)
+    found = _incidence(residuals, stacked([variables, *[p for p, _ in derivatives]]))
+    return [{v for k in row for v in ((k,) if k < n else inside[k - n])} for row in found]
 
 
-def _incidence(column: ca.SX, symbols: ca.SX) -> list[list[int]]:
-    rows: list[list[int]] = [[] for _ in range(column.numel())]
+def _incidence(column: ca.SX, symbols: ca.SX) -> list[set[int]]:
+    rows: list[set[int]] = [set() for _ in range(column.numel())]
     pattern = ca.jacobian_sparsity(column, symbols)  # type: ignore[attr-defined]
     for i, k in zip(*pattern.get_triplet(), strict=True):
-        rows[i].append(k)
+        rows[i].add(k)
     return rows
 
 
-def _left_over(rows: dict[int, dict[int, bool]], unknowns: _Unknowns) -> tuple[list[int], list[int]]:
-    """Equations of a component that determine none of its unknowns, and unknowns that none of them determines.
+def _stated(rows: Mapping[int, set[int]], own: set[int], given: set[int]) -> list[int]:
+    """Equations of a component that determine none of its unknowns, if as many of these are left.
 
-    Equations without given records come first, so that those that are left constrain these; variables of the component
-    itself come last among the unknowns, so that they are left, not the flows which they define.
+    Equations without given potentials determine first, so that those that are left constrain these.
     """
-    own = set(unknowns.own)
-    moving = {k for columns in rows.values() for k, itself in columns.items() if not itself}
-    order = sorted(rows, key=lambda row: not unknowns.records.isdisjoint(rows[row]))
+    order = sorted(rows, key=lambda row: not given.isdisjoint(rows[row]))
     used = _matched(order, {row: own.intersection(rows[row]) for row in order})
-    stated = [row for row in order if row not in used]
-    if not stated or any(unknowns.records.isdisjoint(rows[row]) for row in stated):
-        return [], []
-    holders: dict[int, list[int]] = {k: [] for k in unknowns.own}
-    for row in used:
-        for k in own.intersection(rows[row]):
-            holders[k].append(row)
-    determined = _matched(unknowns.own, holders)
-    left = [k for k in reversed(unknowns.own) if k in unknowns.free - moving and k not in determined]
-    return sorted(stated), sorted(left, key=lambda k: unknowns.own.index(k))
+    stated = sorted(set(rows).difference(used))
+    constrains = not any(given.isdisjoint(rows[row]) for row in stated)
+    return stated if constrains and len(stated) <= len(own) - len(used) else []
 
 
-def _matched(order: Iterable[int], neighbours: dict[int, Any]) -> set[int]:
-    """Members of a bipartite graph's one side, the first ones first, that can be matched together (Kuhn 1955)."""
+def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[int]:
+    """Members of one side of a bipartite graph, the first ones first, that can be matched together (Kuhn 1955)."""
     of: dict[int, int] = {}
 
     def augment(member: int, seen: set[int]) -> bool:
@@ -157,3 +127,19 @@ def _matched(order: Iterable[int], neighbours: dict[int, Any]) -> set[int]:
         return False
 
     return {member for member in order if augment(member, set())}
+
+
+def _working(constraints: list[ca.SX], component: Component) -> list[ca.SX]:
+    """Return the flow that works on each constraint; of one of positions, on its time derivative."""
+    if not constraints:
+        return []
+    ports = [port for port in component._ports if _is_given(port)]
+    declared = [pair for port in ports for pair in port.declared_derivatives()]
+    pairs = [pair for port in ports for pair in port.power()]
+    rates, flows = (stacked([vec(as_expr(pair[k]).sx) for pair in pairs]) for k in (0, 1))
+    moving, moved = (stacked([vec(as_expr(pair[k]).sx) for pair in declared]) for k in (0, 1))
+    found = []
+    for constraint in constraints:
+        own = constraint if ca.depends_on(constraint, rates) else ca.jtimes(constraint, moving, moved)
+        found.append(ca.sparsify(ca.mtimes(ca.jacobian(own, rates), flows)))
+    return found

@@ -174,7 +174,7 @@ def _constructed_at(component: Component) -> str:
 class Connector(Component):
     """A kind of port: potential variables that become equal, flow variables that sum to zero.
 
-    A connector whose potentials are an over-determined record overrides declared_derivatives(), residual() and
+    A connector whose potentials are an over-determined record overrides declared_derivatives(), residual(), power() and
     root_equations().
     """
 
@@ -191,6 +191,13 @@ class Connector(Component):
         """Yield pairs (independent equations that make this record equal to the other one, flows that work on them).
 
         Used where a loop is cut: where an equation is redundant, the flow that works on it is undetermined.
+        """
+        yield from ()
+
+    def power(self) -> Iterator[tuple[Any, Any]]:
+        """Yield pairs (potential, flow) whose products are the power through the connector.
+
+        They tell which flow works on a constraint that a part states: where the constraint is redundant, it is undetermined.
         """
         yield from ()
 
