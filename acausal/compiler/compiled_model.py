@@ -202,7 +202,12 @@ class CompiledModel:
         guards, constraints = self.guards, self.constraints
         moves = self.reduced.projections.choice.numel() > 0
         return Layout(
-            guards.n_switches, guards.n_discretes, len(constraints.closures), int(moves), constraints.entries.shape[1]
+            guards.n_switches,
+            guards.n_discretes,
+            len(constraints.closures),
+            len(self.reduced.flat.loops.of_parts) if moves else 0,
+            int(moves),
+            constraints.entries.shape[1],
         )
 
     @cached_property

@@ -20,6 +20,8 @@ class Constants:
         Values of the discrete variables.
     closures : array
         1 where the constraints of a closure count, 0 where they are redundant.
+    shares : array, shape (n, n)
+        For each constraint of a part how much of what works on each of them counts in its place where it is redundant.
     moves : bool or None
         Whether D are factors of the constraint Jacobian, which moves along, or numbers; None where nothing is constrained.
     feedback : float
@@ -31,6 +33,7 @@ class Constants:
     switches: np.ndarray
     discretes: np.ndarray
     closures: np.ndarray
+    shares: np.ndarray
     moves: bool | None
     D: np.ndarray
     feedback: float = 1.0
@@ -39,7 +42,9 @@ class Constants:
     def vector(self) -> np.ndarray:
         """All of them, in the order of `ReducedModel.constants`."""
         moves = [] if self.moves is None else [float(self.moves)]
-        return np.concatenate([self.switches, self.discretes, self.closures, moves, self.D, [self.feedback]])
+        return np.concatenate(
+            [self.switches, self.discretes, self.closures, self.shares.T.ravel(), moves, self.D, [self.feedback]]
+        )
 
     @cached_property
     def all_count(self) -> bool:
@@ -57,11 +62,15 @@ class Constants:
 
 @dataclass(frozen=True)
 class Layout:
-    """How many constants of each kind a model has: switches, discrete variables, closures, entries of D; 1 for `moves`."""
+    """How many constants of each kind a model has: switches, discrete variables, closures, those of parts, entries of D.
+
+    `moves` is 1 where the projection may move.
+    """
 
     switches: int
     discretes: int
     closures: int
+    parts: int
     moves: int
     D: int
 
@@ -69,16 +78,25 @@ class Layout:
         """Return constants with which all closures count, without D, from switches and discrete variables."""
         switches, discretes = np.split(head, [self.switches])
         return Constants(
-            switches, discretes, np.ones(self.closures), False if self.moves else None, np.ones(self.D), feedback
+            switches,
+            discretes,
+            np.ones(self.closures),
+            np.eye(self.parts),
+            False if self.moves else None,
+            np.ones(self.D),
+            feedback,
         )
 
     def constants(self, vector: np.ndarray) -> Constants:
         """Return the constants in a vector."""
         head = self.switches + self.discretes
-        first = head + self.closures + self.moves
+        first = head + self.closures + self.parts**2 + self.moves
         closures, D = self.closures_of(vector), vector[first:-1]
+        shares = vector[head + self.closures : first - self.moves].reshape(self.parts, self.parts).T
         moves = bool(vector[first - 1]) if self.moves else None
-        return Constants(vector[: self.switches], vector[self.switches : head], closures, moves, D, float(vector[-1]))
+        return Constants(
+            vector[: self.switches], vector[self.switches : head], closures, shares, moves, D, float(vector[-1])
+        )
 
     def closures_of(self, vectors: np.ndarray) -> np.ndarray:
         """Return which closures count, in the last dimension, from vectors of constants."""

@@ -27,7 +27,7 @@ class Initial:
 
 @dataclass(frozen=True)
 class FlatClosure:
-    """A residual that closes a loop.
+    """A residual that closes a loop, or a constraint that a part states.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class FlatClosure:
     dual : casadi.SX
         Flow that works on it, undetermined where the residual is redundant.
     loop : int
-        Number of its loop.
+        Number of its loop, -1 for a constraint of a part.
     statement : int
         Number of the equation of arrays that it is an entry of: these have one unit.
     """
@@ -214,10 +214,15 @@ class FlatDiscontinuities:
 
 @dataclass(frozen=True)
 class FlatLoops:
-    """Loops that are cut, and the residuals that close them."""
+    """Loops that are cut, the residuals that close them, and the constraints that parts state."""
 
     cuts: tuple[Loop, ...]
     closures: tuple[FlatClosure, ...]
+
+    @property
+    def of_parts(self) -> list[int]:
+        """Places of the constraints of parts among the closures."""
+        return [k for k, closure in enumerate(self.closures) if closure.loop < 0]
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from acausal.flatten import FlatModel
 from acausal.language.functions import feedback
 from acausal.reduce.explicit import solve_explicit
 from acausal.structure import Plan
-from acausal.symbols import stacked
+from acausal.symbols import scalars, stacked
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,8 @@ class Projections:
     constraints : casadi.SX
         Residuals of the constraints at all their levels, without the projection: coordinates are what is integrated.
     choice : casadi.SX
-        Numbers that are chosen when values are known: for each closure 1 if it is not redundant; 1 if D moves with the
+        Numbers that are chosen when values are known: for each closure 1 if it is not redundant; for each constraint of a
+        part how much of what works on each of them counts in its place where it is; 1 if D moves with the
         constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
         `acausal.structure.constraints`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
@@ -89,9 +90,17 @@ def constrain(
 
 
 def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
-    """Give each closure a symbol, 1 where it counts, 0 where it is redundant: the flow that works on it is 0 then."""
+    """Give each closure a symbol, 1 where it counts, 0 where it is redundant: the flow that works on it is 0 then.
+
+    In place of a redundant constraint of a part a sum of what works on all of them is 0, over symbols that follow.
+    """
     duals = {c.row: c.dual for c in flat.loops.closures}
     counts = {row: ca.SX.sym(f"s{k}") for k, row in enumerate(duals)}
+    own = [flat.loops.closures[k] for k in flat.loops.of_parts]
+    shares = ca.SX.sym("share", len(own), len(own))
+    if own:
+        sums = ca.mtimes(shares, ca.vertcat(*[c.dual for c in own]))
+        duals.update(zip([c.row for c in own], scalars(sums), strict=True))
     for constraint in plan.constrained.constraints:
         on = counts.get(constraint.base)
         if on is None:
@@ -99,7 +108,7 @@ def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: lis
         for row, multiplier in zip(constraint.rows, constraint.multipliers, strict=True):
             residuals[row] = on * residuals[row] + (1 - on) * elements[multiplier]
         residuals[constraint.top] = on * residuals[constraint.top] + (1 - on) * duals[constraint.base]
-    return list(counts.values())
+    return [*counts.values(), *scalars(ca.vec(shares))]
 
 
 def _bare(

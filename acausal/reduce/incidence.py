@@ -96,7 +96,11 @@ def _closures(flat: FlatModel) -> dict[int, tuple[int, ...]]:
     if not flat.loops.closures:
         return {}
     index = {s.element_hash(): k for k, s in enumerate(scalars(flat.unknowns.symbols))}
+    # Constraints of parts that follow from one another share what works on them.
+    shared = ca.vertcat(*[flat.loops.closures[k].dual for k in flat.loops.of_parts])
     return {
-        c.row: tuple(index[s.element_hash()] for s in ca.symvar(c.dual) if s.element_hash() in index)
+        c.row: tuple(
+            index[s.element_hash()] for s in ca.symvar(c.dual if c.loop >= 0 else shared) if s.element_hash() in index
+        )
         for c in flat.loops.closures
     }

@@ -28,6 +28,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.kept import refitted
 from acausal.solve.start.loop_states import choose_projection, chosen, least_cosine, suits, worn
 from acausal.solve.start.newton import algebraic
+from acausal.solve.start.shares import shared
 
 
 class Integrator:
@@ -130,6 +131,7 @@ class Integrator:
             return at
         self.trace.choices += 1
         there = replace(at, constants=constants)
+        there = replace(there, constants=shared(self.problem, there))
         there = replace(there, constants=choose_projection(self.problem, there, spare=False, moves=True))
         return algebraic(self.problem, self.problem.completed(there))
 

@@ -19,6 +19,7 @@ from acausal.solve.start.loops import close, refuse_open_loops
 from acausal.solve.start.newton import InitialSystem
 from acausal.solve.start.rank import factored, is_regular, null_space, outside, pivots, rank
 from acausal.solve.start.redundancy import Redundancy, find_redundancy
+from acausal.solve.start.shares import shared
 from acausal.solve.start.words import missing_text
 
 LOOPS = POLICY.loops
@@ -40,6 +41,7 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, 
     counts = np.array([k not in redundancy.dropped for k in closures], dtype=float)
     closed = replace(closed, constants=replace(closed.constants, closures=counts))
     closed = replace(closed, constants=refitted(problem, closed))
+    closed = replace(closed, constants=shared(problem, closed))
     left = {k for k, on in zip(closures, closed.constants.closures, strict=True) if not on}
     redundancy = replace(redundancy, dropped=tuple(sorted(left | set(redundancy.dropped) - set(closures))))
     return replace(closed, constants=choose_projection(problem, closed, spare=False, moves=True)), redundancy
