@@ -18,7 +18,7 @@ from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
-from acausal.solve.checks.meeting import first_meeting
+from acausal.solve.checks.departed import first_refusal
 from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
@@ -82,7 +82,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     # A run costs what it costs, whichever run before it left its beginning.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
     done.integrator.trace.building = building + at_first - made
-    met = None if isinstance(done.failure, KeyboardInterrupt) else first_meeting(done.integrator, done.first)
+    met = None if isinstance(done.failure, KeyboardInterrupt) else first_refusal(done.integrator, done.first)
     if met:
         done.integrator.trace.cut(met.time)
     result = _result(done, plan, _counted(done, plan, task, seconds), task.energy)

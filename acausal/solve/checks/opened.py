@@ -25,7 +25,8 @@ def opened(consistent: Consistent, rows: Rows) -> list[str]:
     if not c.closures:
         return []
     some = rows[spread(len(rows), POLICY.loops.seen)]
-    dropped = np.flatnonzero(np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0)).tolist()
+    off = np.any(problem.compiled.layout.closures_of(some.constants) == 0, axis=0)
+    dropped = [k for k in np.flatnonzero(off).tolist() if flat.loops.closures[k].loop >= 0]
     if not dropped:
         return []
     some, _ = consistent(some)
