@@ -68,6 +68,7 @@ def report(reduced: ReducedModel, local: ca.Function, found: AtStart, seconds: M
         "structural_zeros": list(flat.parameters.structural_zeros),
         "loops": loops_at(reduced, found),
         "redundant_constraints": [str(o) for o in flat.equations.redundant if o.kind.startswith("connection of")],
+        "redundant_in_parts": parts_at(reduced, found),
         "independent_states": list(found.independent),
         "break_switches": len(flat.discontinuities.switches),
         "core_missing": why_not(),
@@ -91,6 +92,8 @@ def summary(r: Mapping[str, Any]) -> str:
         f"  exact zeros   {_list(r['structural_zeros'])}",
     ]
     lines += [f"  {loop['kind']:14}{_tell(loop)}" for loop in r["loops"]]
+    if r["redundant_in_parts"]:
+        lines.append(f"  redundant     {_redundant(r['redundant_in_parts'])}")
     if r["independent_states"]:
         lines.append(
             f"  independent   {_list(r['independent_states'])}: the other states follow from the loops; chosen by "
@@ -129,6 +132,19 @@ def loops_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
     return found
 
 
+def parts_at(reduced: ReducedModel, at_start: AtStart) -> list[dict[str, Any]]:
+    """Return the redundant constraints that parts state, and what works on them."""
+    flat = reduced.flat
+    dropped = [flat.loops.closures[k] for k in sorted(at_start.dropped) if flat.loops.closures[k].loop < 0]
+    return [
+        *[{"constraint": str(origin), "undetermined": []} for origin in flat.loops.folded],
+        *[
+            {"constraint": str(flat.equations.origins[c.row]), "undetermined": _flows(flat.unknowns, [c])}
+            for c in dropped
+        ],
+    ]
+
+
 def _flows(unknowns: FlatUnknowns, closures: list[FlatClosure]) -> list[str]:
     """Names of the flows that work on closures."""
     if not closures:
@@ -151,6 +167,12 @@ def _tell(loop: dict[str, Any]) -> str:
     if loop["singular_start"]:
         text += "; the start is a singular position: all constraints are kept, the velocity selects the branch"
     return text
+
+
+def _redundant(found: list[dict[str, Any]]) -> str:
+    text = f"{_list([one['constraint'] for one in found])}: dropped, as what they say follows from other constraints"
+    flows = list(dict.fromkeys(name for one in found for name in one["undetermined"]))
+    return text + (f"; undetermined, and shared with the other constraints by least norm: {_list(flows)}" if flows else "")
 
 
 def _list(names: list[str]) -> str:

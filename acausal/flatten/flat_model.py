@@ -214,10 +214,11 @@ class FlatDiscontinuities:
 
 @dataclass(frozen=True)
 class FlatLoops:
-    """Loops that are cut, the residuals that close them, and the constraints that parts state."""
+    """Loops that are cut, the residuals that close them and the constraints that parts state; `folded` became 0 = 0 of these."""
 
     cuts: tuple[Loop, ...]
     closures: tuple[FlatClosure, ...]
+    folded: tuple[Origin, ...] = ()
 
     @property
     def of_parts(self) -> list[int]:

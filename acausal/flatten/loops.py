@@ -54,8 +54,11 @@ def loops_of(
     for c in raw.equations.closures:
         if c.cut is not None:
             own[number[id(c.cut)]].append(c)
+    origins = raw.equations.scalar_origins()
     return FlatLoops(
-        tuple(_loop(raw, redundant, values, flows, *both) for both in zip(cuts, own, strict=True)), closures
+        tuple(_loop(raw, redundant, values, flows, *both) for both in zip(cuts, own, strict=True)),
+        closures,
+        tuple(origins[c.row] for c in raw.equations.closures if c.cut is None and c.row in redundant),
     )
 
 

@@ -92,14 +92,15 @@ class _Text:
         """Return what is chosen of closed loops: redundant closures do not count, D moves with the constraints."""
         compiled, layout = self.compiled, self.compiled.layout
         span = float(POLICY.loops.feedback)
-        closures = np.ones(layout.closures)
+        closures, shares = np.ones(layout.closures), np.eye(layout.parts)
         if layout.closures:
             try:
-                found = start(Problem(compiled, self.p, span), 0.0, 0.0, "guesses").found(compiled)
-                closures[list(found.dropped)] = 0.0
+                found = start(Problem(compiled, self.p, span), 0.0, 0.0, "guesses")
+                closures[list(found.found(compiled).dropped)] = 0.0
+                shares = found.point.constants.shares
             except AcausalError:
                 pass  # it starts with other values of parameters: all closures count until then
-        return [*closures.tolist(), *[1.0] * (layout.moves + layout.D), span]
+        return [*closures.tolist(), *shares.T.ravel().tolist(), *[1.0] * (layout.moves + layout.D), span]
 
     def whole(self) -> str:
         """Return the model."""

@@ -46,7 +46,7 @@ FIELDS: dict[type, str] = {
     FlatEquations: "residuals origins defines initial redundant",
     FlatParameters: "symbols names values weighing limits bound structural_zeros",
     FlatDiscontinuities: "switches guards discretes continuous promises",
-    FlatLoops: "cuts closures",
+    FlatLoops: "cuts closures folded",
     FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
     Guard: "condition origin jumps at_start",
     Jump: "target value discrete",
