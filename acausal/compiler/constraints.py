@@ -38,6 +38,8 @@ class Constraints:
         Whether a residual is one of these.
     closures : list of int
         Constraint of each closure.
+    of_loops : list of int
+        Those that close loops.
     kinds : array of int
         Residuals that are entries of one equation, or the same time derivative of it, have one number.
     places : list of int
@@ -64,6 +66,7 @@ class Constraints:
         place = {c.base: k for k, c in enumerate(constrained.constraints)}
         # Without projections all equations that close loops are solved as they are.
         self.closures = [place[c.row] for c in reduced.flat.loops.closures if place]
+        self.of_loops = [k for k, c in zip(self.closures, reduced.flat.loops.closures, strict=False) if c.loop >= 0]
         said = {place[c.row]: c.statement for c in reduced.flat.loops.closures if place}
         kinds = [(said.get(k, -1 - k), level) for k, rows in enumerate(self.rows) for level in range(len(rows))]
         self.kinds = np.unique(np.array(kinds).reshape(-1, 2), axis=0, return_inverse=True)[1].ravel()

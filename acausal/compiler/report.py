@@ -172,7 +172,9 @@ def _tell(loop: dict[str, Any]) -> str:
 def _redundant(found: list[dict[str, Any]]) -> str:
     text = f"{_list([one['constraint'] for one in found])}: dropped, as what they say follows from other constraints"
     flows = list(dict.fromkeys(name for one in found for name in one["undetermined"]))
-    return text + (f"; undetermined, and shared with the other constraints by least norm: {_list(flows)}" if flows else "")
+    return text + (
+        f"; undetermined, and shared with the other constraints by least norm: {_list(flows)}" if flows else ""
+    )
 
 
 def _list(names: list[str]) -> str:

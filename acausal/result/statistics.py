@@ -65,8 +65,8 @@ class Statistics(Mapping[str, Any]):
         Instants in s, the last where a larger tolerance was needed.
     events : int
         Number of events.
-    loops, independent_states
-        What the ranks of loops showed at the start; found when they are first read.
+    loops, redundant_in_parts, independent_states
+        What the ranks of loops, and of constraints that parts state, showed at the start; found when they are first read.
     doubts : list of str
         What was used outside its range.
     stopped : str
@@ -109,6 +109,7 @@ class Statistics(Mapping[str, Any]):
     events: int = 0
     event_times: list[float] = field(default_factory=list)
     loops: Later[list[dict[str, Any]]] = Later(list)
+    redundant_in_parts: Later[list[dict[str, Any]]] = Later(list)
     independent_states: Later[list[str]] = Later(list)
     doubts: list[str] = field(default_factory=list)
     operations: int | None = None

@@ -116,7 +116,7 @@ class Problem:
     def sized(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
         """Return the sizes of the residuals, and which of them no state changes by more than rounding."""
         own, c = lengths(self.gradients(at)), self.compiled.constraints
-        forces = [row for k, rows in enumerate(c.rows) if k not in c.closures for row in rows]
+        forces = [row for k, rows in enumerate(c.rows) if k not in c.of_loops for row in rows]
         if forces:
             # Where a force has no direction its gradient is very large, but not beside it.
             away = np.random.default_rng(0).standard_normal(self.nx) * self.nominal[: self.nx]

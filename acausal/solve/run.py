@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import making
-from acausal.compiler.report import loops_at
+from acausal.compiler.report import loops_at, parts_at
 from acausal.errors import DeclarationError, SimulationError, caution
 from acausal.policy import POLICY
 from acausal.result import Result
@@ -246,6 +246,7 @@ def _counted(done: _Done, plan: _Plan, task: Task, seconds: float) -> Statistics
         events=len(done.course.events),
         event_times=done.course.events,
         loops=lambda: loops_at(compiled.reduced, begun.found(compiled)),
+        redundant_in_parts=lambda: parts_at(compiled.reduced, begun.found(compiled)),
         independent_states=lambda: list(begun.independent),
     )
 
@@ -258,8 +259,7 @@ def _result(done: _Done, plan: _Plan, stats: Statistics, energy: bool) -> Result
     output = rows if whole else rows[np.searchsorted(rows.times, times[times <= rows.times[-1]])]
     evaluate = Evaluator(output, integrator.consistent)
     found = doubts(evaluate) + broken_promises(integrator, evaluate)
-    dropped = done.begun.redundancy.dropped
-    found += locked(integrator.problem, done.begun.point, dropped)
+    found += locked(integrator.problem, done.begun.point, done.begun.redundancy.dropped)
     found += opened(integrator.consistent, rows) + done.course.idle()
     stats = stats.changed(doubts=[*found, *_loosened(integrator), *_flat(integrator)])
     if energy:

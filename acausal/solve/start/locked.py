@@ -41,7 +41,8 @@ def locked(problem: Problem, at: Point, dropped: tuple[int, ...]) -> list[str]:
         entries = problem.gradients(at).data[held.entries]
         rows = part.dense(entries)[np.isin(part.rows, kept)] / problem.sizes(at)[c.lowest[kept], None]
         least = float(np.linalg.svd(rows, compute_uv=False)[len(part.columns) - 1])
-        loop = next((flat.loops.closures[k].loop for k, row in enumerate(c.closures) if row in kept), None)
+        own = (flat.loops.closures[k].loop for k, row in enumerate(c.closures) if row in kept and row in c.of_loops)
+        loop = next(own, None)
         if RANKS.rank < least <= RANKS.locked and loop is not None:
             cut = flat.loops.cuts[loop]
             through = f" through {', '.join(cut.parts)}" if cut.parts else ""

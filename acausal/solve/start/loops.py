@@ -161,7 +161,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
-        if k not in c.closures and np.max(gap[list(rows)]) > LOOPS.closed:
+        if k not in c.of_loops and np.max(gap[list(rows)]) > LOOPS.closed:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
     given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
     if lines and np.max(gap) > LOOPS.closed:
