@@ -201,14 +201,9 @@ class CompiledModel:
         """How many constants a segment has."""
         guards, constraints = self.guards, self.constraints
         moves = self.reduced.projections.choice.numel() > 0
-        return Layout(
-            guards.n_switches,
-            guards.n_discretes,
-            len(constraints.closures),
-            len(self.reduced.flat.loops.of_parts) if moves else 0,
-            int(moves),
-            constraints.entries.shape[1],
-        )
+        parts = len(self.reduced.flat.loops.of_parts) if moves else 0
+        counts = guards.n_switches, guards.n_discretes, len(constraints.closures), parts
+        return Layout(*counts, int(moves), constraints.entries.shape[1])
 
     @cached_property
     def guards(self) -> Guards:

@@ -109,7 +109,9 @@ class Assembly:
             equations=self._equations(left, residuals, (was, becomes)),
             parameters=self._parameters(),
             discontinuities=self.discontinuities,
-            loops=loops_of(self.raw, set(done.redundant), left.values, left.rows, residuals, self.substitutes),
+            loops=loops_of(
+                self.raw, set(done.redundant), left.values, left.rows, residuals, self.substitutes, self._rates(left)
+            ),
             energies=self.energies,
             unconnected=self.raw.graph.unconnected,
             tree=self.raw.build.root,
@@ -203,6 +205,11 @@ class Assembly:
         asked = {s.element_hash() for s in ca.symvar(column)}
         derivatives = scalars(stacked(self.chain.levels[1:]))
         return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
+
+    def _rates(self, left: _Left) -> set[int]:
+        """Hashes of the unknowns that remain and have no derivative."""
+        found = [k for k in left.unknowns if k not in self.declared and left.done.derivative[k] < 0]
+        return {s.element_hash() for s in scalars(picked(self.symbols, found))}
 
     def _unused(self, done: Simplification) -> set[int]:
         """Redundant residuals, and the substitutes of the others."""

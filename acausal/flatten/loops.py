@@ -22,6 +22,7 @@ def loops_of(
     rows: list[int],
     residuals: ca.SX,
     substitutes: dict[int, int],
+    rates: set[int],
 ) -> FlatLoops:
     """Return the loops of a model and the residuals that close them.
 
@@ -39,6 +40,8 @@ def loops_of(
         All residuals in remaining unknowns.
     substitutes : dict of int to int
         Residual that closes a loop -> row of the flow that works on it.
+    rates : set of int
+        Hashes of the unknowns without a derivative. A constraint of a part that holds one does not constrain by itself.
     """
     place = {r: n for n, r in enumerate(rows)}
     entries = scalars(residuals)
@@ -48,6 +51,7 @@ def loops_of(
         FlatClosure(place[c.row], entries[substitutes[c.row]], number.get(id(c.cut), -1), c.statement)
         for c in raw.equations.closures
         if c.row in place
+        and (c.cut is not None or rates.isdisjoint(s.element_hash() for s in ca.symvar(entries[c.row])))
     )
     flows = [(name, a.declared.flow) for a in raw.arrays for name in a.names]
     own: list[list[Closure]] = [[] for _ in cuts]
