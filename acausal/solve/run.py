@@ -18,7 +18,7 @@ from acausal.result import Result
 from acausal.result.statistics import Statistics
 from acausal.signals import Signals
 from acausal.solve.beginning import Beginning, begin
-from acausal.solve.checks.departed import first_refusal
+from acausal.solve.checks.departed import first_refusal, refuse_departure
 from acausal.solve.checks.opened import opened
 from acausal.solve.checks.promises import broken_promises
 from acausal.solve.checks.validity import doubts
@@ -77,7 +77,7 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
     """
     made, (problem, plan, beginning) = making(compiled), _begun(compiled, p, task)
     begun, at_first = clock.perf_counter(), making(compiled)
-    done = _integrated(problem, task, plan, beginning)
+    done = _integrated(problem, plan, beginning, task)
     building = done.integrator.trace.building + making(compiled) - at_first
     # A run costs what it costs, whichever run before it left its beginning.
     seconds = beginning.seconds + clock.perf_counter() - begun - building
@@ -96,10 +96,10 @@ def run(compiled: CompiledModel, p: np.ndarray, task: Task) -> Result:
 @np.errstate(all="ignore")
 def sizes_of_run(compiled: CompiledModel, p: np.ndarray, task: Task) -> np.ndarray:
     """Return the sizes of states and algebraic unknowns with which a run is accepted, or ends early; as `run` for the rest."""
-    problem, plan, beginning = _begun(compiled, p, task)
-    done = _integrated(problem, task, plan, beginning)
+    done = _integrated(*_begun(compiled, p, task), task)
     if isinstance(done.failure, KeyboardInterrupt):
         raise done.failure
+    refuse_departure(done.integrator, done.first)
     return done.integrator.settings.nominal
 
 
@@ -153,7 +153,7 @@ def _plan(problem: Problem, task: Task) -> _Plan:
     return _Plan(times, breaks, _breaks([*breaks, *found], begin, end))
 
 
-def _integrated(problem: Problem, task: Task, plan: _Plan, beginning: Beginning) -> _Done:
+def _integrated(problem: Problem, plan: _Plan, beginning: Beginning, task: Task) -> _Done:
     """Integrate, again where states turn out to be much smaller than they were taken for."""
     at, span = beginning.at, task.stop_time - task.start_time
     settings = Settings(

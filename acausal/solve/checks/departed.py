@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from acausal.errors import SimulationError
 from acausal.policy import POLICY
 from acausal.solve.checks.meeting import Meeting, first_meeting
 from acausal.solve.integrate.attempt import Integrator
@@ -15,6 +16,12 @@ def first_refusal(integrator: Integrator, first: Point) -> Meeting | None:
     """Return the first time at which points meet or constraints of parts stop holding; arguments as those of both."""
     found = (first_meeting(integrator, first), first_departure(integrator, first))
     return min(filter(None, found), key=lambda end: end.time, default=None)
+
+
+def refuse_departure(integrator: Integrator, first: Point) -> None:
+    """Raise SimulationError if constraints of parts stop holding; arguments as of `first_departure`."""
+    if found := first_departure(integrator, first):
+        raise SimulationError(found.text)
 
 
 def first_departure(integrator: Integrator, first: Point) -> Meeting | None:
