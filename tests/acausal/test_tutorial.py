@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
+PROGRAMS = {"tutorial.md": 8, "signs.md": 3}  # pages, and how many outputs they show
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 
@@ -23,7 +24,8 @@ def same(shown: str, printed: str) -> bool:
     return equal and NUMBER.sub("", texts[0]) == NUMBER.sub("", texts[1])
 
 
-@pytest.mark.parametrize(("page", "outputs"), [("tutorial.md", 8), ("signs.md", 3)])
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("page", "outputs"), PROGRAMS.items())
 def test_a_page_prints_what_it_shows(
     page: str, outputs: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
