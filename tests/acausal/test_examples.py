@@ -2,7 +2,7 @@
 
 Python blocks of a page make one program, in which each builds on those before it; it keeps the line numbers of the page.
 Indented blocks of commands run line by line. An invisible comment before a block says what else is true of it:
-`<!-- not run: why -->`, `<!-- slow: why -->`, `<!-- warns: of what -->`.
+`<!-- not run: why -->`, `<!-- warns: of what -->`, and of commands `<!-- slow: why -->`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
 INDENTED = re.compile(r"(?<=\n\n)(?:    .*\n|\n(?=    ))+")
 SETTING = re.compile(r"\w+=\S+")  # of an environment variable, before a command
 COMMAND = {"acausal": [sys.executable, "-m", "acausal"], "python": [sys.executable]}
-OTHER_PROGRAMS = {"gmsh", "fmpy", "pip"}
 # On the first line of a page, which is its heading.
 STRICT = 'import warnings; warnings.simplefilter("error")'
 
@@ -50,10 +49,9 @@ class Block:
 
     @property
     def commands(self) -> list[list[str]]:
-        """The words of its commands; none in a block that shows something else."""
-        lines = [shlex.split(line) for line in dedent(self.text).replace("\\\n", " ").splitlines()]
-        known = {*COMMAND, *OTHER_PROGRAMS}
-        return [words for words in lines if next((w for w in words if not SETTING.fullmatch(w)), None) in known]
+        """The words of each of its commands."""
+        lines = dedent(self.text).strip().replace("\\\n", " ").splitlines()
+        return [shlex.split(line) for line in lines]
 
 
 def blocks(page: Path) -> Iterator[Block]:
@@ -63,7 +61,7 @@ def blocks(page: Path) -> Iterator[Block]:
         yield _block(page, text, match.start(), match[1], match[2])
     rest = FENCED.sub(lambda match: "\n" * match[0].count("\n"), text)
     for match in INDENTED.finditer(rest):
-        if re.match(r"[\w=. ]*\b(acausal|python|gmsh|fmpy)\b", match[0]):
+        if re.match(r" +(?:\w+=\S+ )*(?:acausal|python|gmsh) ", match[0]):
             yield _block(page, rest, match.start(), "command", match[0])
 
 
@@ -82,11 +80,11 @@ COMMANDS = [
 ]
 
 
-def program(page: Path, *, slow: bool = True) -> str:
+def program(page: Path) -> str:
     """Return the Python blocks of a page at their lines; the lines of their fences set what warnings do."""
     lines = [STRICT, *[""] * page.read_text().count("\n")]
     for block in blocks(page):
-        if block.language == "python" and block.mark != "not run" and (slow or block.mark != "slow"):
+        if block.language == "python" and block.mark != "not run":
             code = block.text.splitlines()
             lines[block.line : block.line + len(code)] = code
             if block.mark == "warns":
@@ -134,9 +132,7 @@ def test_every_block_is_of_a_known_kind() -> None:
 
 @pytest.mark.parametrize("page", PYTHON_PAGES, ids=lambda page: page.name)
 def test_python_blocks_run(page: Path, tmp_path: Path) -> None:
-    file = folder(page, tmp_path)
-    file.write_text(program(page, slow=False))
-    done = run(["python", file.name], tmp_path)
+    done = run(["python", folder(page, tmp_path).name], tmp_path)
     assert done.returncode == 0, done.stderr
 
 
