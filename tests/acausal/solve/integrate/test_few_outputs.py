@@ -42,7 +42,7 @@ def steps_and_energy(model: type[Model], stop: float, outputs: int) -> tuple[int
     ("model", "stop", "few", "many"),
     [
         (SimplePendulum, 6.5e3, 100, 400),
-        (Duffing, 2.7e3, 100, 400),
+        (Duffing, 4e3, 100, 400),
         pytest.param(SimplePendulum, 3e4, 10, 10_000, marks=pytest.mark.slow),
     ],
 )
