@@ -49,7 +49,7 @@ def test_what_was_computed_is_written(
     assert 1 < len(times) < 10_000
     written = json.loads(Path("a.json").read_text())
     assert written["error"]
-    assert f"max_{name}" in written["stats"]["stopped"]
+    assert f"max_{name}" in written["stopped"]
 
 
 @NO_OPTIONS
