@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.alike import Alike
+from acausal.flatten.given import Late
 from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
@@ -63,7 +64,7 @@ class Equations:
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph, most: int, alike: Alike) -> Equations:
+def collect(components: list[Component], graph: Graph, most: int, alike: Alike, defaults: list[Late]) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
@@ -78,6 +79,7 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike) 
                     lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin
                 )
                 PENDING.get().place(origin)
+    _take_defaults(found, defaults)
     first = len(found.sides)
     for connector in graph.roots:
         _run(connector, "root_equations", found, most, alike)
@@ -86,6 +88,24 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike) 
     for balance in graph.balances:
         _balance(balance, found)
     return found
+
+
+def _take_defaults(found: Equations, defaults: list[Late]) -> None:
+    """Give inputs their defaults where no equation of what contains them has the input alone on one side."""
+    if not defaults:
+        return
+    alone: dict[int, list[str]] = {}
+    for component, rows in found.owned:
+        for side in (side for sides in found.sides[rows.start : rows.stop] for side in sides):
+            for s in scalars(side):
+                if s.is_symbolic():
+                    alone.setdefault(s.element_hash(), []).append(component._path)
+    for component, name, value, origin in defaults:
+        own = getattr(component, name)
+        stated = [path for s in scalars(own.sx) for path in alone.get(s.element_hash(), ())]
+        if not any(path == "" or component._path.startswith(f"{path}.") for path in stated):
+            with_place(lambda o=own, v=value, at=origin: found.add(equation(o, v()), at), origin)
+            PENDING.get().place(origin)
 
 
 def collect_initial(components: list[Component], most: int, alike: Alike) -> Equations:

@@ -27,6 +27,8 @@ from acausal.symbols import scalars
 from acausal.units import parse
 
 _TIME = time.sx.element_hash()
+# Component, field, what forms its value, and where it is stated.
+Late = tuple[Component, str, Callable[[], Any], Origin]
 
 
 @dataclass
@@ -61,13 +63,16 @@ class Given:
     ----------
     late : list of (Component, str, callable, Origin)
         Inputs of parts whose values may hold variables: they are formed when these exist.
+    defaults : list of (Component, str, callable, Origin)
+        Inputs of parts that have a default, likewise.
     """
 
     def __init__(self, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> None:
         self.overrides = dict(overrides or {})
         self.free, self.kept = set(free), set[str]()
         self.parameters = Parameters()
-        self.late: list[tuple[Component, str, Callable[[], Any], Origin]] = []
+        self.late: list[Late] = []
+        self.defaults: list[Late] = []
         self._open: list[tuple[Component, str]] = []
 
     def fill(self, bound: Component, owner: Component | None) -> None:
@@ -79,8 +84,11 @@ class Given:
                 if isinstance(declared, kind):
                     self._value(bound, name)
         del own["_demand"]
-        for name, declared in bound.fields.items() if bound._class_values or owner is None else ():
+        for name, declared in bound.fields.items():
             if isinstance(declared, f.Variable):
+                if owner is not None and declared.default is not f.MISSING:
+                    here = value_origin(bound, name, text=f"default of {name}")
+                    self.defaults.append((bound, name, partial(self._evaluated, bound, name, declared.default), here))
                 if name in bound._class_values and name not in own["_values"]:
                     value = own["_values"][name] = bound._class_values[name]
                     if owner is not None and takes_variables(declared, value):
@@ -174,7 +182,7 @@ class Given:
         """An input at the top of the model is a parameter, whatever its value."""
         shape = shape_of(declared, bound)
         where = f"`{name}` of {self._origin(bound, name).owner}"
-        given = self.overrides.pop(name, vars(bound)["_values"].pop(name, declared.start))
+        given = self.overrides.pop(name, vars(bound)["_values"].pop(name, self._start(bound, name, declared)))
         if is_symbolic(given):
             raise DeclarationError(
                 f"{where} is {given!r}, but an input of the whole model takes a number. A law is given where "
@@ -182,6 +190,11 @@ class Given:
             )
         value = numeric(given, shape if isinstance(given, list | tuple | np.ndarray) else (), where)
         vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit_of(declared, bound), fold=False)
+
+    def _start(self, bound: Component, name: str, declared: f.Variable) -> Any:
+        """Value of an input at the top that is not given."""
+        default = declared.default
+        return declared.start if default is f.MISSING else self._evaluated(bound, name, default)
 
     def _origin(self, bound: Component, name: str) -> Origin:
         """Where the value of a field is written."""

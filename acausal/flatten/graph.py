@@ -13,6 +13,7 @@ from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.homes import misplaced, returned
+from acausal.language.signal import CONNECTING, Wire
 from acausal.language.source import calls
 
 # The connectors of a connection set; the sign is -1 for one on the outside of its component.
@@ -42,6 +43,7 @@ class Graph:
     cuts: list[Cut]
     roots: list[Connector]
     unconnected: tuple[str, ...]
+    wires: list[tuple[Component, Wire, str]]
 
 
 def build_graph(components: list[Component]) -> Graph:
@@ -49,14 +51,17 @@ def build_graph(components: list[Component]) -> Graph:
     connects: list[tuple[Component, Connect, str]] = []
     branches: list[Branch] = []
     roots: list[Root] = []
+    wires: list[tuple[Component, Wire, str]] = []
     connectors = [c for c in components if isinstance(c, Connector)]
     own = {id(c) for c in connectors}
     for component in components:
-        for statement, origin in _statements(component):
+        for statement, origin in _connecting(component):
             if isinstance(statement, Connect | Branch | Root):
                 _refuse_strangers(statement, own, origin)
             if isinstance(statement, Connect):
                 connects.append((component, statement, origin.where))
+            elif isinstance(statement, Wire):
+                wires.append((component, statement, origin.where))
             elif isinstance(statement, Branch):
                 branches.append(statement)
             elif isinstance(statement, Root):
@@ -79,7 +84,16 @@ def build_graph(components: list[Component]) -> Graph:
     groups.sort(key=lambda group: order[id(group[0])])
     joined = {id(port) for _, statement, _ in connects for port in (statement.a, statement.b)}
     alone = tuple(c._path for c in connectors if id(c) not in joined and c._owner is not None)
-    return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone)
+    return Graph(groups, _balances(connectors, connects, order), cuts, chosen, alone, wires)
+
+
+def _connecting(component: Component) -> list[tuple[Any, Origin]]:
+    """Return the statements of a component; meanwhile its inputs and outputs, and those of its parts, are signals."""
+    token = CONNECTING.set(True)
+    try:
+        return list(_statements(component))
+    finally:
+        CONNECTING.reset(token)
 
 
 def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:

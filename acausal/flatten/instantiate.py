@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.family import enter_family, no_part
-from acausal.flatten.given import Given, owner_text, takes_variables
+from acausal.flatten.given import Given, Late, owner_text, takes_variables
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
@@ -64,11 +64,16 @@ class Instantiation:
             if isinstance(declared, f.Structural | f.Parameter)
         ]
 
-    def give_inputs(self) -> None:
+    def give_inputs(self, connected: list[Late]) -> None:
         """Give the inputs of parts their values, now that the variables exist which these may hold."""
-        for bound, name, value, origin in self._given.late:
+        for bound, name, value, origin in (*self._given.late, *connected):
             vars(bound)["_values"][name] = with_place(value, origin)
             PENDING.get().place(origin)
+
+    @property
+    def defaults(self) -> list[Late]:
+        """Inputs of parts with a default that are not given; an equation of what contains the part may give them."""
+        return [entry for entry in self._given.defaults if entry[1] not in entry[0]._values]
 
     def _build(self, template: Component, path: str, owner: Component | None) -> Component:
         cls = type(template)

@@ -19,6 +19,7 @@ from acausal.flatten.discontinuities import Discrete, create_discretes, discrete
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
+from acausal.flatten.signals import given_by_connections
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
@@ -67,12 +68,12 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         pending.varying = pending.discrete | index.keys()
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
-        build.give_inputs()
+        build.give_inputs(given_by_connections(graph.wires))
         # Far more statements than any component needs, few enough to count them quickly.
         most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
         alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
-        equations = collect(components, graph, most, alike)
+        equations = collect(components, graph, most, alike, build.defaults)
         add_constraints(equations, index, variables, pending.derivatives)
         starts = collect_initial(components, most, alike)
         declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES))]

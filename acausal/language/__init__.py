@@ -9,9 +9,7 @@ from acausal.language.connection import branch, chain, connect, in_loop, is_root
 from acausal.language.declare import (
     discrete,
     effect,
-    fixed,
     flow,
-    guess,
     input,
     observed,
     outer,
@@ -48,6 +46,7 @@ from acausal.language.functions import (
     tanh,
     time,
 )
+from acausal.language.initial_values import fixed, guess
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import TWINS
 from acausal.language.twins import twins

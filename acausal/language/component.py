@@ -15,6 +15,7 @@ from acausal.language.body import read_body
 from acausal.language.docstring import with_parameters
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
+from acausal.language.signal import CONNECTING, Signal
 from acausal.language.slips import SETTINGS
 from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
 
@@ -108,6 +109,8 @@ class Component(f.Template):
             return Path(name, member)
         if self._demand is not None and isinstance(member, f.Structural | f.Parameter):
             return self._demand(name)
+        if isinstance(member, f.Variable) and member.causality in ("input", "output") and CONNECTING.get():
+            return Signal(self, name, member.causality)
         when = "equations() only" if isinstance(member, f.Variable) else "connections() and equations()"
         raise AttributeError(
             f"{self!r} does not have its `{name}` yet: it exists in {when}. What contains it belongs there."

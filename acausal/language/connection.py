@@ -9,9 +9,11 @@ from typing import Any
 from acausal.errors import ConnectError
 from acausal.language.arguments import told
 from acausal.language.component import Component, Connector
+from acausal.language.expression import Expr
 from acausal.language.fields import Field
 from acausal.language.functions import PENDING
 from acausal.language.path import Path
+from acausal.language.signal import Signal, Wire
 
 NOTHING = (
     "A port that an option adds is None without it: give the part that option, such as Revolute(use_axis_flange=True)."
@@ -43,14 +45,16 @@ class Root:
 
 
 @told
-def connect(a: Any, b: Any) -> Connect:
-    """Join two ports: potentials become equal, flows sum to zero.
+def connect(a: Any, b: Any) -> Connect | Wire:
+    """Join two ports: potentials become equal, flows sum to zero. Or give an output to an input.
 
     Raises
     ------
     ConnectError
-        If one of them is not a port, or their classes differ.
+        If one of them is neither a port nor a signal, or their classes differ.
     """
+    if any(isinstance(end, Signal) for end in (a, b)) and all(isinstance(end, Signal | Expr) for end in (a, b)):
+        return Wire(a, b)
     for port in (a, b):
         _port(port, "connect")
     if type(a) is not type(b):
@@ -63,7 +67,7 @@ def connect(a: Any, b: Any) -> Connect:
 
 
 @told
-def chain(*items: Any) -> list[Connect]:
+def chain(*items: Any) -> list[Connect | Wire]:
     """Join each part's second end to the next one's first end.
 
     Parameters

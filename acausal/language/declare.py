@@ -11,7 +11,6 @@ from acausal.language.fields import (
     DEFAULT,
     MISSING,
     Family,
-    InitialValue,
     Observed,
     Outer,
     Parameter,
@@ -20,34 +19,6 @@ from acausal.language.fields import (
     Structural,
     Variable,
 )
-
-
-@told
-def fixed(value: Any, *, nominal: Any = None) -> Any:
-    """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
-
-    Parameters
-    ----------
-    value : float, sequence or parameter
-        Value of the variable at the start time, in its unit and shape.
-    nominal : float or array, optional
-        Typical size of the variable, in its unit.
-    """
-    return InitialValue(value, True, nominal)
-
-
-@told
-def guess(value: Any, *, nominal: Any = None) -> Any:
-    """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
-
-    Parameters
-    ----------
-    value : float, sequence or parameter
-        Guess in the unit and shape of the variable.
-    nominal : float or array, optional
-        Typical size of the variable, in its unit.
-    """
-    return InitialValue(value, False, nominal)
 
 
 @told
@@ -221,9 +192,20 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
 
 
 @told
-def input(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0, doc: str = "") -> Any:
-    """Declare an input: given by the constructor or by an equation of the parent; free at the top of the model."""
-    return Variable(description, unit, shape, start=start, causality="input", doc=doc)
+def input(
+    description: str,
+    *,
+    unit: str | None = None,
+    shape: Shape = None,
+    start: Any = 0.0,
+    default: Any = MISSING,
+    doc: str = "",
+) -> Any:
+    """Declare an input: given by the constructor, by connect() or by an equation of what contains it, else its default.
+
+    At the top of the model it is a number that may change from run to run, `default`, or else `start`, if not given.
+    """
+    return Variable(description, unit, shape, default, start=start, causality="input", doc=doc)
 
 
 @told

@@ -16,7 +16,6 @@ from acausal import (
     fixed,
     flow,
     guess,
-    input,
     observed,
     output,
     parameter,
@@ -199,8 +198,8 @@ def start_of_an_output(repaired):
     built(v0=parameter("v", default=1) if repaired else output("v", start=1))
 
 
-def default_of_an_input(repaired):
-    built(u=input("u", start=1) if repaired else input("u", default=1))
+def default_of_an_output(repaired):
+    built(y=output("y", nominal=1) if repaired else output("y", default=1))
 
 
 def start_of_a_parameter(repaired):
