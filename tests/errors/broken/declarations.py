@@ -198,10 +198,6 @@ def start_of_an_output(repaired):
     built(v0=parameter("v", default=1) if repaired else output("v", start=1))
 
 
-def default_of_an_output(repaired):
-    built(y=output("y", nominal=1) if repaired else output("y", default=1))
-
-
 def start_of_a_parameter(repaired):
     built(k=parameter("k", default=1) if repaired else parameter("k", start=1))
 
