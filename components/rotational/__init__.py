@@ -12,6 +12,7 @@ from components.rotational.constant_torque import ConstantTorque
 from components.rotational.cut_sensor import CutSensor
 from components.rotational.damper import Damper
 from components.rotational.disc import Disc
+from components.rotational.eddy_current_torque import EddyCurrentTorque
 from components.rotational.elasto_backlash import ElastoBacklash
 from components.rotational.elasto_backlash2 import ElastoBacklash2
 from components.rotational.fixed import Fixed
@@ -19,6 +20,7 @@ from components.rotational.friction import Friction
 from components.rotational.ideal_gear import IdealGear
 from components.rotational.ideal_planetary import IdealPlanetary
 from components.rotational.inertia import Inertia
+from components.rotational.initialize_flange import InitializeFlange
 from components.rotational.inverse_speed_dependent_torque import InverseSpeedDependentTorque
 from components.rotational.linear_speed_dependent_torque import LinearSpeedDependentTorque
 from components.rotational.loading_torque import LoadingTorque
@@ -58,6 +60,7 @@ __all__ = [
     "CutSensor",
     "Damper",
     "Disc",
+    "EddyCurrentTorque",
     "ElastoBacklash",
     "ElastoBacklash2",
     "Fixed",
@@ -68,6 +71,7 @@ __all__ = [
     "IdealPlanetary",
     "IdealRollingWheel",
     "Inertia",
+    "InitializeFlange",
     "InverseSpeedDependentTorque",
     "LinearSpeedDependentTorque",
     "LoadingTorque",

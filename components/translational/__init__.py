@@ -8,6 +8,7 @@ from components.translational.constant_force import ConstantForce
 from components.translational.constant_speed import ConstantSpeed
 from components.translational.cut_sensor import CutSensor
 from components.translational.damper import Damper
+from components.translational.eddy_current_force import EddyCurrentForce
 from components.translational.elasto_gap import ElastoGap
 from components.translational.fixed import Fixed
 from components.translational.flange import TranslationalFlange, TwoFlanges
@@ -17,6 +18,7 @@ from components.translational.force_sensor import ForceSensor
 from components.translational.force_step import ForceStep
 from components.translational.ideal_gear_r2t import IdealGearR2T
 from components.translational.ideal_rolling_wheel import IdealRollingWheel
+from components.translational.initialize_flange import InitializeFlange
 from components.translational.inverse_speed_dependent_force import InverseSpeedDependentForce
 from components.translational.linear_speed_dependent_force import LinearSpeedDependentForce
 from components.translational.loading_force import LoadingForce
@@ -34,12 +36,14 @@ from components.translational.relative_sensor import RelativeSensor
 from components.translational.relative_states import RelativeStates
 from components.translational.rigid import Rigid
 from components.translational.rod import Rod
+from components.translational.rolling_resistance import RollingResistance
 from components.translational.rotational_to_translational import RotationalToTranslational
 from components.translational.sign_force import SignForce
 from components.translational.speed import Speed
 from components.translational.speed_sensor import SpeedSensor
 from components.translational.spring import Spring
 from components.translational.spring_damper import SpringDamper
+from components.translational.vehicle import Vehicle
 
 __all__ = [
     "AbsoluteSensor",
@@ -50,6 +54,7 @@ __all__ = [
     "ConstantSpeed",
     "CutSensor",
     "Damper",
+    "EddyCurrentForce",
     "ElastoGap",
     "Fixed",
     "Force",
@@ -58,6 +63,7 @@ __all__ = [
     "ForceStep",
     "IdealGearR2T",
     "IdealRollingWheel",
+    "InitializeFlange",
     "InverseSpeedDependentForce",
     "LinearSpeedDependentForce",
     "LoadingForce",
@@ -75,6 +81,7 @@ __all__ = [
     "RelativeStates",
     "Rigid",
     "Rod",
+    "RollingResistance",
     "RotationalToTranslational",
     "SignForce",
     "Speed",
@@ -83,4 +90,5 @@ __all__ = [
     "SpringDamper",
     "TranslationalFlange",
     "TwoFlanges",
+    "Vehicle",
 ]

@@ -132,6 +132,12 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.InverseSpeedDependentTorque": gears.OnInverseTorque,
     "rotational.ConstantSpeed": gears.OnConstantSpeed,
     "rotational.Accelerate": gears.OnAccelerate,
+    "rotational.EddyCurrentTorque": gears.OnEddyCurrentTorque,
+    "rotational.InitializeFlange": gears.OnInitializeFlange,
+    "translational.EddyCurrentForce": rods.OnRodEddyCurrentForce,
+    "translational.RollingResistance": rods.OnRodRollingResistance,
+    "translational.Vehicle": rods.OnRodVehicle,
+    "translational.InitializeFlange": rods.OnRodInitializeFlange,
     "rotational.RelativeStates": gears.OnRelativeStates,
     "rotational.AngleSensor": gears.OnAngleSensor,
     "rotational.SpeedSensor": gears.OnSpeedSensor,
@@ -241,7 +247,9 @@ SUPPLYING |= {
 }
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
-DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2"}
+DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}
+DISSIPATING |= {f"translational.{name}" for name in ("EddyCurrentForce", "RollingResistance", "Vehicle")}
+SUPPLYING |= {"translational.Vehicle"}
 SUPPLYING |= {f"rotational.{name}" for name in ("Torque2", "ConstantTorque", "TorqueStep", "SignTorque")}
 SUPPLYING |= {f"rotational.{kind}SpeedDependentTorque" for kind in ("Linear", "Quadratic", "Inverse")}
 SUPPLYING |= {"rotational.ConstantSpeed", "rotational.Accelerate"}
@@ -384,6 +392,10 @@ DIMENSIONLESS = {
     ("LineForceWithMass", "length_fraction"),
     ("MassOnLine", "length_fraction"),
     ("Spring", "length_fraction"),
+    *[("RollingResistance", name) for name in ("cr", "cr_constant", "inclination", "inclination_constant")],
+    *[("Vehicle", name) for name in ("Cd", "cr", "cr_constant", "inclination", "inclination_constant")],
+    ("EddyCurrentForce", "excitation"),
+    ("EddyCurrentTorque", "excitation"),
     ("IdealGear", "ratio"),
     ("BevelGear1D", "ratio"),
     ("GearConstraint", "ratio"),

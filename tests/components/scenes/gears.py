@@ -192,3 +192,17 @@ class OnDisc(Cut):
     @part
     def it(self):
         return r.Disc(delta_phi=-0.3 if self.turned else 0.3)
+
+
+class OnEddyCurrentTorque(Shaft):
+    it = r.EddyCurrentTorque(tau_nominal=0.5, w_nominal=2.0)
+
+
+class OnInitializeFlange(WithRotor):
+    rotor = r.Inertia(J=0.05)
+    it = r.InitializeFlange(phi_start=0.1, w_start=-1.0, use_a_start=False)
+    spring = r.Spring(c=8.0)
+
+    def drive(self):
+        yield chain(self.joint.axis, self.spring, self.rotor)
+        yield connect(self.rotor.flange_b, self.it.flange)

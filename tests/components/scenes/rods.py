@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal import chain, connect, cos, fixed, part, sin, structural, time
-from components import Body, Prismatic
+from components import Body, Prismatic, rotational
 from components import translational as t
 from tests.components.scenes.scene import OnSpherical
 
@@ -229,3 +229,36 @@ class OnRodPowerSensor(Cut):
 
 class OnRodMultiSensor(Cut):
     it = t.MultiSensor()
+
+
+class OnRodEddyCurrentForce(Rail):
+    it = t.EddyCurrentForce(f_nominal=5.0, v_nominal=0.4)
+
+
+class OnRodRollingResistance(Rail):
+    it = t.RollingResistance(f_weight=80.0, cr_constant=0.05, inclination=0.2 * sin(time), v0=0.3, reg="linear")
+
+
+class OnRodVehicle(Rail):
+    """The vehicle is pulled by the joint, and drives a rotor on a shaft."""
+
+    it = t.Vehicle(
+        m=3.0, J=0.02, R=0.2, A=0.8, Cd=0.9, v_wind_constant=-4.0, v_reg=0.05, inclination=0.3 * sin(5 * time)
+    )
+    rotor, shaft = rotational.Inertia(J=0.01, phi=fixed(1.5), w=fixed(1.0)), rotational.Spring(c=2.0)
+
+    def drive(self):
+        yield connect(self.slide.axis, self.it.flange_t)
+        yield chain(self.it.flange_r, self.shaft, self.rotor)
+
+
+class OnRodInitializeFlange(WithMass):
+    """The start of the mass is given where it is measured."""
+
+    mass = t.Mass(m=0.8)
+    it = t.InitializeFlange(s_start=0.1, v_start=-1.0, use_a_start=False)
+    spring = t.Spring(c=80.0)
+
+    def drive(self):
+        yield chain(self.slide.axis, self.spring, self.mass)
+        yield connect(self.mass.flange_b, self.it.flange)
