@@ -104,7 +104,7 @@ class Component(f.Template):
                 return object.__getattribute__(self, name)  # raises what is wrong
             return Path(name, None)
 
-    def _member_path(self, name: str, member: Any) -> Path:
+    def _member_path(self, name: str, member: Any) -> Any:
         if not self._is_bound:
             return Path(name, member)
         if self._demand is not None and isinstance(member, f.Structural | f.Parameter):
