@@ -23,7 +23,7 @@ from models import FlexiblePendulum, SliderCrank, SpinUp
 )
 @pytest.mark.parametrize(
     "model",
-    [SpinUp(volumes=20), FlexiblePendulum(), SliderCrank(rod_volumes=4)],
+    [SpinUp(volumes=8), FlexiblePendulum(), SliderCrank(crank="rigid")],
     ids=lambda model: type(model).__name__,
 )
 def test_small_tolerances_invert_no_matrix(model: Model, monkeypatch: pytest.MonkeyPatch) -> None:
