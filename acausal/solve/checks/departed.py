@@ -64,14 +64,13 @@ def _text(integrator: Integrator, rows: Rows, place: int, watched: list[int]) ->
     flat = integrator.compiled.reduced.flat
     broken = _broken(integrator, rows, place, watched)
     time = float(rows.times[place])
-    lines = [f"  {flat.equations.origins[flat.loops.closures[k].row]}: off by {size:.2g}" for k, size in broken]
-    one = len(lines) == 1
+    lines = [f"  {flat.equations.origins[flat.loops.closures[k].row]}: violated by {size:.2g}" for k, size in broken]
+    which = "a redundant constraint no longer follows" if len(lines) == 1 else "redundant constraints no longer follow"
     return "\n".join(
         [
-            f"the run stopped at t = {time:.6g} s: {'this constraint' if one else 'these constraints'} followed from others "
-            f"up to there, and {'does' if one else 'do'} not hold beyond:",
+            f"the run stopped at t = {time:.6g} s: {which} from the others:",
             *lines,
-            "All of them together may allow no motion there. Let one of the parts give way, with a spring and a damper in place "
-            "of the constraint; or start from a position in which the constraints are independent.",
+            "No motion may satisfy all constraints there. Let one of the parts give way, with a spring and a damper in place of "
+            "its constraint; or start from a position in which the constraints are independent.",
         ]
     )

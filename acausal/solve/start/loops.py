@@ -46,7 +46,7 @@ def close(
     held : array of int
         States that are given.
     positions : bool
-        True for the lowest level alone.
+        True for the lowest level of each constraint alone: positions, or velocities where a part states these.
     sizes : array, optional
         Sizes over which changes of the states count, shape (nx,); nominal values if not given.
 
@@ -58,7 +58,11 @@ def close(
         Largest residual, over its size.
     """
     mismatch, sizes = 0.0, problem.nominal if sizes is None else sizes
-    for depth, (rows, columns) in enumerate(levels(problem.compiled)[: 1 if positions else None]):
+    is_lowest = problem.compiled.constraints.is_lowest
+    for depth, (rows, columns) in enumerate(levels(problem.compiled)):
+        if positions and not any(is_lowest[rows]):
+            continue
+        rows = [row for row in rows if is_lowest[row]] if positions else rows
         free = np.setdiff1d(columns, held)
         at, left = _solve(problem, at, rows, free, depth > 0, sizes)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):

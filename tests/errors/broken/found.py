@@ -7,6 +7,7 @@ import numpy as np
 import acausal as ac
 from acausal import Scalar, der, fixed, sin, time, variable
 from components import Body, Revolute, Spring, World
+from tests.acausal.solve.wheels import Car
 from tests.errors.broken.models import Decay, Pendulum
 
 
@@ -74,3 +75,7 @@ def choice_of_an_array(repaired):
         world = World(gravity=None if repaired else np.eye(3))
 
     ac.compile(M())
+
+
+def wheels_steered_by_one_angle(repaired):
+    ac.simulate(Car(ackermann=repaired), stop_time=1, tolerance=1e-8)

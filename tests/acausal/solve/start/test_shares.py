@@ -9,6 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
+from acausal import connect
+from tests.acausal.flatten.test_loops_in_parts import Linkage
 from tests.acausal.solve.wheels import (
     ACROSS,
     AHEAD,
@@ -77,6 +79,32 @@ def test_axles_that_meet_in_one_point_stay_redundant() -> None:
     np.testing.assert_allclose(back + front, speed * result["turn.w"], atol=1e-5)  # m v w to the side
     energy = speed**2 / 2 + 0.1 * result["turn.w"] ** 2 / 2
     np.testing.assert_allclose(energy, 0.5, rtol=1e-5)
+
+
+class OneWithArm(Sleigh):
+    arm = Linkage()
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.turn.frame_b, self.arm.base)
+
+
+class TwoWithArm(TwoSkates):
+    """A closed loop on a sleigh with a redundant skate."""
+
+    arm = Linkage()
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.turn.frame_b, self.arm.base)
+
+
+def test_a_loop_beside_redundant_skates_changes_nothing() -> None:
+    one, two = run(OneWithArm()), run(TwoWithArm())
+    for name in ("x.s", "y.s", "turn.phi", "arm.j1.phi"):
+        np.testing.assert_allclose(one[name], two[name], atol=1e-6)
+    np.testing.assert_allclose(two["skate.f"], two["other.f"], rtol=1e-6)
+    np.testing.assert_allclose(two["skate.f"] + two["other.f"], one["skate.f"], atol=1e-5)
 
 
 def test_a_rigid_wheelset_rolls_straight_on() -> None:
