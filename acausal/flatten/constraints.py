@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from acausal.flatten.collect import Closure, Equations
 from acausal.flatten.tree import walk
@@ -47,8 +48,9 @@ def add_constraints(
     columns, residuals = _columns(column, variables, derivatives), scalars(column)
     for component, statements in owners:
         rows = range(first[statements.start], first[statements.stop])
-        stated = _stated({row: columns[row] for row in rows}, *_unknowns(component, index))
-        duals = _working([residuals[row] for row in stated], component)
+        own, given = _unknowns(component, index)
+        stated, reactions = _left_over({row: columns[row] for row in rows}, own, given)
+        duals = _working([residuals[row] for row in stated], component, [variables[k] for k in reactions])
         for row, dual in zip(stated, duals, strict=True):
             if not dual.is_zero():
                 equations.closures.append(Closure(row, dual, None, statement_of[row]))
@@ -63,19 +65,19 @@ def _has_record(port: Any) -> bool:
     return isinstance(port, Connector) and type(port).residual is not Connector.residual
 
 
-def _unknowns(component: Component, index: Mapping[int, int]) -> tuple[set[int], set[int]]:
-    """Places of the variables that a component determines, and of the over-determined potentials that it is given."""
-    own, given = set[int](), set[int]()
+def _unknowns(component: Component, index: Mapping[int, int]) -> tuple[list[int], set[int]]:
+    """Places of the variables that a component determines, its own ones last, and of the potentials that it is given."""
+    own, given = dict[int, None](), dict[int, None]()
     for port in component._ports:
         for member in walk(port):
             for name, declared in member.fields.items():
                 if isinstance(declared, f.Variable):
-                    of = given if _is_given(port) else own if _has_record(port) else set[int]()
-                    (own if declared.flow else of).update(_places(vars(member).get(name), index))
+                    of = given if _is_given(port) else own if _has_record(port) else dict[int, None]()
+                    (own if declared.flow else of).update(dict.fromkeys(_places(vars(member).get(name), index)))
     for name, declared in component.fields.items():
         if isinstance(declared, f.Variable) and declared.causality not in ("input", "discrete"):
-            own.update(_places(vars(component).get(name), index))
-    return own, given
+            own.update(dict.fromkeys(_places(vars(component).get(name), index)))
+    return list(own), set(given)
 
 
 def _places(value: Any, index: Mapping[int, int]) -> Iterator[int]:
@@ -101,16 +103,18 @@ def _incidence(column: ca.SX, symbols: ca.SX) -> list[set[int]]:
     return rows
 
 
-def _stated(rows: Mapping[int, set[int]], own: set[int], given: set[int]) -> list[int]:
-    """Equations of a component that determine none of its unknowns, if as many of these are left.
+def _left_over(rows: Mapping[int, set[int]], own: list[int], given: set[int]) -> tuple[list[int], list[int]]:
+    """Equations of a component that determine none of its unknowns, and as many unknowns that none of the others determines.
 
-    Equations without given potentials determine first, so that those that are left constrain these.
+    Equations without given potentials determine first, so that those that are left constrain these; of the unknowns, the first.
     """
     order = sorted(rows, key=lambda row: not given.isdisjoint(rows[row]))
-    used = _matched(order, {row: own.intersection(rows[row]) for row in order})
+    used = _matched(order, {row: rows[row].intersection(own) for row in order})
     stated = sorted(set(rows).difference(used))
-    constrains = not any(given.isdisjoint(rows[row]) for row in stated)
-    return stated if constrains and len(stated) <= len(own) - len(used) else []
+    if not stated or any(given.isdisjoint(rows[row]) for row in stated) or len(stated) > len(own) - len(used):
+        return [], []
+    determined = _matched(own, {k: {row for row in used if k in rows[row]} for k in own})
+    return stated, [k for k in own if k not in determined]
 
 
 def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[int]:
@@ -129,8 +133,12 @@ def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[in
     return {member for member in order if augment(member, set())}
 
 
-def _working(constraints: list[ca.SX], component: Component) -> list[ca.SX]:
-    """Return the flow that works on each constraint; of one of positions, on its time derivative."""
+def _working(constraints: list[ca.SX], component: Component, reactions: list[ca.SX]) -> list[ca.SX]:
+    """Return the flow that works on each constraint; of one of positions, on its time derivative.
+
+    Where constraints of one component follow from one another, flows of its ports do not tell how much of them is whose: there
+    its reactions do, in the order of the constraints.
+    """
     if not constraints:
         return []
     ports = [port for port in component._ports if _is_given(port)]
@@ -138,8 +146,16 @@ def _working(constraints: list[ca.SX], component: Component) -> list[ca.SX]:
     pairs = [pair for port in ports for pair in port.power()]
     rates, flows = (stacked([vec(as_expr(pair[k]).sx) for pair in pairs]) for k in (0, 1))
     moving, moved = (stacked([vec(as_expr(pair[k]).sx) for pair in declared]) for k in (0, 1))
-    found = []
-    for constraint in constraints:
-        own = constraint if ca.depends_on(constraint, rates) else ca.jtimes(constraint, moving, moved)
-        found.append(ca.sparsify(ca.mtimes(ca.jacobian(own, rates), flows)))
-    return found
+    own = [c if ca.depends_on(c, rates) else ca.jtimes(c, moving, moved) for c in constraints]
+    J = ca.jacobian(stacked(own), rates)
+    if len(reactions) == len(constraints) and _rank(J) < len(constraints):
+        return reactions
+    return scalars(ca.densify(ca.mtimes(J, flows)))
+
+
+def _rank(J: ca.SX) -> int:
+    """Rank of a matrix where its symbols have random values."""
+    symbols = stacked(ca.symvar(J))
+    values = np.random.default_rng(0).uniform(0.5, 1.5, symbols.numel())
+    found = np.array(ca.Function("J", [symbols], [ca.densify(J)])(values))
+    return int(np.linalg.matrix_rank(found)) if np.all(np.isfinite(found)) else J.shape[0]

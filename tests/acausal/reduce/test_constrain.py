@@ -35,7 +35,7 @@ class Pendulum:
         self.residuals += [s.dual - s.lam] if closed else []
         self.residuals += [2 * (s.x * s.vx + s.y * s.vy), 2 * (s.vx**2 + s.vy**2 + s.x * s.ax + s.y * s.ay)]
         closures = [SimpleNamespace(row=2, dual=s.dual, loop=0)] if closed else []
-        flat = SimpleNamespace(loops=SimpleNamespace(closures=closures))
+        flat = SimpleNamespace(loops=SimpleNamespace(closures=closures, of_parts=[]))
         one = ca.SX(1)
         at = model.index
         self.explicit = {(0, at["ax"]): one, (1, at["ay"]): one}
@@ -120,7 +120,7 @@ def test_nothing_to_constrain_leaves_nothing_to_choose():
     plan = analyse(model.system)
     elements = [ca.SX.sym(name) for name in model.name]
     residuals = [elements[0], elements[1]]
-    flat = SimpleNamespace(loops=SimpleNamespace(closures=[]))
+    flat = SimpleNamespace(loops=SimpleNamespace(closures=[], of_parts=[]))
     projections = constrain(flat, plan, elements, residuals, {})  # type: ignore[arg-type]
     assert projections.choice.numel() == projections.constraints.numel() == projections.states.numel() == 0
     assert len(residuals) == 2

@@ -125,15 +125,32 @@ class Disc(Component):
     radius: Scalar = parameter("radius", unit="m", default=0.3)
     force: Vector3 = variable("force of the ground on it, resolved in the world", unit="N")
 
-    def equations(self):
-        a = self.frame_a
-        n = resolve1(a.R, (0, 0, 1))
+    def arm(self):
+        """From the centre to the ground, resolved in the disc."""
+        n = resolve1(self.frame_a.R, (0, 0, 1))
         steepest = as_expr((0, -1, 0)) + n * n[1]
         length = sqrt(steepest[0] ** 2 + steepest[1] ** 2 + steepest[2] ** 2)
-        r = resolve2(a.R, steepest / length * self.radius)
+        return resolve2(self.frame_a.R, steepest / length * self.radius)
+
+    def equations(self):
+        a, r = self.frame_a, self.arm()
         yield a.v + cross(a.R.w, r) == (0, 0, 0)
         yield a.f == -resolve2(a.R, self.force)
         yield a.t == cross(r, a.f)
+
+
+class Slipping(Disc):
+    """The same through a slip of its own, in the world, of which the one up and down is stated as a height."""
+
+    slip: Vector3 = variable("velocity of the point of contact, resolved in the world", unit="m/s")
+
+    def equations(self):
+        yield from list(super().equations())[1:]
+        a, r = self.frame_a, self.arm()
+        yield self.slip == resolve1(a.R, a.v + cross(a.R.w, r))
+        yield self.slip[0] == 0
+        yield a.r_0[1] + resolve1(a.R, r)[1] == 0
+        yield self.slip[2] == 0
 
 
 RADIUS, HALF, AHEAD = 0.3, 0.4, 0.15
@@ -153,6 +170,33 @@ class Wheelset(Model):
     def connections(self):
         yield chain(self.axle.frame_a, self.left, self.one)
         yield chain(self.axle.frame_a, self.right, self.two)
+
+
+class Axle(Component):
+    """Both discs of a rigid axle in one part."""
+
+    frame_a: Frame = port(Frame, "middle of the axle")
+    left: Vector3 = variable("force on the left disc, resolved in the axle", unit="N")
+    right: Vector3 = variable("force on the right disc, resolved in the axle", unit="N")
+
+    def equations(self):
+        a = self.frame_a
+        down = resolve2(a.R, (0, -RADIUS, 0))
+        one, two = down + as_expr((0, 0, 0.5)), down - as_expr((0, 0, 0.5))
+        yield a.v + cross(a.R.w, one) == (0, 0, 0)
+        yield a.v + cross(a.R.w, two) == (0, 0, 0)
+        yield a.f == -(self.left + self.right)
+        yield a.t == -cross(one, self.left) - cross(two, self.right)
+
+
+class OneAxle(Model):
+    world, wheels = World(g=9.81), Axle()
+    axle = Body(
+        m=2, I=INERTIA, r_0=fixed((0, RADIUS, 0)), v_0=fixed((1.2, 0, 0)), w_a=fixed((0, 0, -4)), angles_fixed=True
+    )
+
+    def connections(self):
+        yield connect(self.axle.frame_a, self.wheels.frame_a)
 
 
 class Robot(Model):

@@ -20,9 +20,11 @@ from tests.acausal.solve.wheels import (
     SPIN,
     WHEEL,
     Car,
+    OneAxle,
     OnRails,
     Robot,
     Sleigh,
+    Slipping,
     ThreeSkates,
     TwoSkates,
     Wheelset,
@@ -112,6 +114,21 @@ def test_a_rigid_wheelset_rolls_straight_on() -> None:
     np.testing.assert_allclose(result["axle.frame_a.r_0"][-1], [1.2, RADIUS, 0], atol=1e-7)
     weights = result["one.force"] + result["two.force"]
     np.testing.assert_allclose(weights, np.tile([0, 2 * 9.81, 0], (len(weights), 1)), atol=1e-6)
+
+
+def test_both_wheels_in_one_part_share_what_works_on_them() -> None:
+    result = run(OneAxle())
+    np.testing.assert_allclose(result["axle.frame_a.r_0"][-1], [1.2, RADIUS, 0], atol=1e-6)
+    np.testing.assert_allclose(result["wheels.left"], result["wheels.right"], atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(result["wheels.left"], axis=1), 9.81, rtol=1e-6)
+    assert np.max(np.abs(result["wheels.left"][:, 2])) < 1e-8, "across the wheels nothing acts"
+
+
+def test_the_form_of_the_equations_does_not_matter() -> None:
+    one, other = run(Robot()), run(Robot(one=Slipping(), two=Slipping()))
+    np.testing.assert_allclose(one["chassis.frame_a.r_0"], other["chassis.frame_a.r_0"], atol=1e-6)
+    np.testing.assert_allclose(one["one.force"], other["one.force"], atol=1e-4)
+    assert len(other.stats["redundant_in_parts"]) == 1
 
 
 def test_a_robot_on_two_wheels_moves_as_the_equivalent_sleigh() -> None:
