@@ -9,7 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
-from acausal import connect
+from acausal import connect, fixed
+from components import Body
 from tests.acausal.flatten.test_loops_in_parts import Linkage
 from tests.acausal.solve.wheels import (
     ACROSS,
@@ -127,8 +128,31 @@ def test_both_wheels_in_one_part_share_what_works_on_them() -> None:
 def test_the_form_of_the_equations_does_not_matter() -> None:
     one, other = run(Robot()), run(Robot(one=Slipping(), two=Slipping()))
     np.testing.assert_allclose(one["chassis.frame_a.r_0"], other["chassis.frame_a.r_0"], atol=1e-6)
-    np.testing.assert_allclose(one["one.force"], other["one.force"], atol=1e-4)
+    both = [r["one.force"] + r["two.force"] for r in (one, other)]
+    np.testing.assert_allclose(both[0], both[1], atol=1e-4)
     assert len(other.stats["redundant_in_parts"]) == 1
+
+
+class Circle(Robot):
+    chassis = Body(
+        m=MASS,
+        I=((0.12, 0, 0), (0, 0.2, 0), (0, 0, 0.1)),
+        r_0=fixed((0, RADIUS, 0)),
+        v_0=fixed((1.2, 0, 0)),
+        w_a=fixed((0, 1.5, 0)),
+        angles_fixed=True,
+    )
+    one, two = Slipping(), Slipping()
+
+
+def test_others_are_dropped_where_those_that_were_become_independent() -> None:
+    """The constraints are resolved in the world: sideways is another one after a quarter of a turn."""
+    result = run(Circle(), stop_time=3)
+    angle = 1.5 * result.time
+    np.testing.assert_allclose(result["chassis.frame_a.r_0"][:, 0], 0.8 * np.sin(angle), atol=1e-4)
+    side = np.linalg.norm(result["one.force"] + result["two.force"], axis=1)
+    np.testing.assert_allclose(side, (MASS + 2 * WHEEL) * 1.2 * 1.5, rtol=1e-4)
+    assert result.stats["choices"] > 0
 
 
 def test_a_robot_on_two_wheels_moves_as_the_equivalent_sleigh() -> None:
