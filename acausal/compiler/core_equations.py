@@ -7,6 +7,7 @@ import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
+from acausal.compiler.set_valued import MODE
 from acausal.core import Equations, Sampled, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
@@ -122,6 +123,11 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
         column = ca.vertcat(compiled.powers, compiled.energy)
         energies = make_tape(ca.Function("energies", arguments[:-1], [ca.densify(column)], READABLE), early=(0, 1))
         energetic = compiled.dependence.needed(compiled.dependence.inside(column))[0].tolist()
+    modes = set(guards.laws.places[:, MODE].tolist())
+
+    def decides(guard: int) -> bool:
+        return guard < guards.n_switches or any(jump.discrete in modes for jump in guards.guards[guard].jumps)
+
     everything = tuple(range(compiled.nz))
     needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
     return Sampled(
@@ -133,7 +139,7 @@ def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled |
         energies,
         watched,
         acts,
-        is_switch=np.array([guard < guards.n_switches for guard in guards.watched], dtype=np.int32),
+        is_switch=np.array([decides(guard) for guard in guards.watched], dtype=np.int32),
         is_clocked=np.array(guards.clocked, dtype=np.int32),
         jump=np.array(jump, dtype=np.int32),
         to=np.array(to, dtype=np.int32),

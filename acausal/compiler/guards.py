@@ -13,6 +13,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.clock import by_clock, functions, planned_times, truth
 from acausal.compiler.rounding import terms
 from acausal.compiler.rowwise import Rowwise
+from acausal.compiler.set_valued import SetValuedLaws
 from acausal.errors import DeclarationError
 from acausal.flatten.discontinuities import Guard, Jump
 from acausal.flatten.origin import Origin
@@ -81,6 +82,11 @@ class Guards:
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = stacked(entries)
         return ca.densify(self.reduced.running.resolve(column, unprojected))
+
+    @cached_property
+    def laws(self) -> SetValuedLaws:
+        """Set-valued laws."""
+        return SetValuedLaws(self.reduced, self.arguments)
 
     @cached_property
     def breaks(self) -> Call:

@@ -12,7 +12,7 @@ import numpy as np
 from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, weighing
 from acausal.flatten.derivatives import Derivatives
-from acausal.flatten.discontinuities import guards, promises
+from acausal.flatten.discontinuities import guards, laws, promises
 from acausal.flatten.flat_model import (
     FlatDiscontinuities,
     FlatEquations,
@@ -90,6 +90,7 @@ class Assembly:
             tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
             tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
             promises(raw.pending, resolved),
+            laws(raw.pending, raw.discretes, resolved),
         )
         self.origins = raw.equations.scalar_origins()
         self.substitutes = {c.row: len(self.origins) + k for k, c in enumerate(closures)}

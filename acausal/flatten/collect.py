@@ -22,6 +22,7 @@ from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.functions import PENDING
 from acausal.language.homes import error_of, misplaced
+from acausal.language.set_valued import SetValued
 from acausal.symbols import combined, dense, scalars, vec
 
 
@@ -199,6 +200,9 @@ def _run(component: Component, method: str, found: Equations, most: int, alike: 
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))
+            continue
+        if isinstance(statement, SetValued) and method == "equations":
+            PENDING.get().laws.append((statement, origin))
             continue
         if not isinstance(statement, Equation):
             raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")

@@ -79,6 +79,20 @@ class Guard:
 
 
 @dataclass(frozen=True)
+class Law:
+    """A set-valued law: its speed, the rate and the limit, and the places of its discrete variables.
+
+    These are `mode`, `offset`, `shared`, `share` and `slip`, in this order.
+    """
+
+    speed: ca.SX
+    rate: ca.SX
+    limit: ca.SX
+    places: tuple[int, ...]
+    origin: Origin
+
+
+@dataclass(frozen=True)
 class Promise:
     """A law that is declared smooth: where `excess` is 0, all entries of `step` should be; `value` is the law itself.
 
@@ -145,7 +159,7 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     resolve : callable
         Replaces placeholders of derivatives.
     """
-    place = {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.expr.sx))}
+    place = _places(discretes)
     conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
     excess = iter(resolve([part.excess.sx for condition in conditions for part in condition.comparisons]))
     conditions = [c.replaced(lambda part: Condition(Expr(next(excess)), part.kind)) for c in conditions]
@@ -158,3 +172,24 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
                 jumps.append(Jump(t, v, place.get(t.element_hash()) if t.is_symbolic() else None))
         found.append(Guard(condition, origin, tuple(jumps), when.at_start))
     return tuple(found)
+
+
+def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple[Law, ...]:
+    """Put together the set-valued laws; for the arguments see `guards`."""
+    place, found = _places(discretes), list[Law]()
+    sx = iter(resolve([e.sx for law, _ in pending.laws for e in (law.speed, law.rate, law.limit)]))
+    for law, origin in pending.laws:
+        own = (law.mode, law.offset, law.shared, law.share, law.slip)
+        places = [place.get(e.sx.element_hash(), -1) for e in own]
+        if -1 in places:
+            raise DeclarationError(
+                f"{origin}: set_valued needs discrete variables, and `{own[places.index(-1)].name}` is none. Declare it by "
+                'discrete("...").'
+            )
+        found.append(Law(next(sx), next(sx), next(sx), tuple(places), origin))
+    return tuple(found)
+
+
+def _places(discretes: list[Discrete]) -> dict[int, int]:
+    """Symbols of discrete variables -> their places."""
+    return {s.element_hash(): k for k, s in enumerate(s for d in discretes for s in scalars(d.expr.sx))}

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.discontinuities import Guard, Promise
+from acausal.flatten.discontinuities import Guard, Law, Promise
 from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.component import Component
@@ -198,6 +198,8 @@ class FlatDiscontinuities:
         Expressions that der() differentiates and that switches change: they must not jump.
     promises : tuple of Promise
         Laws that are declared smooth.
+    laws : tuple of Law
+        Set-valued laws.
     """
 
     switches: tuple[ca.SX, ...]
@@ -205,6 +207,7 @@ class FlatDiscontinuities:
     discretes: tuple[tuple[ca.SX, ca.SX], ...]
     continuous: tuple[tuple[ca.SX, Origin], ...]
     promises: tuple[Promise, ...]
+    laws: tuple[Law, ...]
 
     @property
     def constants(self) -> ca.SX:

@@ -27,6 +27,8 @@ def refuse_foreign(raw: Said) -> None:
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
+    for law, origin in raw.pending.laws:
+        stated += [(e.sx, origin) for e in (law.speed, law.rate, law.limit)]
     values = [(a, e.sx) for a in raw.arrays for e in (a.start, a.nominal) if not e.sx.is_constant()]
     stated += [(sx, value_origin(a.owner, a.declared.name)) for a, sx in values]
     others = [*[e for _, e in raw.pending.derivatives], *raw.energies.values(), *raw.discrete_starts]

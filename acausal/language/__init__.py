@@ -47,6 +47,7 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.initial_values import fixed, guess
+from acausal.language.set_valued import SetValued, set_valued
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import TWINS
 from acausal.language.twins import twins
@@ -76,6 +77,7 @@ __all__ = [
     "Requirement",
     "Scalar",
     "Separation",
+    "SetValued",
     "Vector3",
     "When",
     "acos",
@@ -120,6 +122,7 @@ __all__ = [
     "require",
     "root",
     "rooted",
+    "set_valued",
     "sign",
     "sin",
     "sine",

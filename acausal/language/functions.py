@@ -35,6 +35,7 @@ class Pending:
     `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
     `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` says where each is stated.
     `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
+    `laws` holds the set-valued laws and where they are stated.
     `varying` holds the symbols of variables, as soon as there are any.
     `watches` is false while start values are formed, which need no switches.
     `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
@@ -47,6 +48,7 @@ class Pending:
         self.switches: list[tuple[ca.SX, Condition]] = []
         self.places: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
+        self.laws: list[tuple[Any, Any]] = []
         self.discrete: set[int] = set()
         self.varying: set[int] = set()
         self.watches = True

@@ -12,6 +12,7 @@ from acausal.language.connection import Branch, Connect, Root
 from acausal.language.events import Reinit, When
 from acausal.language.expression import Equation, Expr
 from acausal.language.fields import InitialValue
+from acausal.language.set_valued import SetValued
 from acausal.language.validity import Expectation, Requirement, Separation
 from acausal.language.values import shown
 
@@ -19,6 +20,7 @@ from acausal.language.values import shown
 HOMES: dict[type, tuple[str, str]] = {
     Equation: ("an equation", "equations()"),
     When: ("when(...)", "equations()"),
+    SetValued: ("set_valued(...)", "equations()"),
     Connect: ("connect(...)", "connections()"),
     Branch: ("branch(...)", "connections()"),
     Root: ("root(...)", "connections()"),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
-from acausal.policy.events import Agenda, Between, Clock, Instants, Locate, Looks, Rests, Sampling
+from acausal.policy.events import Agenda, Between, Clock, Instants, Laws, Locate, Looks, Rests, Sampling
 from acausal.policy.integrate import Branches, Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 
@@ -32,6 +32,7 @@ class Policy:
     energy: Energy
     sizes: Sizes
     instants: Instants
+    laws: Laws
     sampling: Sampling
     agenda: Agenda
     rests: Rests
@@ -63,6 +64,7 @@ POLICY = Policy(
     Energy(),
     Sizes(),
     Instants(),
+    Laws(),
     Sampling(),
     Agenda(),
     Rests(),

@@ -32,6 +32,23 @@ class Instants:
 
 
 @dataclass(frozen=True)
+class Laws:
+    """Set-valued laws at rest."""
+
+    # Response of a rate to its own force, over the sum of the sizes of its terms: at a reversal it is the error of its instant,
+    # 1e-9 and less; pins of engines have 1e-3 and more elsewhere.
+    responds: float = 1e-8
+    # What is left of the response of a speed that rests where others do, over the response: rounding of sums of some terms.
+    independent: float = 1e-8
+    # Of responses: it makes redundant ones regular, and is less than what counts as independent.
+    regular: float = 1e-10
+    # Of a limit: a force so near has reached it.
+    limit: float = 1e-9
+    # Principal pivots for each law: 2 n at most in random problems, and room for bad ones.
+    pivots: int = 100
+
+
+@dataclass(frozen=True)
 class Rests:
     """Laws of time that rest, act, and return to rest in less time than steps take that have grown meanwhile."""
 

@@ -10,6 +10,7 @@ from acausal.compiler.constants import Constants
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.events.follow import follow
+from acausal.solve.events.laws import Laws
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
@@ -47,6 +48,7 @@ class Instants:
         self.guards = problem.compiled.guards
         self.watched = np.array(self.guards.watched, dtype=int)
         self.is_switch = self.watched < self.guards.n_switches
+        self.laws = Laws(problem, tolerance, nominal)
         self._clocked = np.array(self.guards.clocked, dtype=bool)
 
     def width(self, at: Point) -> np.ndarray:
@@ -109,7 +111,7 @@ class Instants:
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
-            if not flips.any() and not fires and after is at.constants:
+            if not (flips.any() or fires or self.laws.waiting(at.constants)) and after is at.constants:
                 return replace(at, truth=now), changed
             moved = self.watched[flips].tolist() + fires
             if flips.any():
@@ -143,6 +145,7 @@ class Instants:
         flips = self.is_switch & changed
         jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
         self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
+        jumped = self.laws.decided(at.constants, jumped)
         return replace(algebraic(self.problem, jumped), truth=now)
 
     def _leeway(self, at: Point, changed: np.ndarray) -> float:

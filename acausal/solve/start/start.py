@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.set_valued import MODE, SHARED
 from acausal.compiler.whole import EQUATION, START
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
@@ -48,7 +49,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """
     guards, p = problem.compiled.guards, problem.p
     tried = Assignments([k for k in guards.watched if k < guards.n_switches])
-    head = guards.estimate(p, time, later)[0].copy()
+    at_rest = initial != "steady"
+    head = _released(problem, guards.estimate(p, time, later)[0].copy(), at_rest)
     head = tried.then(head, head)
     while head is not None and tried.count <= MOST:
         try:
@@ -64,7 +66,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             head = tried.then(head, head if there is None else there)
             continue
         at = begun.point
-        new = _found(problem, at, head)
+        new = _released(problem, _found(problem, at, head), at_rest)
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Rounding would turn what is in doubt over again and again.
         doubtful = _doubtful(problem, at) if tried.count > 1 and not np.all(same) else np.empty(0, dtype=int)
@@ -73,6 +75,15 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             return replace(begun, point=replace(at, truth=_first_truth(problem, at, doubtful, head)))
         head = tried.then(head, np.where(same, head, new))
     raise InitializationError(_no_switches(problem.compiled, time, tried))
+
+
+def _released(problem: Problem, head: np.ndarray, at_rest: bool) -> np.ndarray:
+    """Let set-valued laws at rest have no force, in place, until the first instant decides them: they may be redundant."""
+    laws = problem.compiled.guards.laws
+    places = problem.compiled.guards.n_switches + laws.places
+    if at_rest and len(laws):
+        head[places[:, SHARED]] = head[places[:, MODE]] == 0
+    return head
 
 
 def _found(problem: Problem, at: Point, head: np.ndarray) -> np.ndarray:
