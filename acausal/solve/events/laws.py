@@ -44,21 +44,26 @@ class Laws:
         return bool(np.any((mode == 0) & (slip == 0)))
 
     def decided(self, before: Constants, at: Point) -> Point:
-        """Return the point with its laws at rest decided, if one of them came to rest or left it since `before`."""
+        """Return the point with its laws at rest decided, if one of them came to rest or left it since `before`.
+
+        Where others keep some at rest, these take new shares with whatever else happens.
+        """
         was, mode = self._read(before), self._read(at.constants)[MODE]
         left = (was[MODE] == 0) & (mode != 0)
         resting = np.flatnonzero((mode == 0) | (left & (was[SHARED] == 0)))  # what slips on its share slides
-        if not resting.size or not (left.any() or self.waiting(at.constants)):
+        shared = (mode == 0) & (was[SHARED] > 0)
+        if not resting.size or not (left.any() or shared.any() or self.waiting(at.constants)):
             return at
         trial = self._with(at.constants, resting, {MODE: 0.0, SHARED: 1.0, SHARE: 0.0})
         try:
             free = algebraic(self.problem, replace(at, constants=trial))
         except InitializationError:
             return at  # nor do the equations hold with what the laws state themselves, or they do
-        constants = self._chosen(free, resting, np.where(left, mode, 0.0)[resting])
+        reached = np.where(left, mode, np.where(np.abs(was[SHARE]) == 1, was[SHARE], 0.0))
+        constants = self._chosen(free, resting, reached[resting])
         return at if constants is None else replace(free, constants=constants)
 
-    def _chosen(self, at: Point, resting: np.ndarray, broken: np.ndarray) -> Constants | None:
+    def _chosen(self, at: Point, resting: np.ndarray, reached: np.ndarray) -> Constants | None:
         """Return the constants with the laws `resting` decided, from values without their forces; None without any."""
         found = self.laws(self.nominal, at.x, at.z, self.problem.p, at.time, at.constants.vector)
         response, certain, noise = self._responses(at, found)
@@ -71,7 +76,7 @@ class Laws:
         sticks = np.zeros(len(resting), dtype=bool)
         if answers.any():
             own = A[np.ix_(answers, answers)]
-            solved = shares((own + own.T) / 2, b[answers], broken[answers])
+            solved = shares((own + own.T) / 2, b[answers], reached[answers])
             share[answers], sense[answers], sticks[answers] = solved.share, solved.sense, solved.sticks
         # What answers to no force of its own leaves rest as the others carry it.
         carried, own = resting[~answers], response[np.ix_(resting[~answers], resting)]

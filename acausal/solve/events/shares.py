@@ -32,7 +32,7 @@ class Shares:
     sticks: np.ndarray
 
 
-def shares(A: np.ndarray, b: np.ndarray, broken: np.ndarray) -> Shares:
+def shares(A: np.ndarray, b: np.ndarray, reached: np.ndarray) -> Shares:
     """Solve for u: |u| <= 1, and with a = b - A u, a_k = 0 where |u_k| < 1, else a_k u_k >= 0.
 
     The accelerations a are unique, and so are the forces of independent speeds; redundant ones have the least norm of A^1/2 u.
@@ -43,8 +43,9 @@ def shares(A: np.ndarray, b: np.ndarray, broken: np.ndarray) -> Shares:
         Positive semi-definite, no entry of its diagonal 0: what each force takes off each acceleration.
     b : array, shape (n,)
         Accelerations without the forces.
-    broken : array, shape (n,)
-        1 or -1 for forces that have just reached a limit, else 0: they stay there where others can hold their speed.
+    reached : array, shape (n,)
+        1 or -1 for forces that have reached a limit, else 0: they stay there where others can hold their speeds, so that a growing
+        load finds each of them once.
     """
     bound = np.sqrt(np.diag(A))
     B, c = A / np.outer(bound, bound), b / bound
@@ -53,11 +54,11 @@ def shares(A: np.ndarray, b: np.ndarray, broken: np.ndarray) -> Shares:
     free = np.flatnonzero(state == 0)
     at_limit = np.flatnonzero(state)
     v[at_limit] = state[at_limit] * bound[at_limit]
-    fixed = free[broken[free] != 0]
+    fixed = free[reached[free] != 0]
     others = np.setdiff1d(free, fixed)
     for kept, some in ((fixed, others), (fixed[:0], free)):
         tried = v.copy()
-        tried[kept] = broken[kept] * bound[kept]
+        tried[kept] = reached[kept] * bound[kept]
         if _settled(B, c, bound, tried, free, some):
             v, free = tried, some
             break

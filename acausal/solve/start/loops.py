@@ -57,6 +57,7 @@ def close(
     mismatch : float
         Largest residual, over its size.
     """
+    at = _with_value(problem, at, held)
     mismatch, sizes = 0.0, problem.nominal if sizes is None else sizes
     is_lowest = problem.compiled.constraints.is_lowest
     for depth, (rows, columns) in enumerate(levels(problem.compiled)):
@@ -72,6 +73,17 @@ def close(
         if left > LOOPS.closed:
             break
     return at, mismatch
+
+
+def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
+    """Disturb guesses at which a constraint has no value, as where two frames that coincide are guessed half a turn apart."""
+    free = np.setdiff1d(problem.compiled.constraints.states, held)
+    for k, size in enumerate(LOOPS.attempts):
+        start = at.x[free] + size * problem.nominal[free] * np.random.default_rng(k).standard_normal(len(free))
+        tried = _with(at, free, start)
+        if np.all(np.isfinite(problem.constraints(tried)[0])):
+            return tried
+    return at
 
 
 def _with(at: Point, free: np.ndarray, u: np.ndarray) -> Point:
