@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import ExportError
-from acausal.flatten.discontinuities import Guard, Jump, Promise
+from acausal.flatten.discontinuities import Guard, Jump, Law, Promise
 from acausal.flatten.flat_model import (
     FlatClosure,
     FlatDiscontinuities,
@@ -45,11 +45,12 @@ FIELDS: dict[type, str] = {
     FlatUnknowns: "symbols names derivative declared preference nominal sized units start guessed eliminated",
     FlatEquations: "residuals origins defines initial redundant",
     FlatParameters: "symbols names values weighing limits bound structural_zeros",
-    FlatDiscontinuities: "switches guards discretes continuous promises",
+    FlatDiscontinuities: "switches guards discretes continuous promises laws",
     FlatLoops: "cuts closures folded",
     FlatModel: "unknowns equations parameters discontinuities loops energies unconnected counts",
     Guard: "condition origin jumps at_start",
     Jump: "target value discrete",
+    Law: "speed rate limit places origin",
     Promise: "excess step value compared inclusive origin",
     Plan: "system differentiated created states blocks algebraic residuals assigned observed constrained",
     System: "rows explicit derivative declared defines preference monic closures",
