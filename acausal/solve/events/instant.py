@@ -111,7 +111,7 @@ class Instants:
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
-            if not (flips.any() or fires or self.laws.waiting(at.constants)) and after is at.constants:
+            if not (flips.any() or fires or self.laws.undecided(at.constants)) and after is at.constants:
                 return replace(at, truth=now), changed
             moved = self.watched[flips].tolist() + fires
             if flips.any():

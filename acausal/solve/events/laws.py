@@ -1,4 +1,4 @@
-"""Set-valued laws: which of those at rest stick, which slide, and which others carry through rest."""
+"""Decide which set-valued laws at rest stick, and which slide."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NOISE = POLICY.newton.terms * np.finfo(float).eps
 
 
 class Laws:
-    """Decisions of set-valued laws.
+    """Decides the modes of set-valued laws at an event.
 
     Parameters
     ----------
@@ -38,33 +38,38 @@ class Laws:
         self.laws = problem.compiled.guards.laws
         self._named = False
 
-    def waiting(self, constants: Constants) -> bool:
-        """Whether a law at rest is not decided yet."""
+    def undecided(self, constants: Constants) -> bool:
+        """True if a law at rest is not decided yet."""
         mode, _, _, _, slip = self._read(constants)
         return bool(np.any((mode == 0) & (slip == 0)))
 
     def decided(self, before: Constants, at: Point) -> Point:
-        """Return the point with its laws at rest decided, if one of them came to rest or left it since `before`.
+        """Return the point with its laws at rest decided.
 
-        Where others keep some at rest, these take new shares with whatever else happens.
+        This happens if a law comes to rest or leaves it, and at any event where redundant laws rest: they take new shares.
         """
         was, mode = self._read(before), self._read(at.constants)[MODE]
         left = (was[MODE] == 0) & (mode != 0)
-        resting = np.flatnonzero((mode == 0) | (left & (was[SHARED] == 0)))  # what slips on its share slides
+        resting = np.flatnonzero((mode == 0) | (left & (was[SHARED] == 0)))  # a shared one slips
         shared = (mode == 0) & (was[SHARED] > 0)
-        if not resting.size or not (left.any() or shared.any() or self.waiting(at.constants)):
+        if not resting.size or not (left.any() or shared.any() or self.undecided(at.constants)):
             return at
         trial = self._with(at.constants, resting, {MODE: 0.0, SHARED: 1.0, SHARE: 0.0})
         try:
             free = algebraic(self.problem, replace(at, constants=trial))
         except InitializationError:
-            return at  # nor do the equations hold with what the laws state themselves, or they do
+            return self._as_stated(at)
         reached = np.where(left, mode, np.where(np.abs(was[SHARE]) == 1, was[SHARE], 0.0))
         constants = self._chosen(free, resting, reached[resting])
-        return at if constants is None else replace(free, constants=constants)
+        return self._as_stated(at) if constants is None else replace(free, constants=constants)
+
+    def _as_stated(self, at: Point) -> Point:
+        """Return the point with the modes that the components stated, as decided."""
+        rest = np.flatnonzero(self._read(at.constants)[MODE] == 0)
+        return replace(at, constants=self._with(at.constants, rest, {SLIP: np.finfo(float).tiny}))
 
     def _chosen(self, at: Point, resting: np.ndarray, reached: np.ndarray) -> Constants | None:
-        """Return the constants with the laws `resting` decided, from values without their forces; None without any."""
+        """Return the constants with the laws `resting` decided, given the point without their forces; None if not finite."""
         found = self.laws(self.nominal, at.x, at.z, self.problem.p, at.time, at.constants.vector)
         response, certain, noise = self._responses(at, found)
         limit, rate = np.abs(found.limit), found.rate
@@ -78,7 +83,7 @@ class Laws:
             own = A[np.ix_(answers, answers)]
             solved = shares((own + own.T) / 2, b[answers], reached[answers])
             share[answers], sense[answers], sticks[answers] = solved.share, solved.sense, solved.sticks
-        # What answers to no force of its own leaves rest as the others carry it.
+        # A speed that does not respond to its own force follows the rest of the machine.
         carried, own = resting[~answers], response[np.ix_(resting[~answers], resting)]
         rate, noise = rate[carried] + own @ share, noise[carried] + LAWS.independent * (np.abs(own) @ np.abs(share))
         sense[~answers] = np.where(np.abs(rate) > noise, np.sign(rate), 0.0)
@@ -95,11 +100,10 @@ class Laws:
         return self._with(at.constants, resting, given)
 
     def _responses(self, at: Point, found: LawValues) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the derivatives of the rates by the shares, which rates respond to their own, and rounding of the rates.
+        """Return the derivatives of the rates by the shares, which rates respond to their own share, and round-off of the rates.
 
-        The response of a rate is a sum over the entries of the Jacobian J of the algebraic equations, each times the change
-        of an unknown and times an influence on the rate. Beside the sum of their sizes it tells of responses whatever
-        the units are, as rows and columns of J may have any scale (Skeel 1979).
+        With the Jacobian J of the algebraic equations, the response of a rate is G J^-1 S = y' J z, where J z = S and y' J = G.
+        Its size over |y|' |J| |z| does not change if rows or columns of J are scaled (Skeel 1979).
         """
         problem, own = self.problem, slice(self.problem.nx, self.problem.nx + self.problem.nz)
         local = problem.local(at)
@@ -120,7 +124,7 @@ class Laws:
         return response, certain, noise
 
     def _name(self, redundant: np.ndarray) -> None:
-        """Warn once of laws whose forces the equations do not determine."""
+        """Warn once of redundant laws, whose forces the equations do not determine."""
         if self._named or not redundant.size:
             return
         self._named = True
@@ -132,11 +136,11 @@ class Laws:
         )
 
     def _read(self, constants: Constants) -> np.ndarray:
-        """Values of the discrete variables of the laws, a row of each kind."""
+        """Discrete variables of the laws, one row of each kind."""
         return constants.discretes[self.laws.places].T
 
     def _with(self, constants: Constants, laws: np.ndarray, given: dict[int, np.ndarray | float]) -> Constants:
-        """Return the constants with other values of discrete variables of some laws."""
+        """Return the constants with new values of discrete variables of some laws."""
         discretes = constants.discretes.copy()
         for kind, value in given.items():
             discretes[self.laws.places[laws, kind]] = value

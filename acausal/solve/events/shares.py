@@ -1,4 +1,4 @@
-"""Forces between -1 and 1 that keep speeds at rest as far as they can: a linear complementarity problem with bounds."""
+"""Linear complementarity problem with bounds: friction forces at rest, as shares of their limits."""
 
 from __future__ import annotations
 
@@ -14,17 +14,16 @@ LAWS = POLICY.laws
 
 @dataclass(frozen=True, eq=False)
 class Shares:
-    """Solution of n laws at rest.
+    """Solution for n set-valued laws at rest.
 
     Attributes
     ----------
     share : array, shape (n,)
         Forces over their limits.
     sense : array, shape (n,)
-        1 or -1 where a speed leaves rest in that sense, else 0.
+        Sense in which a speed leaves rest, 1 or -1, or 0 where it rests.
     sticks : array of bool, shape (n,)
-        Laws that hold the speeds at rest, as many as there are independent speeds among them; the forces of the others at
-        rest are given by their shares.
+        An independent subset of the speeds that rest: the others rest with them.
     """
 
     share: np.ndarray
@@ -33,24 +32,24 @@ class Shares:
 
 
 def shares(A: np.ndarray, b: np.ndarray, reached: np.ndarray) -> Shares:
-    """Solve for u: |u| <= 1, and with a = b - A u, a_k = 0 where |u_k| < 1, else a_k u_k >= 0.
+    """Solve for shares u with |u| <= 1: a = b - A u is 0 where |u| < 1, and has the sign of u elsewhere.
 
-    The accelerations a are unique, and so are the forces of independent speeds; redundant ones have the least norm of A^1/2 u.
+    The accelerations a are unique. Redundant forces have the least norm of u_k sqrt(A_kk), which has no unit.
 
     Parameters
     ----------
     A : array, shape (n, n)
-        Positive semi-definite, no entry of its diagonal 0: what each force takes off each acceleration.
+        Response of the accelerations to the shares, positive semi-definite with a positive diagonal.
     b : array, shape (n,)
         Accelerations without the forces.
     reached : array, shape (n,)
-        1 or -1 for forces that have reached a limit, else 0: they stay there where others can hold their speeds, so that a growing
-        load finds each of them once.
+        1 or -1 for forces that have reached a limit, else 0. They stay there if the others can hold their speeds, so that
+        under a growing load each of them reaches its limit once.
     """
     bound = np.sqrt(np.diag(A))
     B, c = A / np.outer(bound, bound), b / bound
-    v, state = _pivoted(B + LAWS.regular * np.eye(len(b)), c, bound)
-    state[np.abs(v) >= (1 - LAWS.limit) * bound] = np.sign(v[np.abs(v) >= (1 - LAWS.limit) * bound])
+    v = _bounded(B + LAWS.regular * np.eye(len(b)), c, bound)
+    state = np.where(np.abs(v) >= (1 - LAWS.limit) * bound, np.sign(v), 0.0)
     free = np.flatnonzero(state == 0)
     at_limit = np.flatnonzero(state)
     v[at_limit] = state[at_limit] * bound[at_limit]
@@ -68,26 +67,21 @@ def shares(A: np.ndarray, b: np.ndarray, reached: np.ndarray) -> Shares:
     return Shares(v / bound, np.where(rests, 0.0, state), sticks)
 
 
-def _pivoted(B: np.ndarray, c: np.ndarray, bound: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Solve for |v| <= bound by principal pivots, one at a time, the first that is wrong (Murty 1974); B is definite."""
-    state, v = np.zeros(len(c)), np.zeros(len(c))
-    for _ in range(LAWS.pivots * len(c)):
-        free = state == 0
-        v = state * bound
-        v[free] = np.linalg.solve(B[np.ix_(free, free)], c[free] - B[np.ix_(free, ~free)] @ v[~free])
-        a = c - B @ v
-        wrong = np.flatnonzero(np.where(free, np.abs(v) > bound, state * a < 0))
-        if not wrong.size:
-            break
-        k = wrong[0]
-        state[k] = 0.0 if state[k] else np.sign(v[k])
-    return np.clip(v, -bound, bound), state
+def _bounded(B: np.ndarray, c: np.ndarray, bound: np.ndarray) -> np.ndarray:
+    """Minimise v' B v / 2 - c' v for |v| <= bound with positive definite B, by an active-set method (Stark and Parker 1995)."""
+    from scipy.optimize import lsq_linear
+
+    root = np.linalg.cholesky(B)
+    right = scipy.linalg.solve_triangular(root, c, lower=True)
+    return lsq_linear(
+        root.T, right, (-bound, bound), method="bvls", tol=LAWS.regular**2, max_iter=LAWS.rounds * len(c)
+    ).x
 
 
 def _settled(
     B: np.ndarray, c: np.ndarray, bound: np.ndarray, v: np.ndarray, rest: np.ndarray, some: np.ndarray
 ) -> bool:
-    """Choose some of the forces in place, of least norm, so that the speeds `rest` rest; whether their limits allow that."""
+    """True if the forces `some`, set in place to those of least norm that hold the speeds `rest`, are within their bounds."""
     given = np.setdiff1d(np.arange(len(v)), some)
     right = c[rest] - B[np.ix_(rest, given)] @ v[given]
     v[some] = np.linalg.lstsq(B[np.ix_(rest, some)], right, rcond=LAWS.independent)[0]
@@ -97,7 +91,7 @@ def _settled(
 
 
 def _independent(B: np.ndarray, some: np.ndarray) -> np.ndarray:
-    """As many of some speeds as are independent."""
+    """Select an independent subset of some speeds."""
     if not some.size:
         return some
     factors, order = scipy.linalg.qr(B[np.ix_(some, some)], mode="r", pivoting=True)
@@ -106,7 +100,7 @@ def _independent(B: np.ndarray, some: np.ndarray) -> np.ndarray:
 
 
 def _dependent(B: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """Which speeds rest where those that are held do: nothing is left of their own responses."""
+    """Mark the speeds that depend on those that are held: their Schur complements are 0."""
     own = B[np.ix_(held, held)]
     left = 1 - np.sum(B[:, held].T * np.linalg.solve(own, B[held]), axis=0) if held.any() else np.ones(len(B))
     return left <= LAWS.independent

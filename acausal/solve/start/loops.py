@@ -76,7 +76,7 @@ def close(
 
 
 def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
-    """Disturb guesses at which a constraint has no value, as where two frames that coincide are guessed half a turn apart."""
+    """Disturb guesses at which a constraint has no value, as for frames to be joined that are half a turn apart."""
     free = np.setdiff1d(problem.compiled.constraints.states, held)
     for k, size in enumerate(LOOPS.attempts):
         start = at.x[free] + size * problem.nominal[free] * np.random.default_rng(k).standard_normal(len(free))

@@ -78,7 +78,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
 
 
 def _released(problem: Problem, head: np.ndarray, at_rest: bool) -> np.ndarray:
-    """Let set-valued laws at rest have no force, in place, until the first instant decides them: they may be redundant."""
+    """Release set-valued laws at rest, in place, until the first event iteration decides them: they may be redundant."""
     laws = problem.compiled.guards.laws
     places = problem.compiled.guards.n_switches + laws.places
     if at_rest and len(laws):

@@ -216,3 +216,9 @@ def test_a_clutch_that_closes_at_rest():
 
     run = ac.simulate(Idle(), stop_time=4.0)
     assert (run["a.w"][-1], run["b.w"][-1]) == pytest.approx((1, 1), abs=1e-4)
+
+
+def test_guesses_at_which_a_loop_is_half_a_turn_apart():
+    """Its closure has no value there: it was a bare ValueError."""
+    model = Parallelogram(c=joint(guess(1.0)), d=joint(guess(np.pi - 1.0)))
+    assert ac.simulate(model, stop_time=0.5)["d.phi"][0] == pytest.approx(-1.0, abs=1e-6)

@@ -34,14 +34,16 @@ def test_redundant_forces_are_those_of_least_norm():
     J = np.array([1.0, 1.0, -1.0, 1.0])
     found = shares(np.outer(J, J), 2 * J, np.zeros(4))
     np.testing.assert_allclose(found.share, J / 2)
-    assert found.sticks.sum() == 1 and not found.sense.any()
+    assert found.sticks.sum() == 1
+    assert not found.sense.any()
 
 
 def test_forces_at_their_limits_stay_there_while_others_hold():
     J = np.ones(4)
     found = shares(np.outer(J, J), 2 * J, np.array([1.0, 0, 0, 0]))
     np.testing.assert_allclose(found.share, [1, 1 / 3, 1 / 3, 1 / 3])
-    assert not found.sticks[0] and not found.sense.any()
+    assert not found.sticks[0]
+    assert not found.sense.any()
     relieved = shares(np.outer(J, J), -3.5 * J, np.array([1.0, 0, 0, 0]))
     np.testing.assert_allclose(relieved.share, -3.5 / 4)
 
