@@ -77,6 +77,8 @@ def close(
 
 def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
     """Disturb guesses at which a constraint has no value, as for frames to be joined that are half a turn apart."""
+    if np.all(np.isfinite(problem.constraints(at)[0])):
+        return at
     free = np.setdiff1d(problem.compiled.constraints.states, held)
     for k, size in enumerate(LOOPS.attempts):
         start = at.x[free] + size * problem.nominal[free] * np.random.default_rng(k).standard_normal(len(free))
