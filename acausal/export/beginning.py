@@ -62,7 +62,7 @@ def begin(problem: Problem, time: float, later: float, initial: str) -> Beginnin
     ExportError
         If it starts in a singular position: equations do not tell how it goes on.
     """
-    begun = start(problem, time, later, initial)
+    begun = start(problem, time, later, initial, decides=False)
     at = begun.point
     if go_on(problem, begun) is not at:
         raise ExportError(

@@ -101,7 +101,10 @@ class Instants:
         Cycling
             If that does not come to an end.
         """
-        fires, changed = list(fired or []), False
+        fires, changed = list(fired or []), self.laws.undecided(at.constants)
+        if changed:  # at the start: their conditions mean nothing before
+            at = self._decided(at)
+            constants = constants and replace(constants, discretes=at.constants.discretes)
         after = constants or at.constants
         moved, tried = list[int](), Assignments(range(int(np.sum(self.is_switch))))
         none = np.zeros(len(self.watched), dtype=bool)
@@ -111,7 +114,7 @@ class Instants:
             now = np.where(due, forced, self.holds(at, crossed)) if len(self.watched) else at.truth
             flips = self.is_switch & (now != at.truth)
             fires += self.watched[~self.is_switch & now & ~at.truth].tolist()
-            if not (flips.any() or fires or self.laws.undecided(at.constants)) and after is at.constants:
+            if not flips.any() and not fires and after is at.constants:
                 return replace(at, truth=now), changed
             moved = self.watched[flips].tolist() + fires
             if flips.any():
@@ -145,8 +148,11 @@ class Instants:
         flips = self.is_switch & changed
         jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
         self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
-        jumped = self.laws.decided(at.constants, jumped)
-        return replace(algebraic(self.problem, jumped), truth=now)
+        return replace(self._decided(jumped, at.constants), truth=now)
+
+    def _decided(self, at: Point, before: Constants | None = None) -> Point:
+        """Return the point with set-valued laws at rest decided, and the algebraic unknowns solved for."""
+        return algebraic(self.problem, self.laws.decided(before or at.constants, at))
 
     def _leeway(self, at: Point, changed: np.ndarray) -> float:
         """Time in which conditions that change move as far as what they compare typically does; none where the clock acts.

@@ -30,7 +30,7 @@ NOT_FINITE = "the equations have no value at the start; check the start values."
 
 # What has no value is looked for and told in the user's words; numpy's warnings would only name our own lines.
 @np.errstate(all="ignore")
-def start(problem: Problem, time: float, later: float, initial: str) -> Start:
+def start(problem: Problem, time: float, later: float, initial: str, decides: bool = True) -> Start:
     """Find consistent values at the start, and the switches that fit them.
 
     Parameters
@@ -41,6 +41,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
         Start time, and a time before the first break.
     initial : "fixed", "guesses" or "steady"
         See `initialize`.
+    decides : bool
+        Whether an event iteration follows that decides set-valued laws at rest.
 
     Raises
     ------
@@ -49,8 +51,8 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     """
     guards, p = problem.compiled.guards, problem.p
     tried = Assignments([k for k in guards.watched if k < guards.n_switches])
-    at_rest = initial != "steady"
-    head = _released(problem, guards.estimate(p, time, later)[0].copy(), at_rest)
+    decides = decides and initial != "steady"  # an equilibrium may rest on friction
+    head = _released(problem, guards.estimate(p, time, later)[0].copy(), decides)
     head = tried.then(head, head)
     while head is not None and tried.count <= MOST:
         try:
@@ -66,7 +68,7 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
             head = tried.then(head, head if there is None else there)
             continue
         at = begun.point
-        new = _released(problem, _found(problem, at, head), at_rest)
+        new = _released(problem, _found(problem, at, head), decides)
         same = (new == head) | (np.abs(new - head) <= POLICY.switches.same * np.abs(head))
         # Rounding would turn what is in doubt over again and again.
         doubtful = _doubtful(problem, at) if tried.count > 1 and not np.all(same) else np.empty(0, dtype=int)
@@ -77,11 +79,11 @@ def start(problem: Problem, time: float, later: float, initial: str) -> Start:
     raise InitializationError(_no_switches(problem.compiled, time, tried))
 
 
-def _released(problem: Problem, head: np.ndarray, at_rest: bool) -> np.ndarray:
+def _released(problem: Problem, head: np.ndarray, decides: bool) -> np.ndarray:
     """Release set-valued laws at rest, in place, until the first event iteration decides them: they may be redundant."""
     laws = problem.compiled.guards.laws
     places = problem.compiled.guards.n_switches + laws.places
-    if at_rest and len(laws):
+    if decides and len(laws):
         head[places[:, SHARED]] = head[places[:, MODE]] == 0
     return head
 

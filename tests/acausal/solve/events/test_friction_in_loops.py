@@ -22,6 +22,7 @@ from tests.acausal.solve.events.cranks import (
     rates_of_joints,
     slider_crank,
 )
+from tests.benchmarks.events.scenes import StickSlip
 
 slow = pytest.mark.slow
 METHODS = ("auto", pytest.param("idas", marks=slow))
@@ -222,3 +223,10 @@ def test_guesses_at_which_a_loop_is_half_a_turn_apart():
     """Its closure has no value there: it was a bare ValueError."""
     model = Parallelogram(c=joint(guess(1.0)), d=joint(guess(np.pi - 1.0)))
     assert np.exp(1j * ac.simulate(model, stop_time=0.5)["d.phi"][0]) == pytest.approx(np.exp(-1j), abs=1e-6)
+
+
+def test_a_start_at_rest_under_a_load():
+    """A wheel on a belt sticks from the start on, until the spring tears it off."""
+    run = ac.simulate(StickSlip(), stop_time=0.19, tolerance=1e-8)
+    np.testing.assert_allclose(run["angle"], 0.4 + run.time, atol=1e-9)
+    np.testing.assert_allclose(run["contact.mode"], 0)
