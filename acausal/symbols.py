@@ -6,7 +6,8 @@ what leaves a matrix as it is, and sums, products and quotients of matrices, do 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Hashable, Iterable
 from typing import Any
 
 import casadi as ca
@@ -42,3 +43,38 @@ def dense(matrix: ca.SX) -> ca.SX:
 def combined(left: ca.SX, operation: str, right: ca.SX) -> ca.SX:
     """Return what left + right gives, or another operation on entries."""
     return ca.SX.binary(OPERATIONS[operation], left, right)
+
+
+class Distinct:
+    """Distinct scalar expressions, numbered in the order of their first appearance.
+
+    Equality is that of `casadi.is_equal`, which compares two expressions; a key made of their outer operations tells which
+    ones are worth comparing, so that n expressions take n comparisons, not n^2.
+    """
+
+    # Operations that `casadi.is_equal` compares, and those of the key: time - 0.1 and time - 0.2 differ in the first.
+    _COMPARED, _KEYED = 9, 3
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._alike = defaultdict[Hashable, list[tuple[int, ca.SX]]](list)
+
+    def number(self, expression: ca.SX, kind: str) -> int:
+        """Return the number of an expression of some kind; a new one gets the next number."""
+        alike = self._alike[kind, _key(expression, self._KEYED)]
+        for number, known in alike:
+            if ca.is_equal(known, expression, self._COMPARED):
+                return number
+        alike.append((self._count, expression))
+        self._count += 1
+        return self._count - 1
+
+
+def _key(expression: ca.SX, depth: int) -> Hashable:
+    """Key of the outer operations of a scalar; operands have no order, as `casadi.is_equal` lets them commute."""
+    if expression.is_constant():
+        return float(expression)
+    if expression.is_symbolic():
+        return expression.element_hash()
+    operands = range(expression.n_dep()) if depth else ()
+    return expression.op(), frozenset(_key(expression.dep(k), depth - 1) for k in operands)

@@ -18,7 +18,7 @@ from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
 from acausal.language.functions import time
 from acausal.reduce import ReducedModel
-from acausal.symbols import scalars
+from acausal.symbols import Distinct, scalars
 
 
 def by_clock(reduced: ReducedModel, conditions: Iterable[Condition]) -> tuple[list[bool], list[bool], ca.SX]:
@@ -91,11 +91,14 @@ def split_clock(reduced: ReducedModel) -> ReducedModel:
     joined = [guard for guard in flat.discontinuities.guards if isinstance(guard.condition, Joined)]
     timed, _, excess = by_clock(reduced, [guard.condition for guard in joined])
     known, switches, own = iter(zip(timed, scalars(excess), strict=True)), list[tuple[ca.SX, Guard]](), {}
+    distinct = Distinct()
     for guard in joined:
         parts = [(part, *next(known)) for part in guard.condition.comparisons]
         if all(t for _, t, _ in parts) or not any(t for _, t, _ in parts):
             continue
-        own_switches = {id(part): _switch(Condition(Expr(e), part.kind), guard, switches) for part, t, e in parts if t}
+        own_switches = {
+            id(part): _switch(Condition(Expr(e), part.kind), guard, switches, distinct) for part, t, e in parts if t
+        }
         own[id(guard)] = replace(guard, condition=_what_is_left(guard.condition, own_switches).condition())
     if not own:
         return reduced
@@ -110,13 +113,12 @@ def split_clock(reduced: ReducedModel) -> ReducedModel:
     return replace(reduced, flat=replace(flat, discontinuities=changed))
 
 
-def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]]) -> ca.SX:
+def _switch(condition: Condition, guard: Guard, switches: list[tuple[ca.SX, Guard]], distinct: Distinct) -> ca.SX:
     """Return the switch of a comparison, the same for the same comparison."""
-    for switch, other in switches:
-        if other.condition.kind == condition.kind and ca.is_equal(other.excess, condition.excess.sx, 9):
-            return switch
-    switches.append((ca.SX.sym("clock"), Guard(condition, guard.origin)))
-    return switches[-1][0]
+    number = distinct.number(condition.excess.sx, condition.kind)
+    if number == len(switches):
+        switches.append((ca.SX.sym("clock"), Guard(condition, guard.origin)))
+    return switches[number][0]
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,8 @@ class Guards:
         self._all, self._decided = compared, [r for r, *_ in rows]
         self._compared = compared[[r for r, *_ in rows if not bent[r]]]
         self._bent = [(compared[r], inclusive, origin) for r, inclusive, origin in rows if bent[r]]
-        self.watched = [k for k in range(len(self.guards)) if k not in set(self.timed)]
+        timed = set(self.timed)
+        self.watched = [k for k in range(len(self.guards)) if k not in timed]
 
     def _resolve(self, entries: list[ca.SX], unprojected: bool = False) -> ca.SX:
         column = stacked(entries)

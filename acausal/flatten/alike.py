@@ -24,7 +24,7 @@ from acausal.flatten.tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr
-from acausal.language.functions import PENDING, Pending
+from acausal.language.pending import PENDING, Pending
 from acausal.symbols import scalars, stacked, vec
 
 FEWEST = 4  # alike components for which preparing a function pays

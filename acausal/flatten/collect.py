@@ -20,8 +20,8 @@ from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
-from acausal.language.functions import PENDING
 from acausal.language.homes import error_of, misplaced
+from acausal.language.pending import PENDING
 from acausal.language.set_valued import SetValued
 from acausal.symbols import combined, dense, scalars, vec
 

@@ -18,7 +18,7 @@ from acausal.language import unit_rules
 from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
-from acausal.language.functions import PENDING, Pending
+from acausal.language.pending import PENDING, Pending
 from acausal.symbols import dense, scalars, stacked, vec
 
 Resolve = Callable[[list[ca.SX]], list[ca.SX]]

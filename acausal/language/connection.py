@@ -11,8 +11,8 @@ from acausal.language.arguments import told
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.fields import Field
-from acausal.language.functions import PENDING
 from acausal.language.path import Path
+from acausal.language.pending import PENDING
 from acausal.language.signal import Signal, Wire
 
 NOTHING = (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextvars import ContextVar
 from fractions import Fraction
 from functools import partial, wraps
 from typing import Any
@@ -14,11 +13,11 @@ from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
 from acausal.language.arguments import told
 from acausal.language.condition import Condition, refuse_cases
-from acausal.language.events import When
 from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred
+from acausal.language.pending import PENDING, Pending, pending_for, truth
 from acausal.language.written import kind_of
-from acausal.symbols import scalars, vec
+from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension, parse
 
 _SECOND = parse("s")
@@ -27,81 +26,6 @@ time = Expr(ca.SX.sym("time"), None, "time")
 initial = Expr(ca.SX.sym("initial"), DIMENSIONLESS, "initial")
 # How fast states return to an invariant that they must keep (Baumgarte 1972): ten times in a run.
 feedback = Expr(ca.SX.sym("feedback"), DIMENSIONLESS / _SECOND, "feedback")
-
-
-class Pending:
-    """What equations request while a model is flattened: derivatives, switching conditions and jumps.
-
-    `derivatives` holds (placeholder, expression); the derivatives of all of them are formed in one call later.
-    `switches` holds (switch, condition): a switch is 1 while its condition holds; `places` says where each is stated.
-    `whens` holds the statements of jumps and where they are stated, `discrete` the symbols of discrete variables.
-    `laws` holds the set-valued laws and where they are stated.
-    `varying` holds the symbols of variables, as soon as there are any.
-    `watches` is false while start values are formed, which need no switches.
-    `differentiated` holds the expressions of der() that depend on switches, `sources` where each is stated.
-    `promises` holds (condition, step, value) of smooth switches, `promised` where each is stated: where the condition
-    changes, the step from one case to the next should be 0.
-    """
-
-    def __init__(self) -> None:
-        self.derivatives: list[tuple[ca.SX, ca.SX]] = []
-        self.switches: list[tuple[ca.SX, Condition]] = []
-        self.places: list[Any] = []
-        self.whens: list[tuple[When, Any]] = []
-        self.laws: list[tuple[Any, Any]] = []
-        self.discrete: set[int] = set()
-        self.varying: set[int] = set()
-        self.watches = True
-        self.differentiated: list[ca.SX] = []
-        self.sources: list[Any] = []
-        self.promises: list[tuple[Condition, ca.SX, ca.SX]] = []
-        self.promised: list[Any] = []
-
-    def switch(self, condition: Condition) -> ca.SX:
-        """Return the switch of a condition, the same for the same condition; one on discrete variables is its own."""
-        if not self.watches or all(s.element_hash() in self.discrete for s in ca.symvar(condition.excess.sx)):
-            return _truth(condition)
-        for switch, other in self.switches:
-            if other.kind == condition.kind and ca.is_equal(other.excess.sx, condition.excess.sx, 9):
-                return switch
-        self.switches.append((ca.SX.sym("switch"), condition))
-        return self.switches[-1][0]
-
-    def place(self, origin: Any) -> None:
-        """Record where the switches and derivatives requested since the last call come from."""
-        self.places += [origin] * (len(self.switches) - len(self.places))
-        self.sources += [origin] * (len(self.differentiated) - len(self.sources))
-        self.promised += [origin] * (len(self.promises) - len(self.promised))
-
-    def promise(self, steps: list[tuple[Condition, ca.SX]], value: ca.SX) -> None:
-        """Note the steps of a smooth law from each case to the next; an earlier case that holds hides them."""
-        hidden = ca.SX(0)
-        for condition, step in steps if self.watches else ():
-            self.promises.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
-            hidden = ca.logic_or(hidden, _truth(condition))
-
-    def differentiate(self, x: ca.SX) -> ca.SX:
-        """Return a placeholder for the derivative of an expression."""
-        placeholder = ca.SX.sym("der", *x.shape)
-        self.derivatives.append((placeholder, x))
-        switching = self.discrete | {switch.element_hash() for switch, _ in self.switches}
-        if switching and any(s.element_hash() in switching for s in ca.symvar(x)):
-            self.differentiated.append(x)
-        return placeholder
-
-
-def _truth(condition: Condition) -> ca.SX:
-    return condition.holds(condition.excess.sx)
-
-
-PENDING: ContextVar[Pending] = ContextVar("pending")
-
-
-def _pending(what: str) -> Pending:
-    try:
-        return PENDING.get()
-    except LookupError:
-        raise DeclarationError(f"{what} can be used inside equations() only.") from None
 
 
 def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -237,7 +161,7 @@ def der(x: Any) -> Any:
     Expr
         Derivative, of the shape of `x`, its unit divided by s.
     """
-    pending = _pending("der()")
+    pending = pending_for("der()")
     x = as_expr(x)
     placeholder = pending.differentiate(x.sx)
     if isinstance(x.unit, tuple):
@@ -274,19 +198,33 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
     flat = [item for case in cases[:-1] for item in (case[0], case[1].excess)] + [cases[-1]]
     if is_deferred(*flat) or (not smooth and PENDING.get(None) is None):
         return Deferred(partial(piecewise, smooth=smooth), cases)
-    value = otherwise = as_expr(cases[-1])
-    steps: list[tuple[Condition, ca.SX]] = []
+    otherwise = as_expr(cases[-1])
+    unit, laws = (
+        otherwise.unit,
+        [(ca.SX(1), otherwise.sx)],
+    )  # whether a case holds, and its value, from the last to the first
     for choice, condition in reversed(cases[:-1]):
         choice = as_expr(choice)
-        if choice.shape != value.shape:
+        if choice.shape != otherwise.shape:
             raise DeclarationError(
-                f"the cases of piecewise differ in shape: {kind_of(choice.shape)} and {kind_of(value.shape)}."
+                f"the cases of piecewise differ in shape: {kind_of(choice.shape)} and {kind_of(otherwise.shape)}."
             )
-        last = Expr(otherwise.sx, value.unit, otherwise.name, value.shape)
+        last = Expr(otherwise.sx, unit, otherwise.name, otherwise.shape)
         unit = unit_rules.common(choice, last, "cases of a piecewise")
-        steps.insert(0, (condition, choice.sx - value.sx))
-        holds = _truth(condition) if smooth else _pending("piecewise").switch(condition)
-        value = Expr(ca.if_else(holds, choice.sx, value.sx), unit, shape=value.shape)
+        laws.append((truth(condition) if smooth else pending_for("piecewise").switch(condition), choice.sx))
+    _, value = _first_that_holds(laws[::-1])
     if smooth and (pending := PENDING.get(None)):
-        pending.promise(steps, value.sx)
-    return value
+        pending.promise([condition for _, condition in cases[:-1]], [law for _, law in reversed(laws)], value)
+    return Expr(value, unit, shape=otherwise.shape)
+
+
+def _first_that_holds(cases: list[tuple[ca.SX, ca.SX]]) -> tuple[ca.SX, ca.SX]:
+    """Return whether one of some cases holds, and the value of the first one that does, in the last one's absence.
+
+    The selections are a balanced tree: reverse differentiation of a chain of n selections takes n^2 operations.
+    """
+    if len(cases) == 1:
+        return cases[0]
+    half = len(cases) // 2
+    (early, first), (late, second) = _first_that_holds(cases[:half]), _first_that_holds(cases[half:])
+    return ca.logic_or(early, late), ca.if_else(early, first, second)

@@ -7,7 +7,7 @@ import re
 from acausal.flatten.tree import members, walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
-from acausal.language.functions import PENDING, Pending
+from acausal.language.pending import PENDING, Pending
 from acausal.nearest import missing
 from acausal.result.files import shown_name
 

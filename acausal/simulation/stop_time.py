@@ -15,7 +15,7 @@ from acausal.flatten.origin import Origin, with_place
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
-from acausal.language.functions import PENDING, Pending
+from acausal.language.pending import PENDING, Pending
 from acausal.language.values import shown
 from acausal.locks import alone
 from acausal.symbols import stacked

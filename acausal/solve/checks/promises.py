@@ -21,7 +21,7 @@ from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.evaluator import Evaluator
 from acausal.solve.looks import spread
 from acausal.solve.points import Rows
-from acausal.symbols import scalars
+from acausal.symbols import scalars, stacked
 
 PROMISES = POLICY.promises
 
@@ -61,12 +61,15 @@ class _Look:
 def _known(compiled: CompiledModel) -> Watch:
     """Promises of what the equations hold; a derivative that no equation has cannot be evaluated."""
     r = compiled.reduced
-    entries = [(promise, [promise.excess, promise.step, promise.value]) for promise in r.flat.discontinuities.promises]
+    promises = r.flat.discontinuities.promises
+    entries = [stacked([promise.excess, promise.step, promise.value]) for promise in promises]
     known = {s.element_hash() for a in compiled.arguments for s in scalars(a)}
+    column = r.resolve(ca.densify(stacked(entries)))
+    missing = [s for s in ca.symvar(column) if s.element_hash() not in known]
+    depends = ca.which_depends(column, stacked(missing), 1, True) if missing else [False] * column.numel()
+    unknown = np.split(np.array(depends), np.cumsum([entry.numel() for entry in entries])[:-1])
     found = [
-        (promise, some)
-        for promise, some in entries
-        if all(s.element_hash() in known for e in some for s in ca.symvar(r.resolve(ca.densify(e))))
+        (promise, scalars(entry)) for promise, entry, u in zip(promises, entries, unknown, strict=True) if not any(u)
     ]
     return watch(compiled, [promise for promise, _ in found], [e for _, some in found for e in some])
 

@@ -44,7 +44,8 @@ class Agenda:
         ends = float(times[0]), float(times[-1])
         self.near = part_of_time(POLICY.agenda.apart, *ends) * max(map(abs, ends))
         self.added = part_of_time(POLICY.agenda.added, *ends)
-        self.switches = [k < guards.n_switches for k in guards.timed]
+        self._timed = np.array(guards.timed, dtype=int)
+        self._is_switch = self._timed < guards.n_switches
         self._plans = bool(guards.planned.function.numel_out(0))
 
     def on(self, time: float, near: float = 0.0) -> np.ndarray:
@@ -57,7 +58,7 @@ class Agenda:
 
     def undecided(self, time: float) -> list[int]:
         """Timed guards whose conditions have no value at a time."""
-        return [k for k, h in zip(self.guards.timed, self._holds(time, 0.0), strict=True) if np.isnan(h)]
+        return self._timed[np.isnan(self._holds(time, 0.0))].tolist()
 
     def _holds(self, time: float, near: float) -> np.ndarray:
         return self.guards.holds_at(self.p, time, near)[0] if self.guards.timed else np.empty(0)
@@ -68,13 +69,11 @@ class Agenda:
 
     def constants(self, constants: Constants, on: np.ndarray) -> Constants:
         """Return constants with the switches that the clock decides."""
-        decided = [k for k, switch in enumerate(self.switches) if switch]
-        return constants.switched([self.guards.timed[k] for k in decided], on[decided])
+        return constants.switched(self._timed[self._is_switch], on[self._is_switch])
 
     def fired(self, on: np.ndarray, before: np.ndarray) -> list[int]:
         """Timed guards with jumps whose condition becomes true."""
-        known = zip(self.guards.timed, on, before, self.switches, strict=True)
-        return [k for k, holds, held, switch in known if holds and not held and not switch]
+        return self._timed[on & ~before & ~self._is_switch].tolist()
 
     def at_start(self, at: Point, held: np.ndarray, instants: Instants) -> tuple[Point, list[int]]:
         """Return the start with the watched conditions that held at that very instant, and the timed guards that act.

@@ -54,7 +54,8 @@ class Course:
         # A rounding error apart from an output, a break is on it.
         near = [float(times[np.argmin(np.abs(times - b))]) for b in breaks]
         self.breaks = [n if abs(n - b) <= POLICY.agenda.same * abs(b) else b for n, b in zip(near, breaks, strict=True)]
-        self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in set(declared)}
+        follow = set(declared)
+        self.found = {b for b, known in zip(self.breaks, breaks, strict=True) if known not in follow}
         problem = integrator.problem
         self.guards, span = problem.compiled.guards, float(times[-1] - times[0])
         settings = integrator.settings
