@@ -126,7 +126,7 @@ def cross(a: Any, b: Any) -> Any:
 
 @told
 def quantity(value: Any, unit: str) -> Expr:
-    """Return a constant with a unit, where a number alone would be a pure number.
+    """Return a constant with a unit, where a number alone takes the unit that the equation asks for.
 
     Parameters
     ----------

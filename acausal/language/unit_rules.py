@@ -1,9 +1,8 @@
 """Units of sums, products and arrays: a contradiction is reported only where it is certain.
 
-A number fits any unit in sums and equations (x == 2, x + 1). As a factor it is pure where it is a ratio of small whole
-numbers, as those of geometry and energy are: 2 * E and E / 2 are in J. Any other number may be a constant with a unit, as
-9.81 * h or 1e4 * s, and so may any before something dimensionless: 10 * sin(phi) can be a torque. The number 0 fits
-always. What is declared without a unit is unknown, and so is what a matrix of numbers makes of a vector.
+A literal takes the unit that the equation asks for, as a term (x == 2, x + 1) and as a factor (9.81 * h, E / 2, 1 / T),
+whatever its value: gains of 400 and of 1 are written alike. So what a literal multiplies is of unknown unit, and unknown
+units fit any other. What is declared without a unit is unknown, too, and so is what a matrix of numbers makes of a vector.
 """
 
 from __future__ import annotations
@@ -16,10 +15,8 @@ import casadi as ca
 
 from acausal.errors import UnitsError
 from acausal.language.written import short
-from acausal.symbols import scalars
-from acausal.units import DIMENSIONLESS, Dimension
+from acausal.units import Dimension
 
-RATIOS = {sign * k / n for sign in (1, -1) for k in range(1, 10) for n in (1, 2, 3, 4, 6, 8, 12)}
 Unit = Dimension | tuple[Dimension | None, ...] | None
 
 
@@ -72,20 +69,11 @@ def check_value(own: Measured, value: Measured) -> None:
 
 def of_product(a: Measured, b: Measured) -> Unit:
     """Return the unit of a * b, entry by entry."""
-    if a.unit is None and b.unit is None:
-        return None
-    if is_number(a) or is_number(b):
-        number, other = (a, b) if is_number(a) else (b, a)
-        return _behind_number(other) if _is_pure(number) else None
     return _combined(a, b, lambda u, v: u * v)
 
 
 def of_quotient(a: Measured, b: Measured) -> Unit:
     """Return the unit of a / b, with a scalar b."""
-    if is_number(b):
-        return _behind_number(a) if _is_pure(b) else None
-    if is_number(a):
-        return of_power(b, -1, number=True) if _is_pure(a) else None
     return _combined(a, b, lambda u, v: u / v)
 
 
@@ -99,11 +87,8 @@ def of_inner_product(a: Measured, b: Measured) -> Unit:
     """
     if isinstance(a.unit, Dimension) and isinstance(b.unit, Dimension):
         return a.unit * b.unit
-    numbers = is_number(a) or is_number(b)
-    if len(a.shape) != 1 or len(b.shape) != 1 or (not numbers and (a.unit is None or b.unit is None)):
+    if len(a.shape) != 1 or len(b.shape) != 1 or a.unit is None or b.unit is None:
         return None
-    if isinstance(a.unit, Dimension | None) and isinstance(b.unit, Dimension | None):
-        return of_product(a, b)
     terms = [x * y for x, y in zip(a, b, strict=True)]
     total = terms[0]
     for term in terms[1:]:
@@ -113,15 +98,14 @@ def of_inner_product(a: Measured, b: Measured) -> Unit:
     return None if unknown else total.unit
 
 
-def of_power(base: Measured, power: Any, number: bool = False) -> Unit:
-    """Return the unit of a power by a number; behind a number something dimensionless may have any unit."""
+def of_power(base: Measured, power: Any) -> Unit:
+    """Return the unit of a power by a number."""
     if not isinstance(power, int | float | Fraction) or base.unit is None:
         return None
     exact = Fraction(power).limit_denominator(1000)
     if abs(exact - power) > 1e-12:
         return None
-    raised = [u if u is None or exact == 1 else u ** _plain(exact) for u in _entries(base)]
-    return _merged([None if number and u is DIMENSIONLESS else u for u in raised])
+    return _merged([u if u is None or exact == 1 else u ** _plain(exact) for u in _entries(base)])
 
 
 def of_array(items: Sequence[Measured]) -> Unit:
@@ -132,21 +116,6 @@ def of_array(items: Sequence[Measured]) -> Unit:
     if any(item.shape for item in items):
         return None
     return _merged([item.unit if isinstance(item.unit, Dimension) else None for item in items])
-
-
-def is_number(value: Measured) -> bool:
-    """Return whether an expression is made of numbers alone."""
-    return value.unit is None and value.sx.is_constant()
-
-
-def _is_pure(number: Measured) -> bool:
-    """Return whether all entries are 0 or ratios of small whole numbers, such as 2, 1/2, 2/3 or 1/12, but not all 0."""
-    entries = [float(entry) for entry in scalars(number.sx)]
-    return any(entries) and all(not entry or entry in RATIOS for entry in entries)
-
-
-def _behind_number(value: Measured) -> Unit:
-    return _merged([None if u is DIMENSIONLESS else u for u in _entries(value)])
 
 
 def _combined(a: Measured, b: Measured, operate: Any) -> Unit:
