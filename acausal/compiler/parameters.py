@@ -19,6 +19,7 @@ from acausal.flatten.numeric import misshapen, numeric
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.expression import Expr
+from acausal.language.quantities import plain
 from acausal.symbols import dense, scalars, vec
 
 
@@ -100,7 +101,7 @@ class Settable:
                 raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
             known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
             raise DeclarationError(not_settable(path, self.tree, known))
-        array = numeric(value, None, f"`{path}`")
+        array = numeric(plain(value, self._unit(path), f"`{path}`"), None, f"`{path}`")
         for name in entries:
             at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
             if (
@@ -123,6 +124,18 @@ class Settable:
                     f"`{name}` was exactly 0 when compiled and is no longer in the equations (a structural zero). "
                     f"{_again(path)}"
                 )
+
+    def _unit(self, path: str) -> Any:
+        """Unit of a parameter, or of an entry of one."""
+        name, _, entry = path.removesuffix("]").rpartition("[") if path not in self._fields else (path, "", "")
+        unit = self._fields[name].unit
+        return unit[int(entry.split(",")[0])] if entry and isinstance(unit, tuple) else unit
+
+    @cached_property
+    def _fields(self) -> dict[str, Expr]:
+        """Parameters and inputs of the model by path."""
+        values = ((join(c._path, n), vars(c).get(n)) for c in walk(self.tree) for n in c.fields)
+        return {path: value for path, value in values if isinstance(value, Expr)}
 
     @cached_property
     def _structural_names(self) -> set[str]:

@@ -180,7 +180,7 @@ def _plain(value: Any) -> Hashable:
     """What is equal for equal values alone; what cannot be compared is equal to itself."""
     if value is None or isinstance(value, bool | int | float | str):
         return type(value), repr(value)
-    if isinstance(value, np.ndarray) and value.dtype != object:
+    if type(value) is np.ndarray and value.dtype != object:
         return value.shape, value.dtype.str, value.tobytes()
     if type(value) in (list, tuple):
         return type(value), tuple(map(_plain, value))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import dataclass, field
 from functools import reduce
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -22,6 +23,7 @@ from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.homes import error_of, misplaced
 from acausal.language.pending import PENDING
+from acausal.language.quantities import plain
 from acausal.language.set_valued import SetValued
 from acausal.symbols import combined, dense, scalars, vec
 
@@ -76,9 +78,7 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike, 
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
                 origin = Origin(component._path, type(component).__name__, component._origin, f"{name}=...")
-                with_place(
-                    lambda n=name, v=value, c=component, o=origin: found.add(equation(getattr(c, n), v), o), origin
-                )
+                with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v), o), origin)
                 PENDING.get().place(origin)
     _take_defaults(found, defaults)
     first = len(found.sides)
@@ -105,8 +105,14 @@ def _take_defaults(found: Equations, defaults: list[Late]) -> None:
         own = getattr(component, name)
         stated = [path for s in scalars(own.sx) for path in alone.get(s.element_hash(), ())]
         if not any(path == "" or component._path.startswith(f"{path}.") for path in stated):
-            with_place(lambda o=own, v=value, at=origin: found.add(equation(o, v()), at), origin)
+            with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v()), o), origin)
             PENDING.get().place(origin)
+
+
+def _given(component: Component, name: str, value: Any) -> Any:
+    """State that an input of a part is what it is given."""
+    own = getattr(component, name)
+    return equation(own, plain(value, own.unit, f"`{name}`"))
 
 
 def collect_initial(components: list[Component], most: int, alike: Alike) -> Equations:

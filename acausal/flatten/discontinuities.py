@@ -19,6 +19,7 @@ from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.language.pending import PENDING, Pending
+from acausal.language.quantities import plain
 from acausal.symbols import dense, scalars, stacked, vec
 
 Resolve = Callable[[list[ca.SX]], list[ca.SX]]
@@ -36,7 +37,7 @@ class Discrete:
         """Value at the start, a column; the variables of the owner must exist by now."""
         given = self.owner._values.get(self.declared.name)
         value = given.value if isinstance(given, f.InitialValue) else f.evaluate(self.declared.start, self.owner)
-        given = as_expr(value)
+        given = as_expr(plain(value, self.expr.unit, f"start of `{self.expr.name}`"))
         sx = dense(vec(given.sx))
         size = self.expr.sx.numel()
         if sx.numel() not in (1, size):

@@ -17,7 +17,7 @@ from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.structural import structural_value
 from acausal.flatten.tree import join
 from acausal.language import fields as f
-from acausal.language import unit_rules
+from acausal.language import quantities, unit_rules
 from acausal.language.arguments import refused
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
@@ -146,7 +146,8 @@ class Given:
 
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         where = f"`{name}` of {self._origin(bound, name).owner}"
-        return structural_value(bound, declared, self._given(bound, name, declared), where)
+        given = quantities.plain(self._given(bound, name, declared), None, where)
+        return structural_value(bound, declared, given, where)
 
     def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
         origin = self._origin(bound, name)
@@ -154,6 +155,7 @@ class Given:
         path = join(bound._path, name)
         where = f"`{name}` of {origin.owner}"
         shape, unit = shape_of(declared, bound), unit_of(declared, bound)
+        value = quantities.plain(value, unit, where)
         if not is_symbolic(value):
             expression = self._free(path, numeric(value, shape, where), unit)
         else:
@@ -180,16 +182,17 @@ class Given:
 
     def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
         """An input at the top of the model is a parameter, whatever its value."""
-        shape = shape_of(declared, bound)
+        shape, unit = shape_of(declared, bound), unit_of(declared, bound)
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, self._start(bound, name, declared)))
+        given = quantities.plain(given, unit, where)
         if is_symbolic(given):
             raise DeclarationError(
                 f"{where} is {given!r}, but an input of the whole model takes a number. A law is given where "
                 f"{type(bound).__name__} is a part: `class Whole(Model): part = {type(bound).__name__}({name}=...)`."
             )
         value = numeric(given, shape if isinstance(given, list | tuple | np.ndarray) else (), where)
-        vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit_of(declared, bound), fold=False)
+        vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit, fold=False)
 
     def _start(self, bound: Component, name: str, declared: f.Variable) -> Any:
         """Value of an input at the top that is not given."""

@@ -14,6 +14,7 @@ from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.fields import InitialValue
 from acausal.language.no_expression import decimal_point
+from acausal.language.quantities import refused
 from acausal.language.symbolic import Symbolic
 from acausal.language.values import shown
 from acausal.language.written import short
@@ -41,6 +42,8 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
     """
     if type(value) is float and not shape and -LARGEST <= value <= LARGEST:
         return np.array(value)
+    if wrong := refused(value):
+        raise DeclarationError(f"{where} is {wrong}")
     single = shape == () or (shape is None and not _is_listed(value))
     try:
         if _has_no_number(value):

@@ -19,6 +19,7 @@ from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
+from acausal.language.quantities import plain
 from acausal.symbols import combined, scalars
 from acausal.units import Dimension
 
@@ -141,6 +142,7 @@ def _fill(value: Any, shape: tuple[int, ...], variable: Expr, what: str) -> Expr
         raise DeclarationError(f"{what} of `{path}` must be a value, not a function.")
     if isinstance(value, bool | np.bool_):
         raise DeclarationError(f"{what} of `{path}` is {value!r}; it must be a number.")
+    value = plain(value, variable.unit, f"{what} of `{path}`")
     if type(value) is float and isfinite(value) and (what == "start" or value > 0):
         return _filled(value, shape)
     given = as_expr(value)

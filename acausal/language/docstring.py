@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.language import data
 from acausal.language import fields as f
+from acausal.language.quantities import is_quantity
 
 WIDTH = 100
 SECTION = re.compile(r"\n\n(?=[A-Z][\w ]*\n-{3,}$)", re.MULTILINE)
@@ -89,6 +90,8 @@ def _default(value: Any) -> str:
     """Describe the default, "optional" for one that follows from other values."""
     if value is f.MISSING:
         return ""
+    if is_quantity(value):
+        return f"default {value}"
     if isinstance(value, np.ndarray):
         value = value.tolist() if value.any() else 0
     known = value is None or isinstance(value, bool | int | float | str | list | tuple)

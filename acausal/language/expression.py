@@ -15,6 +15,7 @@ from acausal.language import unit_rules
 from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
 from acausal.language.no_expression import no_expression, number_of, ragged
+from acausal.language.quantities import refused
 from acausal.language.symbolic import TWINS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.language.written import kind_of, short, written
@@ -179,6 +180,8 @@ def as_expr(value: Any) -> Expr:
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
         return _number(number_of(value))
+    if wrong := refused(value):
+        raise DeclarationError(f"here stands {wrong}")
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))), shape=value.shape)

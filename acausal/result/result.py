@@ -35,7 +35,7 @@ class Result:
     Parameters
     ----------
     time : array, shape (times,)
-        In s.
+        In s, read-only as all arrays of a result.
     evaluate : callable
         From a column of n expressions in the model's symbols to an array of shape (times, n).
     tree : Component or Kept
@@ -66,7 +66,8 @@ class Result:
         title: str = "",
         more: Kept | None = None,
     ) -> None:
-        self.time = np.asarray(time, dtype=float)
+        self.time = np.array(time, dtype=float)
+        self.time.setflags(write=False)  # as all arrays of a result: they are kept
         self.tree = tree
         self.outputs = tuple(outputs)
         self._stats = stats if isinstance(stats, Statistics) else Statistics(**stats)

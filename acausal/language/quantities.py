@@ -1,0 +1,120 @@
+"""Quantities of other packages, as of pint, astropy or unyt: converted to the unit of the field that they are given to.
+
+They are known by what they have in common: a number (`magnitude` or `value`), its unit (`units` or `unit`), and `to(unit)`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import DeclarationError, UnitsError
+from acausal.language.unit_rules import Unit
+from acausal.units import BASES, Dimension
+
+# An angle has a unit of its own in some packages and none in SI; these are the powers of it in moments, stiffnesses, rates.
+_ANGLES = ("", "*rad", "/rad", "*rad**2", "/rad**2")
+
+
+def plain(value: Any, unit: Unit, where: str) -> Any:
+    """Return a value with numbers in SI in place of quantities, which may stand in lists and arrays.
+
+    Parameters
+    ----------
+    value : object
+        As it is given.
+    unit : Dimension, tuple of Dimension or None
+        Unit of the field, or of each of its rows; None where none is declared.
+    where : str
+        What it is the value of, for messages.
+
+    Raises
+    ------
+    DeclarationError
+        If the field has no unit, or the value is a masked array.
+    UnitsError
+        If a quantity has another dimension.
+    """
+    if type(value) is float:
+        return value
+    if isinstance(value, np.ma.MaskedArray):
+        raise DeclarationError(f"{where} is {masked(value)}")
+    listed = _is_listed(value)
+    if not is_quantity(value) and not (listed and _holds_quantity(value)):
+        return value
+    if isinstance(unit, tuple) and (listed or np.ndim(_number(value))) and len(value) == len(unit):
+        return [plain(item, own, where) for item, own in zip(value, unit, strict=True)]
+    if listed:
+        return [plain(item, unit, where) for item in value]
+    if not isinstance(unit, Dimension):
+        own = (
+            "has several units: give a quantity for each entry" if unit else "has no unit: give the number alone, in SI"
+        )
+        raise DeclarationError(f"{where} is {_shown(value)}, but the field {own}.")
+    return _converted(value, unit, where)
+
+
+def is_quantity(value: Any) -> bool:
+    """Return whether a value is a quantity of another package: a number or an array with a unit."""
+    if isinstance(value, int | float | str | type) or not callable(getattr(value, "to", None)):
+        return False
+    return any(hasattr(value, n) for n in ("magnitude", "value")) and any(hasattr(value, u) for u in ("units", "unit"))
+
+
+def refused(value: Any) -> str:
+    """Return the message for a quantity where no field tells the unit, "" for other values."""
+    if isinstance(value, np.ma.MaskedArray):
+        return masked(value)
+    if not is_quantity(value):
+        return ""
+    return f'{_shown(value)}, a quantity of another package: write the number in SI with its unit, quantity(1.5, "kg").'
+
+
+def masked(value: Any) -> str:
+    """Return the message for a masked array."""
+    hidden = int(np.ma.count_masked(value))
+    return f"a masked array ({hidden} of {value.size} entries are masked): give numbers alone, array.filled(value)."
+
+
+def _converted(value: Any, unit: Dimension, where: str) -> Any:
+    for angle in _ANGLES:
+        try:
+            number = _number(value.to(f"{_text(unit)}{angle}" if _text(unit) else angle.lstrip("*").replace("/", "1/")))
+        except Exception:  # each package has its own for units that do not fit
+            continue
+        return np.asarray(number, dtype=float) if np.ndim(number) else float(number)
+    own = str(unit) if unit.exponents.count(0) < len(BASES) else "a number or an angle"
+    raise UnitsError(
+        f"{where} is {_shown(value)}, which cannot be converted to {own}. Give a quantity of that dimension, or the number "
+        "alone, in SI."
+    )
+
+
+def _number(quantity: Any) -> Any:
+    return quantity.magnitude if hasattr(quantity, "magnitude") else quantity.value
+
+
+def _text(unit: Dimension) -> str:
+    """Write a unit in base units, as the other packages read it."""
+    powers = zip(BASES, unit.exponents, strict=True)
+    return "*".join(base if power == 1 else f"{base}**({power})" for base, power in powers if power)
+
+
+def _is_listed(value: Any) -> bool:
+    return isinstance(value, list | tuple) or (
+        isinstance(value, np.ndarray) and value.dtype == object and value.ndim > 0 and not is_quantity(value)
+    )
+
+
+def _holds_quantity(value: Any) -> bool:
+    """Whether a list holds a quantity or a masked array at any depth."""
+    return any(
+        isinstance(item, np.ma.MaskedArray) or is_quantity(item) or (_is_listed(item) and _holds_quantity(item))
+        for item in value
+    )
+
+
+def _shown(value: Any) -> str:
+    text = " ".join(str(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
