@@ -26,6 +26,8 @@ from acausal import Expr, as_expr, cos, expect, sin, sqrt
 from components.beams.strain import Bend, gauss
 
 SHARE = 0.01
+SIDE = 1e-3  # of the length, and of a radian: a third of what structures are usually allowed to deflect, length / 300
+SOFTER = 2.6  # E / G for Poisson's ratio of 0.3
 SEEN = 2e-4  # of the length: errors of much smaller deflections are not reported
 HINGE = 0.1  # of the mean bending moment: an end moment well below that is one of a hinge
 
@@ -41,6 +43,7 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
         Its frames, from frame_a to frame_b.
     """
     chain = _Chain(beam, frames)
+    yield from _out_of_plane(chain)
     shape, by_axial, by_slope = chain.shape, *chain.errors()
     error = Bend(*(a + s for a, s in zip(by_axial, by_slope, strict=True)))
     size, whole = chain.deflection(error) * chain.loosened(error), chain.deflection(shape)
@@ -63,6 +66,38 @@ def beam_range(beam: Any, frames: list[Any]) -> Iterator[Any]:
         f"geometric_stiffness=True and, beyond 20 degrees, {more}"
     )
     yield expect(size * (1 - side) / 2, whole, SHARE, text)
+
+
+def _out_of_plane(chain: _Chain) -> Iterator[Any]:
+    """Expect that what the beam is rigid against, bending across its plane and torsion, would be small.
+
+    The moment M about y in a frame of length L is the cubic that has the moments and the forces V across the plane at its ends,
+    which is exact for inertia forces that vary linearly. With M = EJ_y theta', the ends turn against each other by
+
+        theta = (L (M_a + M_b) / 2 + L^2 (V_a - V_b) / 12) / EJ_y
+
+    and frame_b lies beside the tangent at frame_a by
+
+        w = (L^2 (7 M_a + 3 M_b) / 20 + L^3 (3 V_a - 2 V_b) / 60) / EJ_y.
+
+    The torsion constant is at most the polar moment J + J_y (Saint-Venant), so the beam twists by the angle below or more.
+    """
+    beam, n = chain.beam, len(chain.frames)
+    l = beam.length / n
+    J_y = beam.J if as_expr(beam.J_y).sx.is_zero() else beam.J_y
+    (M_a, T_a, V_a), (M_b, T_b, V_b) = chain.side_loads()
+    turns = (l / 2 * (M_a + M_b) + l * l / 12 * (V_a - V_b)) / (beam.E * J_y)
+    aside = (l * l / 20 * (7 * M_a + 3 * M_b) + l * l * l / 60 * (3 * V_a - 2 * V_b)) / (beam.E * J_y)
+    beyond = np.arange(n)[::-1]  # volumes behind each
+    from_a = abs(_total(aside) + l * _total(beyond * turns))
+    from_b = abs(_total(aside) + l * _total(beyond * turns) - beam.length * _total(turns))
+    text = (
+        "it is rigid across its xy plane, where its loads would bend it by more than a thousandth of its length; turn it so "
+        "that it is loaded in that plane, or take an FEBody"
+    )
+    yield expect((from_a + from_b + abs(from_a - from_b)) / 2, Expr(beam.length.sx), SIDE, text)
+    text = "it is rigid against torsion, by which its loads would twist it by more than a thousandth of a radian; take an FEBody"
+    yield expect(SOFTER * l / 2 * _total(T_a + T_b) / (beam.E * (beam.J + J_y)), 1.0, SIDE, text)
 
 
 @dataclass
@@ -88,6 +123,15 @@ class _Chain:
     def _stiffness(self, e: Bend) -> Any:
         """Work of the bending forces in a shape, in N.m."""
         return self.EJ / self.l**3 * _total(e.q * e.q + 3 * e.r * e.r)
+
+    def side_loads(self) -> Iterator[tuple[Any, Any, Any]]:
+        """Moment about y, torque about x and force along z at the roots and at the tips of the frames, in their axes."""
+        for sign, (turns, ports) in zip((-1, 1), self.ends, strict=True):
+            phi = self.frames[0]._strain.angle(turns)
+            t_x, t_y, f_z = (
+                _joined(parts) for parts in zip(*(([p.t[0]], [p.t[1]], [p.f[2]]) for p in ports), strict=True)
+            )
+            yield sign * (sin(phi) * t_x + cos(phi) * t_y), sign * (cos(phi) * t_x - sin(phi) * t_y), sign * f_z
 
     def _tension(self) -> Any:
         """Axial forces in N: straight between those at the ends of a frame, and by its rotation a parabola."""
