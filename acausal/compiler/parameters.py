@@ -13,7 +13,7 @@ from acausal.compiler.call import Call
 from acausal.compiler.requirements import Requirements
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.given import owner_text
+from acausal.flatten.given import law_of_input, owner_text
 from acausal.flatten.instantiate import not_settable
 from acausal.flatten.numeric import misshapen, numeric
 from acausal.flatten.tree import join, walk
@@ -101,7 +101,9 @@ class Settable:
                 raise DeclarationError(f"`{path}` is structural: it is fixed when compiled. {_again(path)}")
             known = [*own.names, *own.structural_zeros, *own.bound, *self._structural_names]
             raise DeclarationError(not_settable(path, self.tree, known))
-        array = numeric(plain(value, self._unit(path), f"`{path}`"), None, f"`{path}`")
+        declared = self.tree.fields.get(path)
+        law = law_of_input(self.tree, path) if isinstance(declared, f.Variable) else ""
+        array = numeric(plain(value, self._unit(path), f"`{path}`"), None, f"`{path}`", law)
         for name in entries:
             at = tuple(int(k) for k in name[len(path) + 1 : -1].split(",")) if name != path else ()
             if (
@@ -110,7 +112,7 @@ class Settable:
                 or any(k >= n for k, n in zip(at, array.shape, strict=True))
             ):
                 if name == path:
-                    raise DeclarationError(misshapen(f"`{path}`", value, array.shape, ()))
+                    raise DeclarationError(misshapen(f"`{path}`", value, array.shape, (), law))
                 raise DeclarationError(
                     f"`{path}` has entries such as {name}; a value of shape {array.shape} does not fit."
                 )

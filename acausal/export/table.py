@@ -115,7 +115,8 @@ class Table:
 
     def _of_given(self, seen: list[Seen]) -> Iterator[Variable]:
         own = self.compiled.reduced.flat.parameters
-        texts = {s.expression.element_hash(): s for s in seen if s.expression.is_symbolic()}
+        # What a parameter is given to has the same symbol; its own declaration is that of its name.
+        declared = {(s.name, s.expression.element_hash()): s for s in seen if s.expression.is_symbolic()}
         kinds: dict[Role, tuple[Causality, Variability]] = {
             Role.TUNABLE: ("parameter", "tunable"),
             Role.FIXED: ("parameter", "fixed"),
@@ -125,7 +126,7 @@ class Table:
         for k, (name, symbol) in enumerate(zip(own.names, symbols, strict=True)):
             if self.given.roles[k] not in kinds:
                 continue
-            told = texts.get(symbol.element_hash())
+            told = declared.get((name, symbol.element_hash()))
             unit, text = (told.unit, told.description) if told else ("", "")
             causality, variability = kinds[self.given.roles[k]]
             yield Variable(

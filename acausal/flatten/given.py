@@ -188,10 +188,10 @@ class Given:
         given = quantities.plain(given, unit, where)
         if is_symbolic(given):
             raise DeclarationError(
-                f"{where} is {given!r}, but an input of the whole model takes a number. A law is given where "
-                f"{type(bound).__name__} is a part: `class Whole(Model): part = {type(bound).__name__}({name}=...)`."
+                f"{where} is {given!r}, but an input of the whole model takes a number. {law_of_input(bound, name)}"
             )
-        value = numeric(given, shape if isinstance(given, list | tuple | np.ndarray) else (), where)
+        listed = isinstance(given, list | tuple | np.ndarray)
+        value = numeric(given, shape if listed else (), where, law_of_input(bound, name))
         vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit, fold=False)
 
     def _start(self, bound: Component, name: str, declared: f.Variable) -> Any:
@@ -252,6 +252,12 @@ def _zeros_of(bound: Component) -> str:
     known = [(n, vars(bound).get(n)) for n, d in bound.fields.items() if isinstance(d, f.Parameter)]
     names = [f"`{n}`" for n, value in known if isinstance(value, Expr) and value.sx.is_zero()]
     return f", here {' or '.join(names)}" if names else ""
+
+
+def law_of_input(model: Component, name: str) -> str:
+    """Say how an input of a model that changes with time is given: in a run of the model it is one value."""
+    kind = type(model).__name__
+    return f"A law is given where {kind} is a part: `class Whole(Model): part = {kind}({name}=...)`."
 
 
 def owner_text(component: Component) -> str:

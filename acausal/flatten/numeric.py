@@ -23,7 +23,7 @@ from acausal.units import in_si
 LARGEST = float(np.sqrt(np.finfo(float).max))
 
 
-def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray:
+def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str = "") -> np.ndarray:
     """Return a value as an array of finite numbers.
 
     Parameters
@@ -34,6 +34,8 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
         The shape that it must have; None for any.
     where : str
         What it is the value of, for messages.
+    remedy : str, optional
+        What to do where it is none, or has a wrong shape; a sentence.
 
     Raises
     ------
@@ -55,11 +57,12 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
         mend = (
             f", in SI units without the unit: {si:.12g}" if si is not None else decimal_point(value) if single else ""
         )
-        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{mend}.") from None
+        more = f" {remedy}" if remedy and not mend else ""
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{mend}.{more}") from None
     except OverflowError:
         raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if shape is not None and array.shape != shape:
-        raise DeclarationError(misshapen(where, value, array.shape, shape))
+        raise DeclarationError(misshapen(where, value, array.shape, shape, remedy))
     if not all(math.isfinite(x) for x in array.flat):
         raise DeclarationError(f"{where} is {value!r}; it must be finite.")
     if np.any(np.abs(array) > LARGEST):
@@ -67,12 +70,13 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str) -> np.ndarray
     return array
 
 
-def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...]) -> str:
-    """Return the message for a value of a wrong shape."""
+def misshapen(where: str, value: Any, found: tuple[int, ...], shape: tuple[int, ...], remedy: str = "") -> str:
+    """Return the message for a value of a wrong shape; the remedy is left out where a decimal comma was meant."""
+    more = f" {remedy}" if remedy and not decimal_point(value) else ""
     if shape or len(found) > 2:
         wanted = f"have shape {shape}" if shape else "be one number"
-        return f"{where} has shape {found}; it must {wanted}."
-    return f"{where} is {short(value)}; it must be one number{decimal_point(value)}."
+        return f"{where} has shape {found}; it must {wanted}.{more}"
+    return f"{where} is {short(value)}; it must be one number{decimal_point(value)}.{more}"
 
 
 def is_symbolic(value: Any) -> bool:
