@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 import warnings
 from pathlib import Path
 
@@ -109,6 +110,14 @@ def user_line() -> str:
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == __package__:
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}"
+
+
+def line_in(error: BaseException) -> str:
+    """Return file and line of the innermost statement outside this package that an error went through, "" if there is none."""
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
+            return f"{frame.filename}:{frame.lineno}"
+    return ""
 
 
 def caution(text: str) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from acausal.animation.geometry import QUANTITIES, STYLES, Shape
-from acausal.errors import DeclarationError
+from acausal.errors import AcausalError, DeclarationError, line_in
 from acausal.language.component import Component
 
 
@@ -36,7 +36,7 @@ def collect(component: Component) -> list[Seen]:
     Raises
     ------
     DeclarationError
-        If shapes() yields anything else than shapes and parts.
+        If shapes() yields anything else than shapes and parts, or fails.
     """
     return list(_collected(component, set()))
 
@@ -45,19 +45,32 @@ def _collected(component: Component, asked: set[int]) -> Iterator[Seen]:
     if id(component) in asked:
         return
     asked.add(id(component))
-    found: Any = component.shapes()
+    path, kind = component._path, type(component).__name__
+    found: Any = called(component.shapes, path, kind)
     if not hasattr(found, "__iter__"):
         raise DeclarationError(f"shapes() of {component!r} returns {found!r}; yield each shape: `yield Sphere(...)`.")
-    for item in found:
+    shapes = iter(found)
+    while (item := called(lambda: next(shapes, None), path, kind)) is not None:
         if isinstance(item, Component):
             yield from _collected(item, asked)
         elif isinstance(item, Shape):
             _check_words(component, item)
-            yield Seen(component._path, type(component).__name__, item)
+            yield Seen(path, kind, item)
         else:
             raise DeclarationError(
                 f"shapes() of {component!r} yields {item!r}; it yields kinds of acausal.geometry, such as Sphere(...), and parts."
             )
+
+
+def called(function: Callable[[], Any], path: str, kind: str) -> Any:
+    """Call a function of the user's that says what a part looks like; an error of it names the part and the line."""
+    try:
+        return function()
+    except AcausalError:
+        raise
+    except Exception as error:
+        where = ", ".join(filter(None, (f"{path or 'the model'} ({kind})", line_in(error))))
+        raise DeclarationError(f"{where}: shapes() fails: {type(error).__name__}: {error}") from error
 
 
 def _check_words(component: Component, shape: Any) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from acausal.animation.collect import Seen
-from acausal.animation.reading import MOVING
+from acausal.animation.reading import MOVING, not_finite
 from acausal.errors import caution
 
 
@@ -24,19 +24,26 @@ def without_gaps(seen: Sequence[Seen], time: np.ndarray) -> list[Seen]:
         if all(rows.all() for rows in finite):
             kept.append(one)
         elif all(rows.any() for rows in finite):
-            doubtful.append((one.path, len(time) - int(np.all(finite, axis=0).sum())))
+            doubtful.append((one, np.all(finite, axis=0)))
             kept.append(replace(one, shape=_filled(one.shape, time)))
         else:
-            lost.append(one.path)
+            lost.append(one)
     if doubtful:
-        path, count = doubtful[0]
+        named, when = _named([one for one, _ in doubtful]), not_finite(doubtful[0][1], time)
         caution(
-            f"at {count} of {len(time)} frames, a shape of {path or 'the model'} has a value that is not a number or infinite; "
-            "it is drawn where it would be if it moved evenly from the frame before to the one after."
+            f"the place of {named} is {when}; it is drawn where it would be if it moved evenly from the frame before to the one "
+            "after, and rested where there is none."
         )
     if lost:
-        caution(f"a shape of {lost[0] or 'the model'} is left out: one of its values is never a finite number.")
+        caution(f"{_named(lost)} is left out: one of its values is never a finite number.")
     return kept
+
+
+def _named(seen: Iterable[Seen]) -> str:
+    """Name the first shape, and how many more there are."""
+    first, *more = seen
+    others = f" and of {len(more)} other shape{'s' * (len(more) > 1)}" if more else ""
+    return f"the {type(first.shape).__name__} of {first.path or 'the model'} ({first.kind}){others}"
 
 
 def _arrays(shape: Any) -> Iterator[np.ndarray]:

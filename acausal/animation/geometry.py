@@ -1,7 +1,8 @@
 """Kinds of geometry that parts say they look like: points, axes and lengths, and nothing of mechanics.
 
 What is resolved in the world may vary with time: expressions of variables, as in an equation, or numbers. What is resolved
-in a pose and sizes do not: numbers, or expressions of parameters; a size that is None suits the scene.
+in a pose and sizes do not, but for the center of a Box or Sphere: numbers, or expressions of parameters; a size that is None
+suits the scene.
 """
 
 from __future__ import annotations

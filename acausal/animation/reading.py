@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.animation import geometry as g
 from acausal.animation.collect import Seen
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, caution
 from acausal.language.expression import as_expr
 from acausal.symbols import dense, stacked, vec
 
@@ -26,20 +26,22 @@ MOVING: dict[type, dict[str, tuple[int | None, ...]]] = {
 }
 FIXED: dict[type, dict[str, tuple[int | None, ...]]] = {
     g.Ground: {"up": (3,)},
-    g.Box: {"center": (3,), "size": (3,), "axes": (3, 3)},
+    g.Box: {"size": (3,), "axes": (3, 3)},
     g.Cylinder: {"start": (3,), "end": (3,), "diameter": ()},
-    g.Sphere: {"center": (3,), "diameter": ()},
+    g.Sphere: {"diameter": ()},
     g.Axle: {"axis": (3,), "length": (), "diameter": ()},
     g.Span: {"diameter": ()},
     g.Curve: {"section": (2,), "rest_points": (None, 3)},
     g.Mesh: {"vertices": (None, 3), "triangles": (None, 3), "modes": (None, None, 3)},
 }
+# Points that the pose takes over where they vary.
+CARRIED: dict[type, dict[str, tuple[int | None, ...]]] = {g.Box: {"center": (3,)}, g.Sphere: {"center": (3,)}}
 # What "does not vary" means of evaluated numbers, relative to the largest of them: rounding.
 STILL = 1e-9
 
 
 def read(
-    seen: Sequence[Seen], more: Iterable[Any], evaluate: Evaluate, times: int
+    seen: Sequence[Seen], more: Iterable[Any], evaluate: Evaluate, time: np.ndarray
 ) -> tuple[list[Seen], list[np.ndarray]]:
     """Return the shapes with arrays in place of expressions, and further scalars over time.
 
@@ -53,8 +55,8 @@ def read(
         Scalars.
     evaluate : callable
         From a column of n expressions in the model's symbols to an array of shape (times, n).
-    times : int
-        How many.
+    time : array, shape (times,)
+        In s.
 
     Raises
     ------
@@ -65,9 +67,9 @@ def read(
     for one in seen:
         _resolved(one.shape, one, asking)
     scalars = [asking.column(expression) for expression in more]
-    giving = _Giving(asking, evaluate, times)
+    giving = _Giving(asking, evaluate, time)
     return [replace(one, shape=_resolved(one.shape, one, giving)) for one in seen], [
-        giving.values[:, at].reshape(times) for at in scalars
+        giving.values[:, at].reshape(len(time)) for at in scalars
     ]
 
 
@@ -82,7 +84,7 @@ def _resolved(shape: Any, of: Seen, take: Any) -> Any:
             found[name] = _resolved(getattr(shape, name), of, take)
     if isinstance(shape, g.Curve):
         found["values"] = tuple(_resolved(values, of, take) for values in shape.values)
-    for moves, names in ((True, MOVING), (False, FIXED)):
+    for moves, names in ((True, MOVING), (True, CARRIED), (False, FIXED)):
         for name, size in names.get(type(shape), {}).items():
             value = getattr(shape, name)
             if value is not None:
@@ -90,6 +92,8 @@ def _resolved(shape: Any, of: Seen, take: Any) -> Any:
                     value, size, moves, lambda n=name: f"`{n}` of the {type(shape).__name__} of {_of(of)}"
                 )
     made = replace(shape, **found)
+    if type(shape) in CARRIED:
+        made = take.carried(made)
     if isinstance(shape, g.Pose):
         take.poses[id(shape)] = made
     return made
@@ -115,6 +119,10 @@ class _Asking:
         self.size += column.numel()
         return slice(self.size - column.numel(), self.size)
 
+    def carried(self, shape: Any) -> Any:
+        """Return the shape as it is."""
+        return shape
+
     def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
         value = _number(value)
         if isinstance(value, np.ndarray):
@@ -134,11 +142,23 @@ class _Asking:
 class _Giving:
     """Hands out values in the order in which they were asked for."""
 
-    def __init__(self, asked: _Asking, evaluate: Evaluate, times: int) -> None:
-        self.times = times
+    def __init__(self, asked: _Asking, evaluate: Evaluate, time: np.ndarray) -> None:
+        self.time, self.times = time, (times := len(time))
         self.values = np.asarray(evaluate(stacked(asked.columns))) if asked.size else np.empty((times, 0))
         self.poses: dict[int, Any] = {}
         self._next = iter(zip(asked.places, asked.sizes, strict=True))
+
+    def carried(self, shape: Any) -> Any:
+        """Return a shape about a fixed point of its pose, which moves in place of it."""
+        for name in CARRIED[type(shape)]:
+            at, pose = getattr(shape, name), shape.pose
+            known = np.isfinite(at).all(axis=1)
+            if known.any() and (not known.all() or _varies(at)):
+                pose = replace(pose, r=pose.r + np.einsum("ti,tij->tj", at, pose.T))
+                shape = replace(shape, **{"pose": pose, name: np.zeros(3)})
+            else:
+                shape = replace(shape, **{name: at[0]})
+        return shape
 
     def __call__(self, value: Any, size: tuple[int | None, ...], moves: bool, name: Callable[[], str]) -> Any:
         place, shape = next(self._next)
@@ -149,11 +169,31 @@ class _Giving:
         found = found.reshape(self.times, *shape, order="F") if shape else found[:, 0]
         if moves:
             return found
-        if np.max(np.abs(found - found[0]), initial=0) > STILL * np.max(np.abs(found), initial=0):
+        finite = np.isfinite(found).reshape(self.times, -1)
+        known = np.asarray(
+            finite[:, finite.any(axis=0)].all(axis=1)
+        )  # an entry that never is finite is one that is left open
+        if not known.any():
+            return found[0]
+        if _varies(found[known]):
             raise DeclarationError(
-                f"{name()} varies with time; only the pose of such a shape may, or the ends of a Span or points of a Curve."
+                f"{name()} varies with time; only the pose of such a shape may, or the center of a Box or Sphere, the ends of a "
+                "Span or points of a Curve."
             )
-        return found[0]
+        if not known.all():
+            caution(f"{name()} is {not_finite(known, self.time)}; it is drawn as at the others.")
+        return found[known][0]
+
+
+def not_finite(known: np.ndarray, time: np.ndarray) -> str:
+    """Say at which frames a value is not finite, from whether it is at each."""
+    lost = np.flatnonzero(~known)
+    return f"not a finite number at {len(lost)} of {len(time)} frames, the first at t = {time[lost[0]]:.6g} s"
+
+
+def _varies(values: np.ndarray) -> bool:
+    """Whether values vary over time, the first dimension, by more than rounding."""
+    return np.nanmax(np.abs(values - values[0]), initial=0) > STILL * np.nanmax(np.abs(values), initial=0)
 
 
 def _number(value: Any) -> Any:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from acausal.animation import geometry as g
-from acausal.animation.collect import Seen, collect
+from acausal.animation.collect import Seen, called, collect
 from acausal.animation.gaps import without_gaps
 from acausal.animation.reading import Evaluate, read
 from acausal.animation.rests import untorn
@@ -127,7 +128,10 @@ def shown(trees: Sequence[Component], values: Sequence[str] = ()) -> list[list[S
         raise DeclarationError(
             f'there are no values "{missing[0]}" along the curves that are shown; there are: {there}.'
         )
-    return [[replace(one, shape=_with_values(one.shape, values)) for one in seen] for seen in found]
+    return [
+        [replace(one, shape=called(partial(_with_values, one.shape, values), one.path, one.kind)) for one in seen]
+        for seen in found
+    ]
 
 
 def _with_values(shape: Any, names: Sequence[str]) -> Any:
@@ -149,7 +153,7 @@ def scene_of(run: Run, seen: Sequence[Seen]) -> Scene:
     seen : sequence of Seen
         What `shown` returned for its tree.
     """
-    found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, len(run.time))
+    found, scalars = read(seen, [plot.values for plot in run.plots], run.evaluate, run.time)
     for one in found:
         check(one)
     found = untorn(without_gaps(found, run.time))

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from acausal.errors import PACKAGE, AcausalError, DeclarationError
+from acausal.errors import AcausalError, DeclarationError, line_in
 from acausal.flatten.raw_errors import in_words
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
@@ -150,7 +150,5 @@ def _place(error: BaseException, origin: Origin) -> Origin:
     if isinstance(error, NotImplementedError) and len(error.args) != 1:
         *_, (frame, _) = traceback.walk_tb(error.__traceback__)
         return replace(origin, where=getattr(frame.f_locals.get("self"), "_line", origin.where))
-    for frame in reversed(traceback.extract_tb(error.__traceback__)):
-        if not frame.filename.startswith(PACKAGE) and "/site-packages/" not in frame.filename:
-            return Origin(origin.path, origin.kind, f"{frame.filename}:{frame.lineno}")
-    return origin
+    where = line_in(error)
+    return Origin(origin.path, origin.kind, where) if where else origin
