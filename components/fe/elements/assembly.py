@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe.elements import brick, quadratic
+from components.fe.elements import brick, quadratic, tetrahedron
 from components.fe.elements.material import Material
 from components.fe.nodes import Nodes
 
-NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10}
-# Bricks that are integrated at once: 9 kB each.
+NODES = {"hexahedron": 8, "hexahedron20": 20, "tetra10": 10, "tetra": 4}
+OWN = {"hexahedron": brick.matrices, "tetra": tetrahedron.matrices}
+# Elements that are integrated at once: a brick has 9 kB.
 BATCH = 20_000
 # Kinds of a mesh that are no solids: its surfaces, lines and points.
 FLAT = ("vertex", "line", "triangle", "quad")
@@ -30,7 +31,8 @@ def assemble(
         Places of the nodes in m.
     cells : mapping or pairs from str to array, shape (elements, nodes of one)
         Nodes of the elements by meshio's names of their kinds: "hexahedron" (with incompatible modes), "hexahedron20"
-        and "tetra10" (isoparametric: edges may be curved). Surfaces, lines and points of a mesh are passed over.
+        and "tetra10" (isoparametric: edges may be curved), and "tetra" (far too stiff in
+        bending). Surfaces, lines and points of a mesh are passed over.
     E, nu, rho : float
         Modulus of elasticity in Pa, Poisson's ratio, density in kg/m3.
 
@@ -61,8 +63,8 @@ def assemble(
     solids = _solids(cells, count)
     for kind, members in solids:
         used[members] = True
-        parts = _bricks if kind == "hexahedron" else lambda *a, kind=kind: quadratic.matrices(kind, *a)
-        own, stiffness = parts(points, members, material)
+        parts = _own if kind in OWN else quadratic.matrices
+        own, stiffness = parts(kind, points, members, material)
         mass, blocks = mass + own, blocks + stiffness
     if not used.all():
         lone = np.flatnonzero(~used)
@@ -99,12 +101,13 @@ def _joined(solids: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
     return {kind: np.concatenate([m for other, m in solids if other == kind]) for kind, _ in solids}
 
 
-def _bricks(points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[Any, np.ndarray]:
+def _own(kind: str, points: np.ndarray, cells: np.ndarray, material: Material) -> tuple[Any, np.ndarray]:
     from scipy.sparse import csr_array
 
-    parts = [brick.matrices(points, some, material) for some in np.array_split(cells, len(cells) // BATCH + 1)]
+    parts = [OWN[kind](points, some, material) for some in np.array_split(cells, len(cells) // BATCH + 1)]
     mass, stiffness = (np.concatenate(both) for both in zip(*parts, strict=True))
-    rows, columns = np.repeat(cells, 8, axis=1).ravel(), np.tile(cells, 8).ravel()
+    count = cells.shape[1]
+    rows, columns = np.repeat(cells, count, axis=1).ravel(), np.tile(cells, count).ravel()
 
     def sparse(values: np.ndarray) -> Any:
         return csr_array((values.ravel(), (rows, columns)), shape=(len(points), len(points)))

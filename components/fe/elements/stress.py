@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe.elements import brick, quadratic
+from components.fe.elements import brick, quadratic, tetrahedron
 from components.fe.elements.material import Material
 
 # Stresses in the order of most programs.
@@ -21,6 +21,7 @@ POINTS = {
     "hexahedron": _CUBE,
     "hexahedron20": (1 + _CUBE) / 2,
     "tetra10": np.array([[_B, _B, _B], [_A, _B, _B], [_B, _A, _B], [_B, _B, _A]]),
+    "tetra": np.full((1, 3), 1 / 4),
 }
 
 
@@ -30,7 +31,7 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
     Parameters
     ----------
     kind : str
-        "hexahedron" (with incompatible modes, as `box` and `assemble` make it), "hexahedron20" or "tetra10".
+        "hexahedron" (with incompatible modes, as `box` and `assemble` make it), "hexahedron20", "tetra10" or "tetra".
     points : array, shape (N, 3)
         Places of the nodes in m.
     cells : array, shape (elements, k)
@@ -54,6 +55,8 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
         bubbles = brick.incompatible(points, cells, material)
         parts = [brick.gradients(points[cells], at)[0] for at in POINTS[kind]]
         strains = [_strain(g[:, :8]) + np.einsum("esjb,ejbic->esic", _strain(g[:, 8:]), bubbles) for g in parts]
+    elif kind == "tetra":
+        strains = [_strain(tetrahedron.gradients(points, cells))]
     else:
         strains = [_strain(_gradients(kind, points[cells], at)) for at in POINTS[kind]]
     return np.einsum("st,eptic->epsic", _elasticity(material), np.stack(strains, axis=1))
@@ -61,6 +64,8 @@ def operator(kind: str, points: np.ndarray, cells: np.ndarray, material: Materia
 
 def to_nodes(kind: str) -> np.ndarray:
     """Values at the nodes of an element by values at its `POINTS`, shape (nodes, points): linear in each coordinate."""
+    if kind == "tetra":
+        return np.ones((4, 1))
     places = brick.CORNERS if kind == "hexahedron" else _places(kind)
     powers = np.array(list(product((0, 1), repeat=3))) if kind != "tetra10" else np.vstack([np.zeros(3), np.eye(3)])
     return _monomials(places, powers) @ np.linalg.inv(_monomials(POINTS[kind], powers))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from acausal import DeclarationError
 from components.fe.formats.instances import instance_of
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices, from_entries, rigid_forces
@@ -23,7 +24,7 @@ HELD = 1e36  # what Abaqus adds to the diagonal where a boundary condition holds
 RIGID = 1e-6
 
 
-def read_abaqus(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Matrices:
+def read_abaqus(path: str | Path | Sequence[str | Path], *, length: float = 1.0, mass: float = 1.0) -> Matrices:
     """Return mass and stiffness matrix and nodes of an Abaqus job with `*MATRIX GENERATE, STIFFNESS, MASS`.
 
     `*MATRIX OUTPUT, STIFFNESS, MASS` with FORMAT=MATRIX INPUT (or LABELS), in which every entry names its nodes, or
@@ -36,9 +37,10 @@ def read_abaqus(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> 
 
     Parameters
     ----------
-    path : str or Path
+    path : str, Path or sequence of three
         JOB.inp, JOB or one of the matrices: JOB_STIF1.mtx and JOB_MASS1.mtx (the number is that of the step) stand
-        beside JOB.inp. A deck of parts is read where it has one instance.
+        beside JOB.inp. Files of other names, or in other folders, are given as three: mass matrix, stiffness matrix, input
+        file. A deck of parts is read where it has one instance.
     length : float
         Unit of length of the job in m: 1e-3 for mm. Nodes are multiplied by it.
     mass : float
@@ -57,7 +59,7 @@ def read_abaqus(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> 
         If a file is missing, cut off or of another kind, the body has freedoms other than displacements, or the nodes do
         not belong to the equations.
     """
-    inp, stiffness, masses = _files(Path(path))
+    masses, stiffness, inp = _files(Path(path)) if isinstance(path, str | Path) else _three(path)
     deck, move = instance_of(list(blocks(inp)))
     places, found = node_positions(deck), list(elements(deck))
     numbers = np.unique(np.array([node for _, nodes in found for node in nodes], dtype=np.int64))
@@ -88,8 +90,15 @@ def is_abaqus(path: str | Path) -> bool:
     return bool(FILE.fullmatch(path.name)) or bool(_beside(path.parent, path.stem, "STIF"))
 
 
+def _three(paths: Sequence[str | Path]) -> list[Path]:
+    files = [Path(path) for path in paths]
+    if len(files) != 3:
+        raise DeclarationError("files of Abaqus are three: mass matrix, stiffness matrix, input file")
+    return files
+
+
 def _files(path: Path) -> list[Path]:
-    """The deck, the stiffness matrix and the mass matrix."""
+    """The mass matrix, the stiffness matrix and the input file."""
     named = FILE.fullmatch(path.name)
     job = named["job"] if named else path.stem if path.suffix.lower() == ".inp" else path.name
     found = []
@@ -105,7 +114,7 @@ def _files(path: Path) -> list[Path]:
             raise wrong(path, f"there is no matrix {job}_{kind}1.mtx in its folder")
         found += files
     inp = path if path.suffix.lower() == ".inp" else path.parent / f"{job}.inp"
-    return [inp, *found]
+    return [*found[::-1], inp]
 
 
 def _beside(folder: Path, job: str, kind: str) -> list[Path]:

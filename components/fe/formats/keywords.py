@@ -100,6 +100,8 @@ def node_positions(deck: Sequence[Block]) -> dict[int, np.ndarray]:
 def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
     """Yield type and node numbers of each element of a deck; the type in capitals.
 
+    A solid ends with its last node, whether or not a comma or more numbers follow in that line, as CalculiX reads it.
+
     Raises
     ------
     DeclarationError
@@ -112,15 +114,20 @@ def elements(deck: Sequence[Block]) -> Iterator[tuple[str, list[int]]]:
         _, needed = solid(kind)
         for path, line, more in _data(block):
             entries += _integers(path, line, more)
-            if more[-1] and len(entries) > needed:  # else it continues on the next line
-                yield kind, entries[1:]
+            if len(entries) > needed > 0 or (not needed and more[-1]):  # else it continues on the next line
+                yield kind, entries[1:][: needed or None]
                 entries = []
         if entries:
             raise wrong(block.path, f"the last element has {len(entries) - 1} nodes, fewer than a {kind}", block.line)
 
 
 def solid(kind: str) -> tuple[str, int]:
-    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for anything else."""
+    """Return meshio's name and the number of nodes of a solid element, or "" and 0 for anything else.
+
+    C3D15V and C3D27 of Abaqus have a number of nodes that differs from element to element.
+    """
+    if "V" in kind:
+        return "", 0
     family = next((kind[: len(start)] for start, _, _ in SOLIDS[::-1] if kind.startswith(start)), "")
     return next(((name, count) for start, name, count in SOLIDS if start == family), ("", 0))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 import warnings
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from acausal import DeclarationError
 from acausal.result import read_text, shown_name
 
 LARGEST = 10**12  # number of a node or an element that a program has
+# Exponents of Fortran: 1.5D+10, and 1.5+100, whose letter gives way to a third digit.
+FORTRAN = re.compile(r"(?<=[\d.])(?:[dD](?=[+-]?\d)|(?=[+-]\d))")
 
 
 def wrong(path: str | Path, why: str, line: int | None = None) -> DeclarationError:
@@ -81,12 +84,9 @@ def table(path: str | Path, what: str, row: str, comments: str | None = None) ->
 def numbers_in(path: str | Path, text: str, row: str, comments: str | None = None, above: int = 0) -> np.ndarray:
     """Return the table of finite numbers in a text, see `table`; `above` lines of the file stand above it."""
     columns = row.count(",") + 1
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a text of comments alone: an empty table
-            values = np.loadtxt(io.StringIO(text.replace(",", " ")), ndmin=2, comments=comments)
-    except ValueError:
-        values = None
+    values = _loaded(text, comments)
+    if values is None:
+        values = _loaded(FORTRAN.sub("e", text), comments)
     if values is None or (values.size and values.shape[1] != columns) or not np.isfinite(values).all():
         raise _first_wrong(path, text, row, comments, above)
     return values
@@ -102,11 +102,20 @@ def whole_numbers(path: str | Path, values: np.ndarray, what: str) -> np.ndarray
 
 def number(text: str) -> float:
     """Return a number as C or Fortran writes it, or raise ValueError; an empty text is 0."""
-    text = text.strip().upper().replace("D", "E")
-    value = float(text or 0)
+    text = text.strip()
+    value = float(FORTRAN.sub("e", text) or 0)
     if not math.isfinite(value):
         raise ValueError(f"{text} is not finite")
     return value
+
+
+def _loaded(text: str, comments: str | None) -> np.ndarray | None:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a text of comments alone: an empty table
+            return np.loadtxt(io.StringIO(text.replace(",", " ")), ndmin=2, comments=comments)
+    except ValueError:
+        return None
 
 
 def _first_wrong(path: str | Path, text: str, row: str, comments: str | None, above: int) -> DeclarationError:
@@ -119,7 +128,8 @@ def _first_wrong(path: str | Path, text: str, row: str, comments: str | None, ab
             return wrong(path, f"a line holds {row}, not `{_shown(line)}`", place)
         for word in words:
             try:
-                good = math.isfinite(float(word))
+                number(word)
+                good = True
             except ValueError:
                 good = False
             if not good:

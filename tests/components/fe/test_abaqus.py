@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +56,38 @@ def test_round_trip(tmp_path: Path, labels: bool, triangle: bool) -> None:
         assert np.abs(found[2] - PLAIN).max() < 1e-12
         assert found[2].numbers.tolist() == NODES.numbers.tolist()
         assert np.array_equal(found[2].cells["hexahedron20"], PLAIN.cells["hexahedron20"])
+
+
+def test_names_given(tmp_path: Path) -> None:
+    """Mass matrix, stiffness matrix and input file of any names, in any folders."""
+    job = write(tmp_path)
+    write(tmp_path, step=2)
+    (tmp_path / "mesh").mkdir()
+    names = [tmp_path / "m.txt", tmp_path / "k.txt", tmp_path / "mesh" / "body.dat"]
+    for old, new in zip(("job_MASS2.mtx", "job_STIF2.mtx", "job.inp"), names, strict=True):
+        (tmp_path / old).rename(new)
+    found = read_abaqus(names)
+    assert abs(found[0] - M).max() < 1e-15
+    assert abs(found[1] - K).max() < 1e-15 * abs(K).max()
+    assert found[2].numbers.tolist() == NODES.numbers.tolist()
+    with pytest.raises(DeclarationError, match="files of Abaqus are three: mass matrix, stiffness matrix, input file"):
+        read_abaqus(names[:2])
+    with pytest.raises(DeclarationError, match=r"job\.inp: No such file"):
+        read_abaqus([f"{job}_MASS1.mtx", f"{job}_STIF1.mtx", f"{job}.inp"])
+
+
+@pytest.mark.parametrize("labels", [True, False])
+def test_exponents_of_fortran(tmp_path: Path, labels: bool) -> None:
+    path = write(tmp_path, labels=labels)
+    for file in tmp_path.glob("*.mtx"):
+        file.write_text(re.sub(r"e(?=[+-]\d\d)", "D", file.read_text()))
+    (tmp_path / "job.inp").write_text(
+        re.sub(r"(?m)^(5, )0, 0, 0", r"\g<1>0.D+00, 0d0, 0.0D0", deck(NODES, KINDS, **MATERIAL))
+    )
+    assert "5, 0.D+00, 0d0" in (tmp_path / "job.inp").read_text()
+    found = read_abaqus(path)
+    assert abs(found[1] - K).max() < 1e-15 * abs(K).max()
+    assert abs(found[0] - M).max() < 1e-15
 
 
 def test_units(tmp_path: Path) -> None:

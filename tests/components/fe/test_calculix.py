@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -87,6 +88,31 @@ def test_frequencies(folder: Path, name: str, end: str) -> None:
         body = reduce_body(M, K, nodes, frames={"end": [0, 1, 2, 3]}, modes=10)
         assert body.frequencies == pytest.approx(want[6:], rel=1e-6)
         assert body.mass == pytest.approx(7850 * 0.1 * 0.015 * 0.01, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["c3d8i", "c3d20", "c3d10"])
+@pytest.mark.parametrize("more", [" 1, 2,", ","])
+def test_more_nodes_than_an_element_has(folder: Path, tmp_path: Path, name: str, more: str) -> None:
+    """CalculiX takes the first nodes of an element, whatever follows in its last line, a comma included."""
+    for end in ("sti", "mas", "dof"):
+        shutil.copy(folder / f"{name}.{end}", tmp_path)
+    head, rest = (folder / f"{name}.inp").read_text().split("*ELEMENT", 1)
+    lines, after = rest.split("*", 1)
+    longer = [line + ("" if line.endswith(",") else f",{more}") for line in lines.strip("\n").split("\n")[1:]]
+    text = f"{head}*ELEMENT{lines.splitlines()[0]}\n" + "\n".join(longer) + f"\n*{after}"
+    (tmp_path / f"{name}.inp").write_text(text)
+    plain, found = read_calculix(folder / name), read_calculix(tmp_path / name)
+    assert abs(found[1] - plain[1]).max() == 0
+    kinds = plain[2].cells
+    assert {kind: rows.tolist() for kind, rows in found[2].cells.items()} == {k: r.tolist() for k, r in kinds.items()}
+
+
+def test_exponents_of_fortran(folder: Path, tmp_path: Path) -> None:
+    for end in ("inp", "sti", "mas", "dof"):
+        text = (folder / f"c3d20.{end}").read_text()
+        (tmp_path / f"c3d20.{end}").write_text(re.sub(r"(?<=\d)e(?=[+-]\d)", "D", text))
+    assert "D+" in (tmp_path / "c3d20.sti").read_text()
+    assert abs(read_calculix(tmp_path / "c3d20")[1] - read_calculix(folder / "c3d20")[1]).max() == 0
 
 
 def test_units(folder: Path) -> None:

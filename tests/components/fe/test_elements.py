@@ -12,6 +12,8 @@ from scipy.optimize import brentq
 import acausal as ac
 from components.fe import assemble, box, read_npz, reduce_body
 from components.fe.elements.box import KINDS, mesh
+from components.fe.elements.material import Material
+from components.fe.elements.stress import operator
 
 FILES = Path(__file__).parents[2] / "reference/fe"
 ROD = {"E": 1e7, "nu": 0.49, "rho": 0.26 / (0.1 * 0.015 * 0.01)}
@@ -62,6 +64,54 @@ def test_constant_strain_in_any_shape(element):
     assert np.abs(forces[inside]).max() < 1e-12 * np.abs(forces).max()
     ones = np.tile(np.eye(3), (len(points), 1))
     np.testing.assert_allclose(ones.T @ (M @ ones), 6.0 * np.eye(3), rtol=1e-12, atol=1e-12)
+
+
+def corners_alone(size, counts):
+    """A box of tetrahedra of 4 nodes."""
+    points, cells = mesh(size, counts, "tet10")
+    used, rows = np.unique(cells["tetra10"][:, :4], return_inverse=True)
+    return points[used], {"tetra": rows.reshape(-1, 4)}
+
+
+def test_linear_tetrahedra():
+    """Energy and stress of constant strain in any shape, and masses: second moments of a box, exact in linear functions."""
+    size = np.array([2.0, 1.5, 1.0])
+    points, cells = corners_alone(size, (2, 2, 2))
+    _, K0, _ = assemble(points, cells, E=3.0, nu=0.3, rho=2.0)
+    inside = ~((points == 0) | (points == size)).any(axis=1)
+    rng = np.random.default_rng(3)
+    points = points + 0.12 * rng.uniform(-1, 1, points.shape) * inside[:, None]
+    M, K, nodes = assemble(points, cells, E=3.0, nu=0.3, rho=2.0)
+    assert abs(K - K0).max() > 0.1  # another shape
+    gradient = rng.normal(size=(3, 3))
+    strain = (gradient + gradient.T) / 2
+    stress = 3.0 * 0.3 / (1.3 * 0.4) * np.trace(strain) * np.eye(3) + 3.0 / 1.3 * strain
+    u = points @ gradient.T
+    forces = (K @ u.ravel()).reshape(-1, 3)
+    assert u.ravel() @ forces.ravel() == pytest.approx(3.0 * np.sum(stress * strain), rel=1e-12)
+    assert np.abs(forces[inside]).max() < 1e-12 * np.abs(forces).max()
+    moments = 6.0 * (np.outer(size, size) / 4 + np.diag(size**2) / 12)
+    np.testing.assert_allclose(points.T @ (M[0::3, 0::3] @ points), moments, rtol=1e-13)
+    found = np.einsum(
+        "epsic,eic->eps",
+        operator("tetra", points, nodes.cells["tetra"], Material(3.0, 0.3, 2.0)),
+        u[nodes.cells["tetra"]],
+    )
+    np.testing.assert_allclose(
+        found, np.broadcast_to(stress[[0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0]], found.shape), rtol=1e-11
+    )
+
+
+def test_linear_tetrahedra_converge_from_above():
+    """Frequencies of the free box go with h^2 to those of bricks of 20 nodes."""
+    M, K, _ = box((2.0, 1.5, 1.0), (4, 3, 2), "hex20", **STEEL)
+    exact = frequencies(M, K, 3)
+    errors = []
+    for k in (2, 4):
+        M, K, _ = assemble(*corners_alone((2.0, 1.5, 1.0), (2 * k, 3 * k // 2, k)), **STEEL)
+        errors.append(frequencies(M, K, 3) / exact - 1)
+    assert (errors[1] > 0.01).all()
+    assert np.abs(errors[0] / errors[1] - 3.5).max() < 1
 
 
 @pytest.mark.parametrize("element", KINDS)
@@ -140,7 +190,8 @@ def test_boxes_that_cannot_be(change, message):
 @pytest.mark.parametrize(
     ("cells", "message"),
     [
-        ({"tetra": [[0, 1, 2, 3]]}, "kind 'tetra' are not known, only hexahedron, hexahedron20, tetra10"),
+        ({"tetra": [[0, 1, 2, 3]]}, r"the tetra of nodes \[0, 1, 2, 3\] is turned inside out or folded"),
+        ({"wedge": [[0, 1, 2, 3]]}, "kind 'wedge' are not known, only hexahedron, hexahedron20, tetra10, tetra"),
         ({"hexahedron": [[0, 1, 2, 3]]}, "8 whole numbers"),
         ({"hexahedron": [[0, 1, 2, 3, 4, 5, 6, 9]]}, "none of 0 to 7"),
         ({}, "no solid elements"),

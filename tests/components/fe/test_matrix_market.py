@@ -96,6 +96,16 @@ def test_general_and_symmetric_storage_and_units(tmp_path: Path) -> None:
         assert abs(read_matrix_market(tmp_path)[0] - M).max() == 0
 
 
+@pytest.mark.parametrize("letter", ["D", "d", ""])
+def test_exponents_of_fortran(tmp_path: Path, letter: str) -> None:
+    """1.5D+10, and 1.5+010: a third digit takes the place of the letter."""
+    write(tmp_path, "")
+    for path in tmp_path.iterdir():
+        path.write_text(re.sub(r"e([+-])(?=\d\d)", rf"{letter}\g<1>0", path.read_text()))
+    assert letter or re.search(r"\d[+-]0\d\d", (tmp_path / "K.mtx").read_text())
+    assert same(read_matrix_market(tmp_path))
+
+
 @pytest.mark.parametrize("case", WRONG)
 def test_wrong_files(tmp_path: Path, case: str) -> None:
     name, change, message = WRONG[case]

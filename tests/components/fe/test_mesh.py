@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from acausal import DeclarationError
+from acausal import AcausalWarning, DeclarationError
 from components.fe import box, read_mesh, reduce_body
 from tests.components.fe.samples import deck
 
@@ -72,8 +72,8 @@ def test_wrong_files(tmp_path: Path, name: str, content: bytes, message: str, ca
 
 def test_other_elements_and_cut_files(tmp_path: Path) -> None:
     points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    meshio.Mesh(points, [("tetra", np.array([[0, 1, 2, 3]]))]).write(tmp_path / "a.vtu")
-    with pytest.raises(DeclarationError, match="'tetra' are not known"):
+    meshio.Mesh(points, [("wedge", np.array([[0, 1, 2, 3, 3, 3]]))]).write(tmp_path / "a.vtu")
+    with pytest.raises(DeclarationError, match="'wedge' are not known"):
         read_mesh(tmp_path / "a.vtu", **STEEL)
     meshio.Mesh(points, [("triangle", np.array([[0, 1, 2]]))]).write(tmp_path / "b.vtu")
     with pytest.raises(DeclarationError, match="no solid elements"):
@@ -85,3 +85,34 @@ def test_other_elements_and_cut_files(tmp_path: Path) -> None:
             read_mesh(tmp_path / "a.vtu", **STEEL)
     with pytest.raises(DeclarationError, match="there is no such file"):
         read_mesh(tmp_path / "c.vtu", **STEEL)
+
+
+def test_linear_tetrahedra_warn(tmp_path: Path) -> None:
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+    cells = [("tetra", np.array([[0, 1, 2, 3], [1, 4, 2, 3]])), ("triangle", np.array([[0, 1, 2]]))]
+    meshio.Mesh(points, cells).write(tmp_path / "a.vtu")
+    with pytest.warns(AcausalWarning, match=r"a\.vtu: tetrahedra of 4 nodes are far too stiff .* Do this: mesh with"):
+        M, K, nodes = read_mesh(tmp_path / "a.vtu", **STEEL)
+    assert M.sum() / 3 == pytest.approx(7850 * (1 / 6 + 1 / 3))
+    assert nodes.cells["tetra"].tolist() == [[0, 1, 2, 3], [1, 4, 2, 3]]
+    stretch = 1e-3 * np.asarray(nodes) * [1, 0, 0]
+    first, second = 2.1e11 * 0.3 / (1.3 * 0.4), 2.1e11 / 2.6
+    assert stretch.ravel() @ (K @ stretch.ravel()) == pytest.approx(1e-6 * (first + 2 * second) / 2)
+
+
+SMALL = "GRID    {:<8}{:<8}{:<8}{:<8}{:<8}\n"
+LARGE = "GRID*   {:<16}{:<16}{:<16}{:<16}\n*       {:<16}\n"
+FREE = "GRID,{},{},{},{},{}\n"
+
+
+@pytest.mark.parametrize("card", [SMALL, LARGE, FREE])
+@pytest.mark.parametrize("begin", ["", "$ Created by Gmsh\n", "SOL 103\nCEND\nBEGIN BULK\n"])
+def test_bulk_data_with_and_without_begin(tmp_path: Path, card: str, begin: str) -> None:
+    """gmsh leaves BEGIN BULK out; exponents may be those of Fortran."""
+    places = [("0.", "0.", "0."), ("1.D-1", "0.", "0."), ("0.", "1.0d-1", "0."), ("0.", "0.", "1.-1")]
+    text = begin + "".join(card.format(k + 1, "", *xyz) for k, xyz in enumerate(places))
+    (tmp_path / "a.bdf").write_text(text + "CTETRA  1       1       1       2       3       4\nENDDATA\n")
+    with pytest.warns(AcausalWarning, match="tetrahedra of 4 nodes"):
+        M, _, nodes = read_mesh(tmp_path / "a.bdf", **STEEL)
+    assert np.asarray(nodes).tolist() == [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]]
+    assert M.sum() / 3 == pytest.approx(7850e-3 / 6)
