@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Any
 from components.fe.elements import assemble, box
 from components.fe.fe_body import FEBody
 from components.fe.formats import read_npz
-from components.fe.interface import average, rigid
 from components.fe.nodal_field import NodalField
 from components.fe.nodes import Nodes
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.reduction import reduce_body
+from components.fe.spiders import average, rigid
 
 __all__ = [
     "FEBody",

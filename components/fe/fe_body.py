@@ -98,9 +98,10 @@ class FEBody(MovingBody):
         default="second_order",
         choices=("second_order", "first_order", "constant", "reconfigured"),
         tries=("second_order", "first_order", "constant"),
-        doc="second_order: all that the displacements imply; first_order: mass matrix to first order in q; constant: that of "
-        "the undeformed body, in which energy is not conserved; reconfigured: the limit of short steps in reconfigured inertial "
-        "frames, of a body with mean axes that nothing guides, in which energy is not conserved either.",
+        doc="second_order: all that the displacements imply, as far as the body knows it; first_order: mass matrix to first "
+        "order in q; constant: that of the undeformed body, in which energy is not conserved; reconfigured: the limit of short "
+        "steps in reconfigured inertial frames, of a body with mean axes that nothing guides, in which energy is not conserved "
+        "either.",
     )
     centrifugal: bool = effect(
         "centrifugal forces of the deformation",

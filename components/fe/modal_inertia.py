@@ -40,9 +40,9 @@ class ModalInertia:
     q, qd, qdd : Expr, shape (n,)
         Amplitudes of the modes in m, and derivatives.
     order : str
-        "second_order": everything that u = phi q implies. "first_order": mass matrix to first order in q; energy is
-        conserved as well. "constant": s, P and H of the undeformed body, valid for amplitudes that change none of them;
-        it does not conserve energy.
+        "second_order": everything that u = phi q implies, where the body knows it. "first_order": mass matrix to first
+        order in q; energy is conserved as well. "constant": s, P and H of the undeformed body, valid for
+        amplitudes that change none of them; it does not conserve energy.
     centrifugal, coriolis : bool
         Whether q has a part in what goes with the square of w, where the undeformed body always has one, and whether what
         goes with w and q' counts.
@@ -143,7 +143,7 @@ class ModalInertia:
     @cached_property
     def _slopes(self) -> list[Any]:
         """Half the derivatives g_b of the second moments: PAIRS and trace, each (n,), in kg.m."""
-        if self.order != "second_order":
+        if self.order != "second_order" or not self.body.second_order:
             return self._straight
         B = self.body.modal_products
         products = [*((B[:, :, i, j] + B[:, :, j, i]) / 2 for i, j in PAIRS), self.body.M]

@@ -14,50 +14,12 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe import archive
 from components.fe.arrays import Array, frozen
+from components.fe.interface import Interface
 from components.fe.invariants import axial
 from components.fe.nodal_field import NodalField
 
 # Part of mass or stiffness: far above the rounding of a reduction, far below a change of a design.
 ALIKE = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Interface:
-    """A frame of a reduced body: its undeformed place, and how it moves with the coordinates q of the modes.
-
-    Its axes are parallel to those of the reference frame as long as the body is undeformed.
-
-    Parameters
-    ----------
-    name : str
-        Name of the port.
-    place : array, shape (3,)
-        X, place of the frame in the undeformed body, in m, resolved in the reference frame.
-    displacement : array, shape (3, n)
-        Phi: the frame is displaced by Phi q, resolved in the reference frame.
-    rotation : array, shape (3, n)
-        Psi: the frame is turned by the small rotation vector Psi q in rad, resolved in the reference frame.
-    turns : bool
-        Whether the nodes hold every rotation; where they do not (one node, nodes on a line), no moment may be carried.
-    """
-
-    name: str
-    place: Array
-    displacement: Array
-    rotation: Array
-    turns: bool = True
-
-    def __post_init__(self) -> None:
-        what = f"interface {self.name!r}"
-        shape = (3, np.shape(self.displacement)[-1] if np.ndim(self.displacement) == 2 else 0)
-        object.__setattr__(self, "place", frozen(self.place, (3,), f"place of {what}"))
-        object.__setattr__(self, "displacement", frozen(self.displacement, shape, f"displacement of {what}"))
-        object.__setattr__(self, "rotation", frozen(self.rotation, shape, f"rotation of {what}"))
-        object.__setattr__(self, "turns", bool(self.turns))
-
-    def first(self, n: int) -> Interface:
-        """The frame in a body of the first n modes."""
-        return replace(self, displacement=self.displacement[:, :n], rotation=self.rotation[:, :n])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,6 +119,11 @@ class ReducedBody:
         P = self.second_moment
         whole = np.array([*[self.mass] * 3, *(np.trace(P) - np.diag(P))])
         return 1 - self.effective_mass.sum(axis=0) / np.where(whole > 0, whole, np.inf)
+
+    @property
+    def second_order(self) -> bool:
+        """True if the symmetric parts of B_bc are known, from which inertia of second order in q follows; some SID lack them."""
+        return bool(np.trace(self.modal_products, axis1=2, axis2=3).any())
 
     def first(self, n: int) -> ReducedBody:
         """The body with the first n of its modes.

@@ -13,10 +13,10 @@ from components.fe import checks
 from components.fe.arrays import Array
 from components.fe.bases import basis as basis_of
 from components.fe.frames import Reference
-from components.fe.interface import Frame, frames_of
 from components.fe.invariants import ROUNDING, invariants
 from components.fe.reduced_body import Interface, NodalField, ReducedBody
 from components.fe.solid import Solid
+from components.fe.spiders import Frame, frames_of
 
 
 def reduce_body(

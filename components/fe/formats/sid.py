@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
 
-from acausal import AcausalWarning
+from acausal.result import shown_name
 from acausal.result.files import whole
+from components.fe.checks import warn
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
 from components.fe.formats.text import number, wrong
 from components.fe.reduced_body import Interface, ReducedBody
 
 # w1^2, w2^2, w3^2, w1 w2, w2 w3, w1 w3: the columns of Oe.
 PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+PACKED = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # places of 11, 22, 33, 12, 13, 23
 AXIAL = np.zeros((3, 3, 3))  # axial(A)_i = e_ijk A_jk
 AXIAL[[0, 1, 2], [1, 2, 0], [2, 0, 1]] = 1.0
 AXIAL[[0, 1, 2], [2, 0, 1], [1, 2, 0]] = -1.0
@@ -25,7 +26,9 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
 
     A SID is reduced already: there are no nodes and no matrices of a mesh in it. Its nodes become interfaces, and its
     coordinates q new ones, for which M is the unit matrix, unless it is so in the file. Of what the file says more than
-    once (J and Gr, Ge beside Ct, Cr, Me, Oe) the second group is used. Stresses and loads at nodes are passed over.
+    once (J and Gr, Ge beside Ct, Cr, Me, Oe) the second group is used. Where Oe has no M1, or holds more than inertia
+    (geometric stiffness due to spin), inertia of second order in q is not known: a warning says so, and the body has that
+    of first order. Stresses and loads at nodes are passed over, as are lines above `part`.
 
     The unit of time is the second. The coordinates q have the file's unit of length, so that mode shapes are numbers.
 
@@ -41,13 +44,13 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
     Returns
     -------
     ReducedBody
-        Inertia of second order needs M1 of Cr and Oe.
+        `second_order` says whether its inertia is that of second order.
 
     Raises
     ------
     DeclarationError
-        If the file is cut off or none of this kind, a matrix has another size, a node is turned against the reference
-        frame, or Oe holds more than inertia (geometric stiffness due to spin).
+        If the file is cut off or none of this kind, a matrix has another size, or a node is turned against the reference
+        frame.
     """
     modal = _inner(path, read_tree(path))
     total, n = _modes(path, modal)
@@ -55,9 +58,12 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
     for node in nodes:
         _parts(path, node, ("origin", "phi", "psi"))
     order = index_order(path, nodes)
-    shapes = {"mdCM": (3, 1), "J": (3, 3), "Ct": (n, 3), "Cr": (n, 3), "Me": (n, n), "Oe": (n, 6), "Ke": (n, n)}
-    _parts(path, modal, tuple(shapes))
+    shapes = {"mdCM": (3, 1), "Ct": (n, 3), "Cr": (n, 3), "Me": (n, n), "Oe": (n, 6), "Ke": (n, n)}
+    _parts(path, modal, (*shapes, "J"))
     given = {name: _matrix(path, modal.named(name)[0], order, shape, n) for name, shape in shapes.items()}
+    given["J"] = _inertia(path, modal.named("J")[0], order, n)
+    if found := modal.named("Ge"):
+        given["Ge"] = taylor(path, found[0], order)
     damping = modal.named("De")
     D = _matrix(path, damping[0], order, (n, n), n).constant if damping else np.zeros((n, n))
     M, K = given["Me"].constant, given["Ke"].constant
@@ -169,20 +175,38 @@ def _matrix(path: str | Path, block: Block, order: tuple[int, ...], shape: tuple
     return found
 
 
+def _inertia(path: str | Path, block: Block, order: tuple[int, ...], n: int) -> Taylor:
+    """J as 3 x 3, or as 6 x 1: 11, 22, 33, 12, 13, 23."""
+    if taylor(path, block, order).constant.shape != (6, 1):
+        return _matrix(path, block, order, (3, 3), n)
+    packed = _matrix(path, block, order, (6, 1), n)
+    return Taylor(packed.constant[PACKED, 0], packed.linear[:, PACKED, 0])
+
+
 def _moments(path: str | Path, given: dict[str, Taylor], M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A_b and B_bc, from how modes turn the body (Cr) and how its spin bends it (Oe)."""
-    turn, spin = given["Cr"], given["Oe"]
-    A = _from_parts(spin.constant, turn.constant)
-    if given["J"].linear.any():
-        expected = 2 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) - A - A.swapaxes(1, 2)
-        _same(path, expected, given["J"].linear, "M1 of J and M0 of Oe say different things about the modes")
-    if not (spin.linear.any() and turn.linear.any()):
-        text = f"{path}: Cr and Oe have no M1, so forces of inertia of second order in q are not known"
-        warnings.warn(AcausalWarning(f'{text}: take inertia="first_order".'), stacklevel=4)
-        return A, np.einsum("bc,ij->bcij", M, np.eye(3) / 3)
-    B = _from_parts(spin.linear, turn.linear)
-    why = "the trace of M1 of Oe differs from Me: Oe seems to hold geometric stiffness, which is not read"
-    _same(path, np.trace(B, axis1=2, axis2=3), M, why)
+    """A_b and B_bc, from how modes turn the body (Cr) and how its spin bends it (Oe).
+
+    Where Oe does not tell, A_b has its symmetric part from J, and of B_bc the antisymmetric part alone is known.
+    """
+    J, spin, turn, n = given["J"].linear, given["Oe"], given["Cr"], len(M)
+    turned = turn.linear
+    if not turned.any() and "Ge" in given and given["Ge"].constant.shape == (n, 3 * n):
+        twice = given["Ge"].constant.reshape(n, n, 3).swapaxes(0, 1)
+        turned = twice / 2 if _same(twice, -twice.swapaxes(0, 1)) else turned
+    A, B = _from_parts(spin.constant, turn.constant), _from_parts(spin.linear, turned)
+    doubt = "" if spin.linear.any() or not n else "Oe has no M1"
+    if J.any() and not _same(2 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) - A - A.swapaxes(1, 2), J):
+        doubt = "M0 of Oe and M1 of J say different things about the modes"
+        symmetric = np.trace(J, axis1=1, axis2=2)[:, None, None] / 4 * np.eye(3) - J / 2
+        A = symmetric + (A - A.swapaxes(1, 2)) / 2
+    elif not doubt and not _same(np.trace(B, axis1=2, axis2=3), M):
+        doubt = "the trace of M1 of Oe differs from Me, as if Oe held geometric stiffness, which is not read"
+    if doubt:
+        warn(
+            f"{shown_name(path)}: {doubt}. Forces of inertia of second order in q are not known and left out, as by "
+            'inertia="first_order"'
+        )
+        B = (B - B.swapaxes(2, 3)) / 2
     return A, B
 
 
@@ -213,10 +237,9 @@ def _orthonormal(path: str | Path, M: np.ndarray, K: np.ndarray) -> np.ndarray:
         raise wrong(path, "Me is not positive definite") from None
 
 
-def _same(path: str | Path, one: np.ndarray, other: np.ndarray, why: str) -> None:
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
     size = max(np.abs(one).max(initial=0.0), np.abs(other).max(initial=0.0))
-    if np.abs(one - other).max(initial=0.0) > DIGITS * size:
-        raise wrong(path, why)
+    return bool(np.abs(one - other).max(initial=0.0) <= DIGITS * size)
 
 
 def _interface(

@@ -66,7 +66,7 @@ class Block:
 
 
 def read_tree(path: str | Path) -> Block:
-    """Return the outermost block of a file.
+    """Return the outermost block of a file; lines above `part` are a headline.
 
     Raises
     ------
@@ -75,8 +75,9 @@ def read_tree(path: str | Path) -> Block:
     """
     top = Block("", "", 0)
     stack = [top]
-    for place, line in enumerate(text_of(path, "a SID").splitlines(), 1):
-        text = " ".join(line.split("!")[0].split())
+    lines = [" ".join(line.split("!")[0].split()) for line in text_of(path, "a SID").splitlines()]
+    begin = lines.index("part") if "part" in lines else 0
+    for place, text in enumerate(lines[begin:], begin + 1):
         if not text:
             continue
         words = text.removeprefix("new ").partition("=")
