@@ -77,6 +77,9 @@ def build_graph(components: list[Component]) -> Graph:
     for cut in cuts:
         for part in cut.loop:
             part._in_loop = True
+    for group in _sets(connectors, [(s.a, s.b) for _, s, _ in connects]):
+        for connector in group:
+            connector._set = tuple(group)
     cut_ids = {id(cut.statement) for cut in cuts}
     same = _sets(connectors, [(s.a, s.b) for _, s, _ in connects if id(s) not in cut_ids])
     order = {id(c): k for k, c in enumerate(connectors)}

@@ -5,7 +5,17 @@ import copyreg
 from acausal.language import shipped
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.condition import Condition
-from acausal.language.connection import branch, chain, connect, in_loop, is_root, potential_root, root, rooted
+from acausal.language.connection import (
+    branch,
+    chain,
+    connect,
+    connected,
+    in_loop,
+    is_root,
+    potential_root,
+    root,
+    rooted,
+)
 from acausal.language.declare import (
     discrete,
     effect,
@@ -88,6 +98,7 @@ __all__ = [
     "branch",
     "chain",
     "connect",
+    "connected",
     "cos",
     "cross",
     "der",

@@ -185,6 +185,7 @@ class Connector(Component):
     _is_root = False
     _owner: Any = None
     _parents: tuple[Any, ...] = ()
+    _set: tuple[Any, ...] = ()  # what it is connected to, itself included
 
     def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
         """Yield pairs (variable, expression of its time derivative)."""

@@ -115,6 +115,13 @@ def rooted(a: Any, b: Any | None = None) -> bool:
 
 
 @told
+def connected(port: Any) -> tuple[Component, ...]:
+    """Return, in equations() and validity(), the other components whose ports are connected to a port."""
+    owners = (other._owner for other in port._set if other._owner is not port._owner)
+    return tuple(owner for owner in owners if owner is not None)
+
+
+@told
 def in_loop(component: Any) -> bool:
     """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop

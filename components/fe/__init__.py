@@ -9,7 +9,7 @@ from components.fe.nodal_field import NodalField
 from components.fe.nodes import Nodes
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.reduction import reduce_body
-from components.fe.spiders import average, rigid
+from components.fe.spiders import average, frame_at, rigid
 
 __all__ = [
     "FEBody",
@@ -26,6 +26,7 @@ __all__ = [
     "average",
     "box",
     "by_steps",
+    "frame_at",
     "read_abaqus",
     "read_ansys",
     "read_calculix",

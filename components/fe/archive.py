@@ -12,6 +12,8 @@ from acausal import DeclarationError
 from acausal.result.files import whole
 
 FORMAT = "acausal reduced body 1"
+# What reading a file raises that is no archive, or damaged, or asks for what zipfile cannot do.
+WRONG = (OSError, EOFError, ValueError, TypeError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error)
 
 
 def write(path: Path, content: dict[str, np.ndarray]) -> None:
@@ -32,7 +34,7 @@ def read(path: Path) -> dict[str, np.ndarray]:
             return content
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path} of a reduced body") from None
-    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+    except WRONG as error:
         raise DeclarationError(f"{path} is no file of a reduced body, or not whole{said(error)}") from None
 
 

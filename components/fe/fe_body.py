@@ -12,6 +12,7 @@ from acausal import (
     Scalar,
     as_expr,
     branch,
+    connected,
     cross,
     der,
     dot,
@@ -31,13 +32,21 @@ from acausal import (
 from components.fe.chosen import critical_damping, nominal, with_modes
 from components.fe.frame_checks import check_free
 from components.fe.modal_inertia import ModalInertia
-from components.fe.range import Moments, spinning
+from components.fe.range import Moments, spinning, welded
 from components.fe.reconfigured_inertia import ReconfiguredInertia
 from components.fe.reduced_body import Interface, ReducedBody
 from components.fe.skin import box_of_inertia, mesh
 from components.frame import Frame, move, pose
 from components.moving_body import MovingBody, off_centre, past_centre
-from components.orientation import null_rotation, resolve1, resolve2, rodrigues_rate, rodrigues_rotation
+from components.orientation import (
+    absolute_rotation,
+    fixed_rotation,
+    null_rotation,
+    resolve1,
+    resolve2,
+    rodrigues_rate,
+    rodrigues_rotation,
+)
 from components.world import World
 
 
@@ -91,7 +100,7 @@ class FEBody(MovingBody):
         "whether a run warns where a linear body is not valid",
         default=True,
         choices=(True, False),
-        doc="False suppresses the warning that the body turns too fast.",
+        doc="False suppresses the warnings that the body turns too fast, and that it is welded by the average of its nodes.",
     )
     inertia: str = effect(
         "inertia of the deformed body",
@@ -173,6 +182,8 @@ class FEBody(MovingBody):
             R, G = null_rotation(), np.eye(3)
             if np.any(interface.rotation):
                 R, G = rodrigues_rotation(theta), rodrigues_rate(theta)
+            if interface.turned:
+                R, G = absolute_rotation(R, fixed_rotation(interface.axes)), interface.axes @ G
             yield from move(ref, frame, r, R)
             f_k, t_k = self.frame_force[k], self.frame_torque[k]
             yield f_k == resolve1(R, frame.f)
@@ -200,8 +211,12 @@ class FEBody(MovingBody):
     def validity(self):
         yield from past_centre(self.world, self._inertia.mass, self._centre(), self._velocity())
         yield from (Moments(self._body).stays_none(interface, frame) for interface, frame in self._points)
-        if self.check_range and np.any(self._body.frequencies > 0):
-            yield spinning(self._body, self.reference.R.w, self.stiffness)
+        if self.check_range:
+            if np.any(self._body.frequencies > 0):
+                yield spinning(self._body, self.reference.R.w, self.stiffness)
+            for interface, frame in ((i, self.frames[i.name]) for i in self._body.interfaces if i.averages):
+                if any(isinstance(other, FEBody) for other in connected(frame)):
+                    yield welded(interface, frame)
 
     def stored_energy(self):
         """Kinetic, elastic and potential energy."""
@@ -227,9 +242,8 @@ class FEBody(MovingBody):
 
     @property
     def _held(self) -> Interface | None:
-        """The interface that is the reference frame: its maps are 0, and it is at the origin."""
-        still = (i for i in self._body.interfaces if not (i.displacement.any() or i.rotation.any() or i.place.any()))
-        return next(still, None)
+        """The interface that is the reference frame, and has its axes."""
+        return next((i for i in self._body.interfaces if i.still and not i.turned), None)
 
     @property
     def _moving(self) -> list[tuple[Interface, Any]]:

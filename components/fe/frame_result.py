@@ -134,14 +134,14 @@ def _frame(motion: FrameMotion, interface: Interface) -> Named:
     slowing = 2 * (p * pd).sum(axis=1)[:, None] / (1 + square[:, :, 0])
     z_rel = _apply(G, 2 * pdd) - slowing * w_rel
     w_ref = _apply(turned, motion.w)
-    T = turned @ motion.T
+    T, A = interface.axes @ turned @ motion.T, np.broadcast_to(interface.axes, turned.shape)
     found = {
         "r_0": motion.place(interface.name),
         "R.T": T,
-        "R.w": w_ref + w_rel,
+        "R.w": _apply(A, w_ref + w_rel),
         "v": _apply(T, motion.velocity(interface.name)),
         "a": _apply(T, motion.acceleration(interface.name)),
-        "z": _apply(turned, motion.al) - np.cross(w_rel, w_ref) + z_rel,
+        "z": _apply(A, _apply(turned, motion.al) - np.cross(w_rel, w_ref) + z_rel),
     }
     return {key: (value, UNITS[key]) for key, value in found.items()}
 

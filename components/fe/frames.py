@@ -10,8 +10,8 @@ import numpy as np
 
 from acausal import DeclarationError
 from components.fe.arrays import Array
+from components.fe.node_frames import ON_A_LINE, Frame
 from components.fe.solid import Solid
-from components.fe.spiders import ON_A_LINE, Frame
 
 MEAN_AXIS = "mean-axis"
 DIRECTIONS = "xyz"

@@ -10,9 +10,9 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 from components.fe.frames import null_space
+from components.fe.node_frames import Frame
 from components.fe.ordering import dissection
 from components.fe.solid import Solid
-from components.fe.spiders import Frame
 
 # Freedoms up to which, or share of modes from which on, all modes are computed at once.
 DENSE, SHARE = 600, 0.25

@@ -41,6 +41,28 @@ def spinning(body: ReducedBody, w: Any, stiffness: Any) -> Any:
     )
 
 
+def welded(interface: Interface, frame: Any) -> Any:
+    """State that a frame which follows the average of its nodes carries nothing to another body of finite elements.
+
+    Parameters
+    ----------
+    interface : Interface
+        The frame, welded to one of another body.
+    frame : Frame
+        Its port.
+    """
+    f, t = frame.f, frame.t
+    carried = sqrt(dot(f, f) * quantity(1.0, "m2") + dot(t, t))
+    return expect(
+        carried,
+        carried,
+        1 / 2,
+        f"the frame `{interface.name}` is welded to another body of finite elements, and follows the average of its nodes, which "
+        "do not hold together: the joint is softer than the material. Do this: "
+        f'reduce_body(frames={{"{interface.name}": rigid(nodes)}}) for both bodies',
+    )
+
+
 class Moments:
     """How large a moment is on a frame that cannot carry any.
 

@@ -273,7 +273,7 @@ def von_mises(stress: np.ndarray) -> np.ndarray:
 
 
 def _held(reduced: ReducedBody) -> list[Any]:
-    return [i for i in reduced.interfaces if not (i.displacement.any() or i.rotation.any() or i.place.any())]
+    return [i for i in reduced.interfaces if i.still and not i.turned]
 
 
 def _is_another(reduced: ReducedBody, tree: Any, path: str) -> bool:

@@ -20,6 +20,7 @@ from components.fe.nodal_field import NodalField
 
 # Part of mass or stiffness: far above the rounding of a reduction, far below a change of a design.
 ALIKE = 1e-6
+MAPS = ("place", "displacement", "rotation", "axes")  # arrays of an interface
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -161,7 +162,8 @@ class ReducedBody:
         for k, frame in enumerate(self.interfaces):
             yield f"name {k}", np.array(frame.name)
             yield f"turns {k}", np.array(frame.turns)
-            yield from ((f"{name} {k}", getattr(frame, name)) for name in ("place", "displacement", "rotation"))
+            yield f"averages {k}", np.array(frame.averages)
+            yield from ((f"{name} {k}", getattr(frame, name)) for name in MAPS)
 
     def __eq__(self, other: object) -> bool:
         return self is other or (isinstance(other, ReducedBody) and self.digest == other.digest)
@@ -218,8 +220,8 @@ class ReducedBody:
         content = archive.read(Path(path))
         frames, k = [], 0
         while f"name {k}" in content:
-            maps = {name: content[f"{name} {k}"] for name in ("place", "displacement", "rotation")}
-            frames.append(Interface(name=str(content[f"name {k}"]), turns=bool(content[f"turns {k}"]), **maps))
+            more = {name: content[key] for name in (*MAPS, "turns", "averages") if (key := f"{name} {k}") in content}
+            frames.append(Interface(name=str(content[f"name {k}"]), **more))
             k += 1
         nodal = None
         if "nodal nodes" in content:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -14,9 +14,9 @@ from components.fe.arrays import Array
 from components.fe.bases import basis as basis_of
 from components.fe.frames import Reference
 from components.fe.invariants import ROUNDING, invariants
+from components.fe.node_frames import Frame, frames_of
 from components.fe.reduced_body import Interface, NodalField, ReducedBody
 from components.fe.solid import Solid
-from components.fe.spiders import Frame, frames_of
 
 
 def reduce_body(
@@ -39,11 +39,14 @@ def reduce_body(
         Mass in kg and stiffness in N/m of the free body; equations in the order x, y, z of each node. M may be
         semi-definite; its 3 x 3 blocks must be multiples of the unit matrix.
     nodes : array_like, shape (N, 3)
-        Places of the nodes in m. Their axes are those of the reference frame and of all frames.
+        Places of the nodes in m. Their axes are those of the reference frame and of all frames that have none of their own.
     frames : mapping from str to nodes
         Frames where the body is connected: a name and the indices of its nodes, counted from 0. A frame follows the
-        average of its nodes with equal weights; where it is held by the reference frame, each of its nodes is held.
-        `rigid(nodes)` joins the nodes rigidly, `average(nodes, weights)` always averages.
+        average of its nodes, weighted by the area of the faces of the mesh that they span, and equally where `nodes` know
+        no elements; where it is held by the reference frame, each of its nodes is held. It lies at the mean of its nodes,
+        and a warning tells where that is not the centre of a circle on which they lie: `frame_at(nodes, place, axes)` says
+        where it lies and how it is turned. `rigid(nodes)` joins the nodes rigidly, as where two bodies are welded;
+        `average(nodes, weights)` always averages.
     hold : str, (int, int, int) or mapping
         What the reference frame is fixed to, that is, where the modes have no displacement:
 
@@ -85,7 +88,8 @@ def reduce_body(
     """
     _numbers(modes, frequency)
     body = checks.solid(M, K, nodes)
-    found = frames_of(frames, body.nodes, body.empty)
+    cells = getattr(nodes, "cells", {})
+    found = frames_of(frames, body.nodes, body.empty, cells)
     wanted = None if frequency is not None else int(modes)
     shapes, squares, held = basis_of(basis, hold, found, body, wanted, frequency or np.inf)
     if not len(squares):
@@ -93,7 +97,9 @@ def reduce_body(
     if wanted is not None and len(squares) < wanted:
         raise DeclarationError(f"there are {len(squares)} modes with mass, fewer than modes={wanted}")
     shapes, squares = shapes[:, :wanted], squares[:wanted]
-    return _reduced(body, shapes, squares, held, found, damping, getattr(nodes, "cells", {}))
+    free = "average" if basis == "free" else "held"
+    found = [replace(frame, kind=frame.kind or (free if frame.name in held.names else "average")) for frame in found]
+    return _reduced(body, shapes, squares, held, found, damping, cells)
 
 
 def _numbers(modes: Any, frequency: Any) -> None:
@@ -128,16 +134,16 @@ def _reduced(
 
 
 def _interface(frame: Frame, shapes: Array, held: Reference, body: Solid) -> Interface:
-    n = shapes.shape[1]
+    n, several = shapes.shape[1], len(frame.nodes) > 1
     place = frame.place - held.origin
     place = np.where(np.abs(place) > ROUNDING * body.size, place, 0.0)
+    averages = several and frame.kind == "average"
     if frame.name in held.names:
         # Nodes on a line that are all held stand for the reference frame itself; a single node has no turn at all.
-        return Interface(
-            frame.name, frame.place - held.origin, np.zeros((3, n)), np.zeros((3, n)), len(frame.nodes) > 1
-        )
+        still = np.zeros((3, n))
+        return Interface(frame.name, frame.place - held.origin, still, still, several, frame.orientation, averages)
     maps = frame.maps @ shapes[frame.equations]
     size = ROUNDING * np.abs(shapes).max(axis=0)
     displacement = np.where(np.abs(maps[:3]) > size, maps[:3], 0.0)
     rotation = np.where(np.abs(maps[3:]) > size / frame.radius, maps[3:], 0.0)
-    return Interface(frame.name, place, displacement, rotation, frame.turns)
+    return Interface(frame.name, place, displacement, rotation, frame.turns, frame.orientation, averages)

@@ -1,9 +1,7 @@
-"""Frames at sets of nodes: rigid and averaging spiders."""
+"""Sets of nodes that carry a frame: rigid and averaging spiders, their place and axes."""
 
 from __future__ import annotations
 
-import keyword
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,36 +10,82 @@ import numpy as np
 from acausal import DeclarationError
 from components.fe.arrays import Array
 
-# Coordinates come from files with six or seven digits: nodes nearer to a line than this part of their extent are on it.
-ON_A_LINE = 1e-5
+# Axes are given with six or seven digits: how far a third one may be from right angles.
+SQUARE = 1e-5
 
 
 @dataclass(frozen=True)
 class Spider:
-    """Nodes that carry a frame; see `rigid` and `average`."""
+    """Nodes that carry a frame; see `frame_at`, `rigid` and `average`.
+
+    Parameters
+    ----------
+    nodes : tuple of int
+        Rows of the nodes.
+    kind : str
+        "" (as the frame is used), "rigid" or "average".
+    weights : tuple of float, optional
+        Of each node; by default those of the area of the faces that the nodes span.
+    place : tuple of 3 floats, optional
+        In m; by default the weighted mean of the nodes.
+    axes : array, shape (3, 3), optional
+        Directions x, y, z of the frame as rows; by default those of the nodes' coordinates.
+    """
 
     nodes: tuple[int, ...]
-    weights: tuple[float, ...]
-    kind: str  # "" (as the frame is used), "rigid" or "average"
+    kind: str = ""
+    weights: tuple[float, ...] | None = None
+    place: tuple[float, ...] | None = None
+    axes: Array | None = None
 
 
-def rigid(nodes: Any) -> Spider:
-    """A rigid spider: the nodes move as one rigid body, which stiffens what they are part of.
+def frame_at(nodes: Any, place: Any = None, axes: Any = None) -> Spider:
+    """A frame at a place, with axes of its own: held or averaging as nodes without this are.
 
     Parameters
     ----------
     nodes : sequence of int
         Nodes, counted from 0.
+    place : 3 floats, optional
+        Place of the frame in m, in the coordinates of the nodes, such as the centre of a hole. By default the mean of the
+        nodes, weighted by the area of the faces that they span.
+    axes : 2 or 3 vectors, optional
+        Direction of x, a vector in the plane of x and y, and z if given, in the coordinates of the nodes. By default the
+        axes of the coordinates.
+
+    Raises
+    ------
+    DeclarationError
+        If the place is no place, or the axes are no right-handed ones.
+
+    Examples
+    --------
+    >>> frames = {"hinge": frame_at([0, 2, 4], place=(0, 0, 0), axes=((0, 0, 1), (1, 0, 0)))}
     """
-    found = _indices(nodes)
-    return Spider(found, (1.0,) * len(found), "rigid")
+    return Spider(indices(nodes), "", None, _place(place), _axes(axes))
 
 
-def average(nodes: Any, weights: Any = None) -> Spider:
+def rigid(nodes: Any, *, place: Any = None, axes: Any = None) -> Spider:
+    """A rigid spider: the nodes move as one rigid body, which stiffens what they are part of.
+
+    Faces that are welded to another body are rigid ones: the mean of a face follows a joint of two averages more softly than
+    the material.
+
+    Parameters
+    ----------
+    nodes : sequence of int
+        Nodes, counted from 0.
+    place, axes : optional
+        See `frame_at`.
+    """
+    return Spider(indices(nodes), "rigid", None, _place(place), _axes(axes))
+
+
+def average(nodes: Any, weights: Any = None, *, place: Any = None, axes: Any = None) -> Spider:
     """An averaging spider: the frame follows the nodes and stiffens nothing.
 
-    It is displaced by the mean of the nodes' displacements u, and turned by the rotation that fits them best, with d the
-    nodes' distances from their mean place: Psi = (sum w (|d|^2 E - d d'))^-1 sum w d x u. A force on the frame is
+    Its mean place is displaced by the mean of the nodes' displacements u, and turned by the rotation that fits them best,
+    with d the nodes' distances from the mean place: Psi = (sum w (|d|^2 E - d d'))^-1 sum w d x u. A force on the frame is
     distributed over the nodes in the same proportion.
 
     Parameters
@@ -49,124 +93,61 @@ def average(nodes: Any, weights: Any = None) -> Spider:
     nodes : sequence of int
         Nodes, counted from 0.
     weights : sequence of float, optional
-        Positive weight w of each node, all equal by default.
+        Positive weight w of each node. By default the integral of its shape function over the faces of the mesh that the
+        nodes span, so that a force acts as a uniform pressure; equal ones where no faces are known.
+    place, axes : optional
+        See `frame_at`.
 
     Raises
     ------
     DeclarationError
         If there are not as many weights as nodes, or one is not positive.
     """
-    found = _indices(nodes)
-    shares = np.ones(len(found)) if weights is None else np.asarray(weights, dtype=float)
+    found = indices(nodes)
+    if weights is None:
+        return Spider(found, "average", None, _place(place), _axes(axes))
+    shares = np.asarray(weights, dtype=float)
     if shares.shape != (len(found),) or not (np.isfinite(shares) & (shares > 0)).all():
         raise DeclarationError(
             f"an averaging frame needs one positive weight for each of its {len(found)} nodes: {weights!r}"
         )
-    return Spider(found, tuple(shares.tolist()), "average")
+    return Spider(found, "average", tuple(shares.tolist()), _place(place), _axes(axes))
 
 
-def _indices(nodes: Any) -> tuple[int, ...]:
+def _place(place: Any) -> tuple[float, ...] | None:
+    return None if place is None else tuple(_vectors(place, ((3,),), "the place of a frame is x, y, z in m").tolist())
+
+
+def _axes(axes: Any) -> Array | None:
+    """Rows x, y, z of length 1, from x, a vector in the plane of x and y, and z if given."""
+    if axes is None:
+        return None
+    what = "axes of a frame are the directions of x, y and z as three vectors at right angles, or of x and y alone"
+    rows = _vectors(axes, ((2, 3), (3, 3)), what)
+    sizes = np.linalg.norm(rows, axis=1)
+    if not sizes.all():
+        raise DeclarationError(f"{what}, not {axes!r}")
+    x, y, *z = rows / sizes[:, None]
+    normal = np.cross(x, y)
+    found = np.stack([x, np.cross(normal, x), normal])
+    if np.linalg.norm(normal) <= SQUARE or (z and np.abs(np.stack([x, y, *z]) - found).max() > SQUARE):
+        raise DeclarationError(f"{what}, not {axes!r}")
+    return found / np.linalg.norm(found, axis=1)[:, None]
+
+
+def _vectors(given: Any, shapes: tuple[tuple[int, ...], ...], what: str) -> Array:
+    try:
+        found = np.array(given, dtype=float)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.shape not in shapes or not np.isfinite(found).all():
+        raise DeclarationError(f"{what}, not {given!r}")
+    return found
+
+
+def indices(nodes: Any) -> tuple[int, ...]:
+    """Return indices of nodes as a tuple, or refuse what are none."""
     array = np.atleast_1d(np.asarray(nodes))
     if array.ndim != 1 or not len(array) or not np.issubdtype(array.dtype, np.integer):
         raise DeclarationError(f"a frame needs the indices of its nodes, counted from 0, not {nodes!r}")
     return tuple(array.tolist())
-
-
-@dataclass(frozen=True)
-class Frame:
-    """A frame of the body before its reduction.
-
-    Parameters
-    ----------
-    name : str
-        Name of the port.
-    nodes : array of int
-        Its nodes.
-    kind : str
-        "" (each node held in a frame that the reference frame holds, else their average), "rigid" or "average".
-    place : array, shape (3,)
-        Mean place of the nodes in m.
-    maps : array, shape (6, 3 k)
-        Displacement and small rotation of the frame from the displacements of its k nodes.
-    axes : array, shape (3, r)
-        Directions about which the nodes hold a turn; r is 0 for a point, 2 for nodes on a line.
-    radius : float
-        Mean distance of the nodes from the place in m, 1 for a point.
-    """
-
-    name: str
-    nodes: Array
-    kind: str
-    place: Array
-    maps: Array
-    axes: Array
-    radius: float
-
-    @property
-    def equations(self) -> Array:
-        """Numbers of the equations of the nodes, x, y, z of each."""
-        return (3 * self.nodes[:, None] + np.arange(3)).ravel()
-
-    @property
-    def turns(self) -> bool:
-        """Whether the nodes hold every turn."""
-        return self.axes.shape[1] == 3
-
-    @property
-    def freedoms(self) -> Array:
-        """Rows of `maps` that are independent, turns as lengths at the radius, shape (3 + r, 3 k)."""
-        return np.vstack([self.maps[:3], self.radius * self.axes.T @ self.maps[3:]])
-
-
-def frame(name: str, nodes: Any, places: Array) -> Frame:
-    """A frame at some of the nodes at `places`, shape (N, 3)."""
-    spider = nodes if isinstance(nodes, Spider) else Spider(found := _indices(nodes), (1.0,) * len(found), "")
-    wrong = [k for k in spider.nodes if not 0 <= k < len(places)]
-    if wrong:
-        raise DeclarationError(
-            f"frame {name!r} names node {wrong[0]}, but nodes are counted from 0 to {len(places) - 1}"
-        )
-    if len(set(spider.nodes)) < len(spider.nodes):
-        twice = next(k for k in spider.nodes if spider.nodes.count(k) > 1)
-        raise DeclarationError(f"frame {name!r} names node {twice} twice")
-    shares = np.array(spider.weights) / np.sum(spider.weights)
-    at = places[list(spider.nodes)]
-    place = shares @ at
-    arms = at - place
-    _, spread, directions = np.linalg.svd(np.linalg.qr(np.sqrt(shares)[:, None] * arms, mode="r"))
-    spread = np.concatenate([spread, np.zeros(3)])[:3]
-    radius = float(np.linalg.norm(spread)) or 1.0
-    # Moments of the weights about the principal lines through the place: the nodes hold a turn about a line that they
-    # are not on.
-    moments = np.maximum(np.sum(spread**2) - spread**2, 0.0)
-    held = np.sqrt(moments) > ON_A_LINE * radius
-    axes = directions[held].T
-    crossed = np.concatenate([share * _skew(arm) for share, arm in zip(shares, arms, strict=True)], axis=1)
-    rotation = axes / moments[held] @ axes.T @ crossed
-    mean = np.concatenate([share * np.eye(3) for share in shares], axis=1)
-    return Frame(name, np.array(spider.nodes), spider.kind, place, np.vstack([mean, rotation]), axes, radius)
-
-
-def _skew(r: Array) -> Array:
-    return np.array([[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0]])
-
-
-def frames_of(frames: Mapping[str, Any], places: Array, empty: Array) -> list[Frame]:
-    """The frames that a user names, checked.
-
-    Raises
-    ------
-    DeclarationError
-        If a name is no Python name, or a node is not there, is named twice, or has no stiffness.
-    """
-    if not isinstance(frames, Mapping):
-        raise DeclarationError(f'frames maps names to nodes, as {{"tip": [53]}}, which {frames!r} does not')
-    found = []
-    for name, nodes in frames.items():
-        if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
-            raise DeclarationError(f"a frame is a port, and needs a name as Python has them, not {name!r}")
-        made = frame(name, nodes, places)
-        if empty[made.nodes].any():
-            raise DeclarationError(f"node {made.nodes[empty[made.nodes]][0]} of frame {name!r} has no stiffness")
-        found.append(made)
-    return found

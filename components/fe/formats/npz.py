@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from acausal import DeclarationError
-from components.fe.archive import said
+from components.fe.archive import WRONG, said
 
 PLACES = ("coords_m", "coords_mm", "nodes")
 
@@ -50,7 +48,7 @@ def read_npz(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> tup
             content = {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise DeclarationError(f"there is no file {path}") from None
-    except (OSError, EOFError, ValueError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
+    except WRONG as error:
         raise DeclarationError(f"{path} is no .npz file, or not whole{said(error)}") from None
     places = next((name for name in PLACES if name in content), None)
     if places is None and "modal_first" in content:

@@ -49,8 +49,7 @@ def read_sid(path: str | Path, *, length: float = 1.0, mass: float = 1.0) -> Red
     Raises
     ------
     DeclarationError
-        If the file is cut off or none of this kind, a matrix has another size, or a node is turned against the reference
-        frame.
+        If the file is cut off or none of this kind, or a matrix has another size.
     """
     modal = _inner(path, read_tree(path))
     total, n = _modes(path, modal)
@@ -128,7 +127,7 @@ def write_sid(body: ReducedBody, path: str | Path) -> None:
         lines += Taylor(frame.place[:, None], frame.displacement.T[:, :, None]).lines("origin", " " * 12)
         lines += Taylor(frame.displacement, none).lines("phi", " " * 12)
         lines += Taylor(psi, none).lines("psi", " " * 12)
-        lines += Taylor(np.eye(3), -np.einsum("ijk,kb->bij", AXIAL, psi)).lines("AP", " " * 12)
+        lines += Taylor(frame.axes.T, _skew(psi) @ frame.axes.T).lines("AP", " " * 12)
         lines += ["         end node"]
     lines += ["      end frame"]
     for name, matrix in matrices.items():
@@ -247,9 +246,20 @@ def _interface(
 ) -> Interface:
     place = _matrix(path, node.named("origin")[0], order, (3, 1), n).constant[:, 0]
     phi, psi = (_matrix(path, node.named(name)[0], order, (3, n), n).constant for name in ("phi", "psi"))
-    for axes in node.named("AP"):
-        if np.abs(_matrix(path, axes, order, (3, 3), n).constant - np.eye(3)).max() > DIGITS:
-            raise wrong(path, f"node {node.value} is turned against the reference frame, which is not read", axes.line)
+    axes = np.eye(3)
+    for block in node.named("AP"):
+        turn = _matrix(path, block, order, (3, 3), n)
+        if not _same(turn.constant, np.eye(3)):
+            axes = turn.constant.T
+            if not _same(axes @ turn.constant, np.eye(3)) or np.linalg.det(axes) < 0:
+                raise wrong(path, f"AP of node {node.value} is no rotation", block.line)
+            if turn.linear.any() and not _same(_skew(psi) @ turn.constant, turn.linear):
+                raise wrong(path, f"M1 of AP of node {node.value} is not psi x AP: psi is in other axes", block.line)
     name = node.value if node.value.isidentifier() else f"node_{node.value}"
     turns = bool(psi.any() or not phi.any())
-    return Interface(name=name, place=length * place, displacement=phi @ T, rotation=psi @ T / length, turns=turns)
+    return Interface(name, length * place, phi @ T, psi @ T / length, turns, axes)
+
+
+def _skew(turns: np.ndarray) -> np.ndarray:
+    """Matrices of v x for the columns v, shape (n, 3, 3)."""
+    return -np.einsum("ijk,kb->bij", AXIAL, turns)

@@ -12,6 +12,7 @@ import pytest
 
 import acausal as ac
 from components.fe import FrameLoad, NodalResult, Readings, as_result, reduce_body, simulate_reconfigured
+from components.fe.faces import area_weights
 from tests.components.fe import bodies
 from tests.components.fe.test_reconfigured import PLACES, lopsided, plate, pulse
 
@@ -54,7 +55,11 @@ def test_nodes_share_a_force_as_an_averaging_frame_does():
     _, _, nodes = bodies.block()
     face = bodies.face(nodes, 0, -1)
     dt = 0.2 / (2 * np.pi * body.frequencies[-1])
-    shares = [FrameLoad(node=int(k), force=np.array((1.0, 2, 3)) / len(face)) for k in face]
+    areas = area_weights(face, nodes, nodes.cells)
+    assert areas is not None
+    shares = [
+        FrameLoad(node=int(k), force=np.array((1.0, 2, 3)) * a) for k, a in zip(face, areas / areas.sum(), strict=True)
+    ]
     found, expected = (
         simulate_reconfigured(body, loads, 50 * dt, dt) for loads in (shares, [FrameLoad("face", force=(1, 2, 3))])
     )

@@ -21,7 +21,11 @@ def frames_of(nodes, kind="plain"):
     if kind == "rigid":
         return {"left": rigid(left), "right": rigid(right), "top": [int(face(nodes, 2, -1)[3])]}
     if kind == "average":
-        return {"left": average(left), "right": average(right, np.arange(1, len(right) + 1)), "top": [12]}
+        return {
+            "left": average(left, np.ones(len(left))),
+            "right": average(right, np.arange(1, len(right) + 1)),
+            "top": [12],
+        }
     return {"left": left, "right": right, "top": [int(face(nodes, 2, -1)[3])]}
 
 

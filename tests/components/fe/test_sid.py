@@ -21,7 +21,7 @@ BODY = reduce_body(
     damping=0.01,
 )
 ARRAYS = ("first_moment", "second_moment", "modal_first", "modal_second", "modal_products", "M", "K", "D")
-MAPS = ("place", "displacement", "rotation")
+MAPS = ("place", "displacement", "rotation", "axes")
 # What happens to the text of a file, and a part of the message.
 WRONG = {
     "empty": (lambda s: "", "the file is empty"),
@@ -167,9 +167,9 @@ def test_wrong_files(tmp_path: Path, text: str, case: str) -> None:
         read_sid(path)
 
 
-def test_turned_nodes_are_refused(tmp_path: Path, text: str) -> None:
+def test_axes_that_are_no_rotation(tmp_path: Path, text: str) -> None:
     path = tmp_path / "turned.sid"
     path.write_text(re.sub(r"(AP\n(?:.*\n){7}.*m0\( *1, *2\) =) .*", r"\1 0.5", text))
-    with pytest.raises(DeclarationError, match="is turned against the reference frame"):
+    with pytest.raises(DeclarationError, match=r"AP of node .* is no rotation"):
         read_sid(path)
     assert index_order(path, []) == ORDERS[0]
