@@ -23,7 +23,7 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
-from acausal.language.expression import Equation, Expr
+from acausal.language.expression import Equation, Expr, Soft
 from acausal.language.pending import PENDING, Pending
 from acausal.symbols import scalars, stacked, vec
 
@@ -252,6 +252,8 @@ def _function(stated: list[Stated], kind: type, own: _Look, pending: Pending) ->
     """What was stated as a function of the symbols that it was stated in."""
     if pending.switches or pending.whens or pending.promises or not all(isinstance(s, kind) for s, _ in stated):
         return None
+    if any(isinstance(s, Soft) for s, _ in stated):
+        return None  # few, and simple ones
     parts = [(s.lhs, s.rhs) if kind is Equation else (s,) if kind is Expr else s for s, _ in stated]
     if not all(isinstance(e, Expr) for exprs in parts for e in exprs):
         return None

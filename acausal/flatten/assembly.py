@@ -276,11 +276,12 @@ class Assembly:
             for a in fixed
             for name, entry in zip(a.names, scalars(a.start.sx), strict=True)
         ]
+        soft = [False] * len(texts) + self.raw.initial.scalar_soft()
         texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
         entries = ca.substitute([stacked([dense(r) for r in residuals])], [was], [becomes])[0]
         if not texts:
             return ()
-        return tuple(Initial(r, text, o) for r, (text, o) in zip(scalars(entries), texts, strict=True))
+        return tuple(Initial(r, *text, s) for r, text, s in zip(scalars(entries), texts, soft, strict=True))
 
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:

@@ -20,7 +20,7 @@ from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.events import When
-from acausal.language.expression import Equation, Expr, as_expr, equation
+from acausal.language.expression import Equation, Expr, Soft, as_expr, equation
 from acausal.language.homes import error_of, misplaced
 from acausal.language.pending import PENDING
 from acausal.language.quantities import plain
@@ -45,7 +45,8 @@ class Closure:
 class Equations:
     """Scalar residuals with their origins.
 
-    `sides` keeps both sides of each array equation, `of_roots` tells those of roots, `owned` those of each component.
+    `sides` keeps both sides of each array equation, `of_roots` tells those of roots, `owned` those of each component,
+    `soft` those that are soft.
     """
 
     residuals: list[ca.SX]
@@ -54,9 +55,12 @@ class Equations:
     closures: list[Closure] = field(default_factory=list)
     of_roots: range = range(0)
     owned: list[tuple[Component, range]] = field(default_factory=list)
+    soft: set[int] = field(default_factory=set)
 
     def add(self, statement: Equation, origin: Origin) -> ca.SX:
         """Append an equation; return its residual."""
+        if isinstance(statement, Soft):
+            self.soft.add(len(self.sides))
         self.residuals.append(dense(vec(combined(statement.lhs.sx, "-", statement.rhs.sx))))
         self.sides.append((statement.lhs.sx, statement.rhs.sx))
         self.origins.append(origin)
@@ -65,6 +69,10 @@ class Equations:
     def scalar_origins(self) -> list[Origin]:
         """Return the origin of each scalar residual."""
         return [o for o, r in zip(self.origins, self.residuals, strict=True) for _ in range(r.numel())]
+
+    def scalar_soft(self) -> list[bool]:
+        """Return whether closed loops override each scalar residual."""
+        return [k in self.soft for k, r in enumerate(self.residuals) for _ in range(r.numel())]
 
 
 def collect(components: list[Component], graph: Graph, most: int, alike: Alike, defaults: list[Late]) -> Equations:

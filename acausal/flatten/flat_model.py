@@ -18,11 +18,12 @@ from acausal.units import Dimension
 
 @dataclass(frozen=True)
 class Initial:
-    """A condition of the initial system: residual, what it says, and where."""
+    """A condition of the initial system: residual, what it says, where, and whether closed loops override it."""
 
     residual: ca.SX
     text: str
     origin: Origin
+    soft: bool = False
 
 
 @dataclass(frozen=True)

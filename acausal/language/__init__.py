@@ -33,7 +33,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, as_expr
+from acausal.language.expression import Equation, Expr, Soft, as_expr, soft
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -88,6 +88,7 @@ __all__ = [
     "Scalar",
     "Separation",
     "SetValued",
+    "Soft",
     "Vector3",
     "When",
     "acos",
@@ -137,6 +138,7 @@ __all__ = [
     "sign",
     "sin",
     "sine",
+    "soft",
     "sqrt",
     "step",
     "structural",

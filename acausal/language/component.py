@@ -42,6 +42,7 @@ class Component(f.Template):
     fields: ClassVar[dict[str, f.Field]] = {}
     ends: ClassVar[tuple[str, str]] = ("", "")
     start_words: ClassVar[dict[str, str]] = {}
+    without_soft: ClassVar[str] = ""  # the argument that leaves out its soft conditions, for messages
     _own_fields: ClassVar[dict[str, f.Field]] = {}
     _own_values: ClassVar[dict[str, Any]] = {}
     _class_values: ClassVar[dict[str, Any]] = {}

@@ -15,7 +15,7 @@ from acausal.language.source import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown
 
-PLAIN = ("ends", "start_words")  # read by the engine, and no methods
+PLAIN = ("ends", "start_words", "without_soft")  # read by the engine, and no methods
 EXAMPLES = {
     "connections": "yield connect(self.a, self.b)",
     "equations": "yield self.x == ...",

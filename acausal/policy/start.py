@@ -90,6 +90,9 @@ class Loops:
     # Disturbances of the guesses, in nominal values, after which closing is tried again: a loop that folds the wrong way
     # needs a large one.
     attempts: tuple[float, ...] = (0.0, 0.03, 0.1, 0.3, 1.0, 1.0, 1.0)
+    # How far loops may miss where soft conditions yield, over the size of the motion: places in a mesh have three digits at
+    # least, and elastic parts are strained by no more than this.
+    taken: float = 1e-3
     # Evaluations of a try, relative changes at which it ends, and steps of least norm that polish it.
     evaluations: int = 200
     ends: float = 1e-15

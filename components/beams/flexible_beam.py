@@ -19,6 +19,7 @@ from acausal import (
     outer,
     port,
     potential_root,
+    soft,
     structural,
     variable,
 )
@@ -43,6 +44,7 @@ class FlexibleBeam(Beam):
     small; a beam that turns faster than its first natural frequency needs geometric_stiffness.
     """
 
+    without_soft = 'initial="free"'
     elements: int = structural("number of finite elements", default=1, minimum=1, refine=lambda s: s.adaptive)
     world: World = outer(World)
     q: Any = variable(
@@ -160,7 +162,7 @@ class FlexibleBeam(Beam):
     def initial_equations(self):
         if self.initial != "free" and self.free:
             for q in (self.qd, self.q * initial if self.initial == "undeformed" else self.qdd):
-                yield q == as_expr(np.zeros(len(self.free)))
+                yield soft(q == as_expr(np.zeros(len(self.free))))
 
     @property
     def _l(self) -> Any:

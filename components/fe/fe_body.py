@@ -25,6 +25,7 @@ from acausal import (
     port,
     ports,
     quantity,
+    soft,
     sqrt,
     structural,
     variable,
@@ -63,6 +64,7 @@ class FEBody(MovingBody):
     """
 
     ends = ("frame_a", "frame_b")
+    without_soft = 'initial="free"'
     reduced: Any = structural(
         "the body", cls=ReducedBody, doc="What `reduce_body` returns, or the .npz file to which it was saved."
     )
@@ -202,7 +204,7 @@ class FEBody(MovingBody):
         yield from self.free_start(self.reference)
         if self.initial != "free" and self.modes:
             for q in (self.qd, self.q * initial if self.initial == "undeformed" else self.qdd):
-                yield q == as_expr(np.zeros(self.modes))
+                yield soft(q == as_expr(np.zeros(self.modes)))
 
     def requirements(self):
         yield from off_centre(self, self.world, self._centre())

@@ -13,6 +13,7 @@ from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.conditions import soft
 from acausal.solve.start.kept import refitted
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.loops import close, refuse_open_loops
@@ -25,15 +26,26 @@ from acausal.solve.start.words import missing_text
 LOOPS = POLICY.loops
 
 
-def closed_guess(problem: Problem, at: Point, held: np.ndarray) -> tuple[Point, Redundancy]:
+def closed_guess(problem: Problem, at: Point, held: np.ndarray, yielding: np.ndarray) -> tuple[Point, Redundancy]:
     """Close the loops near the guesses, find what is redundant, and choose a projection.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        Guesses of the states.
+    held : array of int
+        States that are given.
+    yielding : array of int
+        Those of them that soft conditions give.
 
     Raises
     ------
     InitializationError
         If a loop cannot close.
     """
-    closed, mismatch = close(problem, at, held)
+    closed, mismatch = close(problem, at, held, yielding=yielding)
     if not mismatch <= LOOPS.closed:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)
@@ -94,7 +106,7 @@ def ranked(
         for row in plan.constrained.constraints[k].rows
     }
     equations = [k for k in range(nz) if k not in off]
-    demanded = [conditions[k] for k in surplus if conditions[k] >= 0]
+    demanded = [conditions[k] for k in surplus if conditions[k] >= 0 and conditions[k] not in soft(compiled)]
     known = sorted([*held, *left, *(nx + c.multipliers).tolist()])
     solved = [*equations, *(conditions[k] for k in used)]
     return InitialSystem(np.array(solved, int), np.array(demanded, int), np.array(known, int), tuple(direct.items()))

@@ -40,6 +40,13 @@ def lasting(compiled: CompiledModel) -> frozenset[int]:
 
 
 @once
+def soft(compiled: CompiledModel) -> frozenset[int]:
+    """Conditions, counted from the first algebraic equation, that closed loops override."""
+    conditions = compiled.reduced.flat.equations.initial
+    return frozenset(compiled.nz + k for k, condition in enumerate(conditions) if condition.soft)
+
+
+@once
 def _curved(compiled: CompiledModel) -> list[bool]:
     """Which conditions are not linear in the unknowns."""
     return ca.which_depends(compiled.conditions, ca.vertcat(compiled.reduced.x, compiled.reduced.z), 2, True)

@@ -9,9 +9,12 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
+from acausal.flatten.tree import walk
+from acausal.language.component import Component
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.conditions import giving, soft
 from acausal.solve.start.descent import Matrix, Residuals, descend
 from acausal.solve.start.parts import part_of
 from acausal.solve.start.rank import least_norm
@@ -33,7 +36,12 @@ def levels(compiled: CompiledModel) -> list[tuple[list[int], np.ndarray]]:
 
 
 def close(
-    problem: Problem, at: Point, held: np.ndarray, positions: bool = False, sizes: np.ndarray | None = None
+    problem: Problem,
+    at: Point,
+    held: np.ndarray,
+    positions: bool = False,
+    sizes: np.ndarray | None = None,
+    yielding: np.ndarray | None = None,
 ) -> tuple[Point, float]:
     """Change the coordinates as little as possible so that the constraints hold, level by level.
 
@@ -49,6 +57,8 @@ def close(
         True for the lowest level of each constraint alone: positions, or velocities where a part states these.
     sizes : array, optional
         Sizes over which changes of the states count, shape (nx,); nominal values if not given.
+    yielding : array of int, optional
+        States among those that are held which change a little where the loops cannot close without.
 
     Returns
     -------
@@ -65,7 +75,11 @@ def close(
             continue
         rows = [row for row in rows if is_lowest[row]] if positions else rows
         free = np.setdiff1d(columns, held)
-        at, left = _solve(problem, at, rows, free, depth > 0, sizes)
+        own = np.intersect1d(columns, np.empty(0, int) if yielding is None else yielding)
+        if own.size and (found := _taken_up(problem, at, rows, free, own, depth > 0, sizes)):
+            at, left = found
+        else:
+            at, left = _solve(problem, at, rows, free, depth > 0, sizes)
         if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
             # Near a singular position rates are known only as well as the root of the positions.
             at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
@@ -112,8 +126,37 @@ def _are_many(rows: list[int]) -> bool:
     return len(rows) > POLICY.ranks.small
 
 
+def _taken_up(
+    problem: Problem,
+    at: Point,
+    rows: list[int],
+    free: np.ndarray,
+    soft: np.ndarray,
+    linear: bool,
+    sizes: np.ndarray,
+) -> tuple[Point, float] | None:
+    """Close one level near the guesses; where it misses by little without the soft states, these change as little as possible.
+
+    Returns
+    -------
+    at, left
+        As of `_solve`; None where it misses by much.
+    """
+    near, left = _solve(problem, at, rows, free, linear, sizes, LOOPS.attempts[:1])
+    swift = np.max(np.abs(near.x[free]) / problem.nominal[free], initial=0.0) if linear else 0.0
+    if LOOPS.closed < left <= LOOPS.taken * (1 + swift):
+        near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, sizes, LOOPS.attempts[:1])
+    return (near, left) if left <= LOOPS.closed else None
+
+
 def _solve(
-    problem: Problem, at: Point, rows: list[int], free: np.ndarray, linear: bool, sizes: np.ndarray
+    problem: Problem,
+    at: Point,
+    rows: list[int],
+    free: np.ndarray,
+    linear: bool,
+    sizes: np.ndarray,
+    attempts: tuple[float, ...] = LOOPS.attempts,
 ) -> tuple[Point, float]:
     """Close one level; where it is linear in its coordinates, a step of least change is enough."""
     evaluate = _residuals(problem, at, rows, free)
@@ -125,7 +168,7 @@ def _solve(
         best = _polish(evaluate, best, scale)
         left = float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
     smallest = left if np.isfinite(left) else np.inf
-    for k, size in enumerate(LOOPS.attempts):
+    for k, size in enumerate(attempts):
         if smallest <= LOOPS.closed:
             break
         start = at.x[free] + size * scale * np.random.default_rng(k).standard_normal(len(free))
@@ -181,9 +224,11 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
         base = compiled.reduced.plan.constrained.constraints[k].base
         if k not in c.of_loops and np.max(gap[list(rows)]) > LOOPS.closed:
             lines.append(f"  {flat.equations.origins[base]}: off by {np.max(value[list(rows)]):.4g}")
-    given = [compiled.states[k] for k in np.intersect1d(held, c.states)]
+    parts = soft_parts(compiled, held)
+    given = [compiled.states[k] for k in np.intersect1d(held, c.states) if k not in parts]
     if lines and np.max(gap) > LOOPS.closed:
-        head, mend = _open_head(at.time, len(lines), bool(given)), _open_mend(given)
+        head = _open_head(at.time, len(lines), bool(given or parts))
+        mend = " ".join([_open_mend(given), *_soft_mend(list(parts.values()))])
         if jump:
             names = ", ".join(f"`{name}` = {at.x[compiled.states.index(name)]:.4g}" for name in given)
             loops, they = (
@@ -201,6 +246,20 @@ def _open_head(time: float, n: int, fixed: bool) -> str:
         return f"{'this loop does' if one else 'these loops do'} not close {at} with the start values that are fixed:"
     which = "this loop closes" if one else "these loops close"
     return f"{at} no position of the joints was found in which {which}:"
+
+
+def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component]:
+    """Components whose soft conditions give states, by these."""
+    conditions, nz = compiled.reduced.flat.equations.initial, compiled.nz
+    of = {state: conditions[row - nz].origin.path for row, state in giving(compiled).items() if row in soft(compiled)}
+    parts = {part._path: part for part in walk(compiled.tree)}
+    return {state: parts[of[state]] for state in np.intersect1d(held, list(of)).astype(int).tolist()}
+
+
+def _soft_mend(parts: list[Component]) -> list[str]:
+    """How each part is told to start without its soft conditions."""
+    told = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
+    return [f"Or leave the shape at the start to the loops, {'; '.join(told)}."] if told else []
 
 
 def _open_mend(fixed: list[str]) -> str:
