@@ -23,8 +23,9 @@ from acausal.flatten.origin import Origin
 from acausal.flatten.tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
-from acausal.language.expression import Equation, Expr, Soft
+from acausal.language.expression import Equation, Expr
 from acausal.language.pending import PENDING, Pending
+from acausal.language.soft import Soft
 from acausal.symbols import scalars, stacked, vec
 
 FEWEST = 4  # alike components for which preparing a function pays

@@ -33,7 +33,7 @@ from acausal.language.declare import (
     variable,
 )
 from acausal.language.events import When, reinit, when
-from acausal.language.expression import Equation, Expr, Soft, as_expr, soft
+from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
     acos,
@@ -58,6 +58,7 @@ from acausal.language.functions import (
 )
 from acausal.language.initial_values import fixed, guess
 from acausal.language.set_valued import SetValued, set_valued
+from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import TWINS
 from acausal.language.twins import twins

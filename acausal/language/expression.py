@@ -174,29 +174,6 @@ class Equation:
         )
 
 
-class Soft(Equation):
-    """An initial equation that closed loops override, see `soft`."""
-
-
-def soft(condition: Any) -> Soft:
-    """Let closed loops override an initial equation; yield it in initial_equations().
-
-    An elastic part starts undeformed, say, but for what it takes up of a loop that does not close with rigid parts.
-
-    Parameters
-    ----------
-    condition : Equation
-        Such as `self.q == 0`.
-
-    Examples
-    --------
-    >>> yield soft(self.q == as_expr(np.zeros(3)))  # doctest: +SKIP
-    """
-    if not isinstance(condition, Equation):
-        raise DeclarationError(f"soft() takes an equation, soft(a == b), not {condition!r}.")
-    return Soft(condition.lhs, condition.rhs)
-
-
 def as_expr(value: Any) -> Expr:
     """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
     if isinstance(value, Expr):

@@ -26,7 +26,7 @@ from acausal.solve.start.words import missing_text
 LOOPS = POLICY.loops
 
 
-def closed_guess(problem: Problem, at: Point, held: np.ndarray, yielding: np.ndarray) -> tuple[Point, Redundancy]:
+def closed_guess(problem: Problem, at: Point, given: Mapping[int, int]) -> tuple[Point, Redundancy]:
     """Close the loops near the guesses, find what is redundant, and choose a projection.
 
     Parameters
@@ -35,17 +35,17 @@ def closed_guess(problem: Problem, at: Point, held: np.ndarray, yielding: np.nda
         The model.
     at : Point
         Guesses of the states.
-    held : array of int
-        States that are given.
-    yielding : array of int
-        Those of them that soft conditions give.
+    given : mapping of int to int
+        States that conditions give -> these; what soft ones give yields a little where the loops cannot close without.
 
     Raises
     ------
     InitializationError
         If a loop cannot close.
     """
-    closed, mismatch = close(problem, at, held, yielding=yielding)
+    held = np.array(sorted(given), dtype=int)
+    yielding = [state for state in held.tolist() if given[state] in soft(problem.compiled)]
+    closed, mismatch = close(problem, at, held, yielding=np.array(yielding, dtype=int))
     if not mismatch <= LOOPS.closed:
         refuse_open_loops(problem, closed, held)
     redundancy = find_redundancy(problem, closed)

@@ -17,7 +17,7 @@ from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.blocks import by_blocks
 from acausal.solve.start.complete import closed_guess, ranked
-from acausal.solve.start.conditions import flag_matters, giving, lasting, soft
+from acausal.solve.start.conditions import flag_matters, giving, lasting
 from acausal.solve.start.direct import with_direct
 from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
@@ -219,8 +219,7 @@ def _closed(problem: Problem, at: Point) -> tuple[Point, Redundancy, dict[int, i
         at = with_direct(problem, np.array(list(direct.items())).T, at, problem.local(at, 1.0))
     if not compiled.constraints.size:
         return at, Redundancy(), direct
-    held, yielding = sorted(first), sorted(state for state, row in first.items() if row in soft(compiled))
-    at, redundancy = closed_guess(problem, at, np.array(held, dtype=int), np.array(yielding, dtype=int))
+    at, redundancy = closed_guess(problem, at, first)
     return problem.completed(at), redundancy, direct
 
 

@@ -259,7 +259,11 @@ def soft_parts(compiled: CompiledModel, held: np.ndarray) -> dict[int, Component
 def _soft_mend(parts: list[Component]) -> list[str]:
     """How each part is told to start without its soft conditions."""
     told = [f"`{p._path}`: {type(p).__name__}({p.without_soft})" for p in dict.fromkeys(parts) if p.without_soft]
-    return [f"Or leave the shape at the start to the loops, {'; '.join(told)}."] if told else []
+    if not told:
+        return []
+    return [
+        f'Or leave their shape at the start to the loops: {", ".join(told)}, with simulate(..., initial="guesses").'
+    ]
 
 
 def _open_mend(fixed: list[str]) -> str:

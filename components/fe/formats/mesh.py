@@ -10,15 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from acausal.result import shown_name
-from components.fe.checks import warn
 from components.fe.elements import assemble
 from components.fe.elements.assembly import FLAT
 from components.fe.formats.cdb import read_cdb
 from components.fe.formats.foreign import existing, package, read_by
 from components.fe.formats.keywords import blocks, cells_of, elements, node_positions
 from components.fe.formats.matrices import Matrices
-from components.fe.formats.text import text_of, wrong
+from components.fe.formats.text import doubt, text_of, wrong
 from components.fe.nodes import Nodes
 
 NASTRAN = (".bdf", ".fem", ".nas")
@@ -65,9 +63,10 @@ def read_mesh(path: str | Path, *, E: float, nu: float, rho: float, length: floa
         raise wrong(file, "an element names a node that is not in the file")
     cells = {kind: np.searchsorted(used, rows) for kind, rows in cells.items()}
     if "tetra" in cells:
-        warn(
-            f"{shown_name(path)}: tetrahedra of 4 nodes are far too stiff in bending: the first frequency of a bar with one, "
-            "two, four of them across is 86, 29, 9 % too high. Do this: mesh with tetrahedra of 10 nodes, in gmsh by `-order 2`"
+        doubt(
+            path,
+            "tetrahedra of 4 nodes are far too stiff in bending: the first frequency of a bar with one, "
+            "two, four of them across is 86, 29, 9 % too high. Do this: mesh with tetrahedra of 10 nodes, in gmsh by `-order 2`",
         )
     places = length * places[used]
     M, K, _ = assemble(places, cells, E=E, nu=nu, rho=rho)

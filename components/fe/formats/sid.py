@@ -6,11 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from acausal.result import shown_name
 from acausal.result.files import whole
-from components.fe.checks import warn
 from components.fe.formats.sid_tree import DIGITS, Block, Taylor, index_order, read_tree, taylor
-from components.fe.formats.text import number, wrong
+from components.fe.formats.text import doubt, number, wrong
 from components.fe.reduced_body import Interface, ReducedBody
 
 # w1^2, w2^2, w3^2, w1 w2, w2 w3, w1 w3: the columns of Oe.
@@ -193,17 +191,17 @@ def _moments(path: str | Path, given: dict[str, Taylor], M: np.ndarray) -> tuple
         twice = given["Ge"].constant.reshape(n, n, 3).swapaxes(0, 1)
         turned = twice / 2 if _same(twice, -twice.swapaxes(0, 1)) else turned
     A, B = _from_parts(spin.constant, turn.constant), _from_parts(spin.linear, turned)
-    doubt = "" if spin.linear.any() or not n else "Oe has no M1"
+    why = "" if spin.linear.any() or not n else "Oe has no M1"
     if J.any() and not _same(2 * np.trace(A, axis1=1, axis2=2)[:, None, None] * np.eye(3) - A - A.swapaxes(1, 2), J):
-        doubt = "M0 of Oe and M1 of J say different things about the modes"
+        why = "M0 of Oe and M1 of J say different things about the modes"
         symmetric = np.trace(J, axis1=1, axis2=2)[:, None, None] / 4 * np.eye(3) - J / 2
         A = symmetric + (A - A.swapaxes(1, 2)) / 2
-    elif not doubt and not _same(np.trace(B, axis1=2, axis2=3), M):
-        doubt = "the trace of M1 of Oe differs from Me, as if Oe held geometric stiffness, which is not read"
-    if doubt:
-        warn(
-            f"{shown_name(path)}: {doubt}. Forces of inertia of second order in q are not known and left out, as by "
-            'inertia="first_order"'
+    elif not why and not _same(np.trace(B, axis1=2, axis2=3), M):
+        why = "the trace of M1 of Oe differs from Me, as if Oe held geometric stiffness, which is not read"
+    if why:
+        doubt(
+            path,
+            f'{why}. Forces of inertia of second order in q are not known and left out, as by inertia="first_order"',
         )
         B = (B - B.swapaxes(2, 3)) / 2
     return A, B

@@ -12,6 +12,7 @@ import numpy as np
 
 from acausal import DeclarationError
 from acausal.result import read_text, shown_name
+from components.fe.checks import warn
 
 LARGEST = 10**12  # number of a node or an element that a program has
 # Exponents of Fortran: 1.5D+10, and 1.5+100, whose letter gives way to a third digit.
@@ -22,6 +23,11 @@ def wrong(path: str | Path, why: str, line: int | None = None) -> DeclarationErr
     """Return the error that says what is wrong in a file, and in which line (counted from 1)."""
     place = shown_name(path) if line is None else f"{shown_name(path)}, line {line}"
     return DeclarationError(f"{place}: {why}.")
+
+
+def doubt(path: str | Path, why: str) -> None:
+    """Warn of what a file holds."""
+    warn(f"{shown_name(path)}: {why}.")
 
 
 def text_of(path: str | Path, what: str) -> str:
