@@ -143,8 +143,11 @@ def _taken_up(
         As of `_solve`; None where it misses by much.
     """
     near, left = _solve(problem, at, rows, free, linear, sizes, LOOPS.attempts[:1])
-    swift = np.max(np.abs(near.x[free]) / problem.nominal[free], initial=0.0) if linear else 0.0
-    if LOOPS.closed < left <= LOOPS.taken * (1 + swift):
+    size = 1.0
+    if linear and LOOPS.closed < left:  # rates may miss each other by a part of what moves
+        u = near.x[free]
+        size = float(np.max(abs(_residuals(problem, near, rows, free)(u)[1]) @ np.abs(u), initial=0.0))
+    if LOOPS.closed < left <= LOOPS.taken * size:
         near, left = _solve(problem, near, rows, np.union1d(free, soft), linear, sizes, LOOPS.attempts[:1])
     return (near, left) if left <= LOOPS.closed else None
 
