@@ -131,7 +131,7 @@ def test_a_loop_in_an_assembly_of_assemblies_moves_as_the_flat_one() -> None:
 
 def test_an_assembly_used_twice_starts_where_its_parent_says() -> None:
     result = run(TwoLegs())
-    other = run(Flat(j1=Revolute(phi=fixed(0.7), w=fixed(2))))
+    other = run(Flat(j1=Revolute(phi=fixed(0.7), w=fixed(2))))  # type: ignore[call-arg]
     np.testing.assert_allclose(result["one.linkage.j1.phi"], run(Flat())["j1.phi"], atol=1e-7)
     np.testing.assert_allclose(result["two.linkage.j1.phi"], other["j1.phi"], atol=1e-7)
 
@@ -162,7 +162,7 @@ class Ring(Model):
     """Two parallelograms side by side, pushed and pulled by a bar: all cranks stay parallel."""
 
     world, apart = World(), FixedTranslation(r=(1, 0, 0))
-    left, right = Half(near=Revolute(phi=fixed(1), w=fixed(0.5))), Half()
+    left, right = Half(near=Revolute(phi=fixed(1), w=fixed(0.5))), Half()  # type: ignore[call-arg]
     bar, first, last = BodyRod(r=(1, 0, 0), m=1), Revolute(), Revolute()
 
     def connections(self):

@@ -126,7 +126,7 @@ def test_both_wheels_in_one_part_share_what_works_on_them() -> None:
 
 
 def test_the_form_of_the_equations_does_not_matter() -> None:
-    one, other = run(Robot()), run(Robot(one=Slipping(), two=Slipping()))
+    one, other = run(Robot()), run(Robot(one=Slipping(), two=Slipping()))  # type: ignore[call-arg]
     np.testing.assert_allclose(one["chassis.frame_a.r_0"], other["chassis.frame_a.r_0"], atol=1e-6)
     both = [r["one.force"] + r["two.force"] for r in (one, other)]
     np.testing.assert_allclose(both[0], both[1], atol=1e-4)
