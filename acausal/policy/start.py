@@ -151,6 +151,14 @@ class Rest:
 
     # A derivative that is 0, over the change that nominal values of the unknowns make in it.
     still: float = 1e-7
+    # Turns of a cyclic coordinate at which loads are the same in steady rotation, in nominal values (1 rad): no two of them, nor
+    # 0, are alike for a rotor of up to 20 blades. Part of a turn within which a drive that speeds up changes the speed.
+    turns: tuple[float, ...] = (1.0, 2.3)
+    later: float = 1e-3
+    # Steps of the fourth order in a turn whose rates change on the way: errors of (1/32)^4 / 120 = 1e-8.
+    parts: int = 32
+    # Change of an entry of a linear system in a turn, over the largest of its row, that is none: ten times `still`.
+    periodic: float = 1e-6
     # How fast states return to invariants in the search, in 1/s, as in `linearize`.
     feedback: float = 1.0
     # Random signs of rounding errors: the largest effect of eight is within a factor of a few of the largest there is.

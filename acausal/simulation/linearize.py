@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.policy import POLICY
+from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
 from acausal.solve.causes import cause, infinite_slope
 from acausal.solve.opening import opening
@@ -129,7 +130,9 @@ def linearize(
     at = opening(problem, time, how)
     _refuse_flat(problem, at, how == "steady")
     inputs, nx = _inputs(compiled), compiled.nx
-    slopes = _slopes(problem, at, ca.vertcat(*[sx for _, sx in inputs]))
+    slopes_at = _slopes(problem, ca.vertcat(*[sx for _, sx in inputs]))
+    slopes = slopes_at(at)
+    check_point(problem, at, slopes_at)
     N, chosen = tangent(problem, at)
     # By the independent states and the inputs.
     slopes = np.hstack([slopes[:, :nx] @ N, slopes[:, nx:]])
@@ -152,32 +155,36 @@ def _refuse_flat(problem: Problem, at: Point, rests: bool) -> None:
         raise InitializationError(f"the model cannot be linearised: {RESTS_FLAT if rests else FLAT}")
 
 
-def _slopes(problem: Problem, at: Point, u: ca.SX) -> np.ndarray:
-    """Derivatives of the rates and the outputs by the states and the inputs, the algebraic unknowns eliminated."""
+def _slopes(problem: Problem, u: ca.SX) -> Callable[[Point], np.ndarray]:
+    """Derivatives of the rates and the outputs by the states and the inputs at a point, the algebraic unknowns eliminated."""
     compiled, nx, nz = problem.compiled, problem.nx, problem.nz
     r = compiled.reduced
     outputs = ca.vertcat(*[ca.vec(getattr(compiled.tree, name).sx) for name in compiled.outputs])
     column = ca.vertcat(r.ode, r.alg, r.resolve(outputs) if outputs.numel() else ca.SX(0, 1))
     J = ca.jacobian(column, ca.vertcat(r.x, r.z, u))
     linear = Call(ca.Function("linear", compiled.arguments, [J]))
-    kept, free = (
-        linear(at.x, at.z, problem.p, at.time, replace(at.constants, feedback=f).vector, 0.0)[0].copy()
-        for f in (problem.feedback, 0.0)
-    )
-    if not np.all(np.isfinite(kept)):
-        raise InitializationError(
-            f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
-        )
     pattern = linear.function.sparsity_out(0)
-    M = scipy.sparse.csc_matrix((free, pattern.row(), pattern.colind()), shape=J.shape)
+    M = scipy.sparse.csc_matrix((np.ones(pattern.nnz()), pattern.row(), pattern.colind()), shape=J.shape)
     states, unknowns, rest = np.split(np.arange(max(M.shape)), [nx, nx + nz])
     rows, columns = (np.append(states, rest[: n - nx - nz]) for n in M.shape)
-    try:
-        eliminated = Elimination.of(M, rows, columns, unknowns, unknowns)
-        slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
-    except RuntimeError:
-        raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
-    return returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
+    eliminated = Elimination.of(M, rows, columns, unknowns, unknowns)
+
+    def slopes_at(at: Point) -> np.ndarray:
+        kept, free = (
+            linear(at.x, at.z, problem.p, at.time, replace(at.constants, feedback=f).vector, 0.0)[0].copy()
+            for f in (problem.feedback, 0.0)
+        )
+        if not np.all(np.isfinite(kept)):
+            raise InitializationError(
+                f"the model cannot be linearised: {cause(problem, at) or infinite_slope(problem, at)}"
+            )
+        try:
+            slopes, returning = eliminated.matrix(free), eliminated.matrix(kept)
+        except RuntimeError:
+            raise InitializationError(f"the model cannot be linearised: {cause(problem, at) or FLAT}") from None
+        return returning if _apart(slopes[:nx, :nx], (returning - slopes)[:nx, :nx]) else slopes
+
+    return slopes_at
 
 
 def _inputs(compiled: CompiledModel) -> list[tuple[str, ca.SX]]:

@@ -12,7 +12,7 @@ from acausal.solve.events.clock_times import clock_times
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.at_rest import at_rest
+from acausal.solve.start.rotation import is_steady
 from acausal.solve.start.start import places_text, start
 
 SPAN = 1.0  # s: conditions by the clock that change later do not matter at the start
@@ -58,7 +58,7 @@ class Opening:
         holds = self.instants.holds(before, np.zeros(len(before.truth), dtype=bool))
         begins = holds & ~before.truth & ~self.instants.is_switch
         acts = [k for k in self.instants.watched[begins].tolist() if k not in planned]
-        if acts and not at_rest(self.problem, self._settled(before, [])):
+        if acts and not is_steady(self.problem, self._settled(before, [])):
             raise InitializationError(
                 f"the equilibrium at t = {at.time:g} s does not last, as this condition is true there, and what it does sets "
                 f"off a motion:\n{places_text(self.problem.compiled, acts)}\nGive guesses near another one, or hold the model."

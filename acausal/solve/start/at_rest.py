@@ -49,14 +49,25 @@ def kinematic(compiled: CompiledModel) -> list[int]:
 
 def at_rest(problem: Problem, at: Point) -> bool:
     """Whether all derivatives vanish, loops are closed, and equations and initial conditions hold."""
-    nx = problem.nx
-    if _moving(problem, at):
-        return False
-    if problem.compiled.constraints.size and np.max(np.abs(problem.gaps(at))) > NEWTON.consistent:
-        return False
-    local = problem.local(at)
+    return not _moving(problem, at) and loops_closed(problem, at) and equations_hold(problem, at)
+
+
+def loops_closed(problem: Problem, at: Point) -> bool:
+    """Whether all constraints hold."""
+    return not problem.compiled.constraints.size or bool(np.max(np.abs(problem.gaps(at))) <= NEWTON.consistent)
+
+
+def equations_hold(problem: Problem, at: Point) -> bool:
+    """Whether algebraic equations and initial conditions hold."""
+    nx, local = problem.nx, problem.local(at)
     allowed = _allowed(local.jacobian, at.y, problem.nominal, NEWTON.consistent)
     return bool(np.all(np.abs(local.value[nx:]) <= allowed[nx:]))
+
+
+def rates_allowed(problem: Problem, at: Point) -> np.ndarray:
+    """What the derivatives of the states may be where they vanish."""
+    J = problem.local(at).jacobian.tocsr()[: problem.nx]
+    return _allowed(J, at.y, problem.nominal, POLICY.rest.still) + abs(J)[:, problem.nx :] @ _unsure(problem, at)
 
 
 def motion_text(problem: Problem, at: Point) -> str:
@@ -86,7 +97,7 @@ def motion_text(problem: Problem, at: Point) -> str:
 
 def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     """Derivatives that do not vanish, the largest first."""
-    names, call, (rows, columns, shape) = _derivatives(problem.compiled)
+    names, call, (rows, columns, shape), _ = derivatives(problem.compiled)
     given = at.x, at.z, problem.p, at.time, at.constants.vector, 0.0
     value, entries = call(*given)
     J = scipy.sparse.csr_matrix((entries, (rows, columns)), shape=shape)
@@ -114,8 +125,10 @@ def _unsure(problem: Problem, at: Point) -> np.ndarray:
 
 
 @once
-def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.ndarray, np.ndarray, tuple[int, int]]]:
-    """Names of all derivatives but those of meters, their values and Jacobian, and its pattern."""
+def derivatives(
+    compiled: CompiledModel,
+) -> tuple[list[str], Call, tuple[np.ndarray, np.ndarray, tuple[int, int]], list[int]]:
+    """Names of all derivatives but those of meters, values and Jacobian, its pattern, and of which unknowns the first are."""
     r = compiled.reduced
     plan, elements = r.plan, scalars(r.unknowns)
     apart = {plan.states[k] for k in meters(compiled)}
@@ -127,13 +140,13 @@ def _derivatives(compiled: CompiledModel) -> tuple[list[str], Call, tuple[np.nda
     J = ca.jacobian(column, ca.vertcat(r.x, r.z))
     call = Call(ca.Function("derivatives", compiled.arguments, [column, J]))
     rows, columns = (np.array(k, dtype=int) for k in J.sparsity().get_triplet())
-    return names, call, (rows, columns, J.shape)
+    return names, call, (rows, columns, J.shape), [v for v, _ in pairs]
 
 
 @once
 def _terms(compiled: CompiledModel) -> Call:
     """Sizes of what adds up in the Jacobian of the derivatives, see `rounding.terms`."""
-    J = _derivatives(compiled)[1].function.call(compiled.arguments)[1]
+    J = derivatives(compiled)[1].function.call(compiled.arguments)[1]
     return Call(ca.Function("terms", compiled.arguments, [terms(compiled.arguments, stacked(scalars(J.nz[:])))]))
 
 

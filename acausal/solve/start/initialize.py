@@ -23,11 +23,12 @@ from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.opponents import contradiction
 from acausal.solve.start.redundancy import Redundancy
-from acausal.solve.start.steady import Equilibrium
+from acausal.solve.start.steady import rest, rotation
 from acausal.solve.start.words import missing_text
 from acausal.structure import complete
 
 INITIAL = ("fixed", "guesses", "steady")
+TURNING = "turning"  # what "steady" is where nothing rests
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,24 +71,24 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         Start time in s.
     head : array
         Switches at the start, and discrete variables.
-    initial : "fixed", "guesses" or "steady"
-        What to do with states that no condition determines: refuse, take their guesses, or find those at which all
-        derivatives vanish.
+    initial : "fixed", "guesses", "steady" or TURNING
+        What to do with states that no condition determines: refuse, take their guesses, find those at which all
+        derivatives vanish, or all but those of cyclic coordinates.
 
     Raises
     ------
     InitializationError
         If conditions are missing or contradict each other, or no solution is found.
     """
-    if initial not in INITIAL:
+    if initial not in (*INITIAL, TURNING):
         mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
         raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
     compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
     at, redundancy = _guess(problem, time, head), Redundancy()
-    if initial == "steady":
-        first = _sparse(problem, at)
+    if initial in ("steady", TURNING):
+        first = _sparse(problem, at) if initial == "steady" else None
         at, redundancy, _ = _closed(problem, at)
-        at = _at_rest(problem, at, first)
+        at = rest(problem, at, first) if initial == "steady" else rotation(problem, at)
     else:
         if loops:
             system, at, redundancy = _ranked(problem, at, initial)
@@ -171,17 +172,6 @@ def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str,
     if initial == "steady":
         others += range(-nx, 0)
     return ranked(problem, at, direct, others, initial == "fixed", flag)
-
-
-def _at_rest(problem: Problem, at: Point, first: Point | None) -> Point:
-    """Return a point at rest; where it is found does not depend on how fast invariants are kept in a run."""
-
-    def kept(at: Point, feedback: float) -> Point:
-        return replace(at, constants=replace(at.constants, feedback=feedback))
-
-    own = replace(problem, feedback=POLICY.rest.feedback)
-    found = Equilibrium(own, kept(at, own.feedback)).find(first and kept(first, own.feedback))
-    return kept(found, problem.feedback)
 
 
 def _states_suffice(problem: Problem, system: InitialSystem) -> bool:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+import scipy
 
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -16,15 +18,69 @@ from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.rank import factored
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class Linearized:
-    """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated."""
+    """Rates and conditions at a point, and their Jacobians by the states with the algebraic unknowns eliminated.
+
+    Attributes
+    ----------
+    point : Point
+        With consistent algebraic unknowns.
+    value : array
+        Rates, algebraic equations and conditions.
+    J : csc_matrix
+        Their Jacobian by states and algebraic unknowns.
+    nominal : array
+        Sizes of these.
+    """
 
     point: Point
-    rates: np.ndarray
-    A: np.ndarray
-    conditions: np.ndarray
-    C: np.ndarray
+    value: np.ndarray
+    J: scipy.sparse.csc_matrix
+    nominal: np.ndarray
+
+    @property
+    def nx(self) -> int:
+        """Number of states."""
+        return len(self.point.x)
+
+    @property
+    def rates(self) -> np.ndarray:
+        """Derivatives of the states."""
+        return self.value[: self.nx]
+
+    @property
+    def conditions(self) -> np.ndarray:
+        """Residuals of the initial conditions."""
+        return self.value[len(self.nominal) :]
+
+    @cached_property
+    def A(self) -> np.ndarray:
+        """Jacobian of the rates by the states."""
+        return self._eliminated(slice(0, self.nx))
+
+    @cached_property
+    def C(self) -> np.ndarray:
+        """Jacobian of the conditions by the states."""
+        return self._eliminated(slice(len(self.nominal), None))
+
+    def adds_up(self, sizes: np.ndarray) -> np.ndarray:
+        """Return the size of the terms in each row of A, for states of some sizes."""
+        direct, through = (abs(self.J[: self.nx, own]) for own in (slice(0, self.nx), slice(self.nx, None)))
+        return np.linalg.norm((direct.toarray() + through @ np.abs(self._follow)) * sizes, axis=1)
+
+    @cached_property
+    def _follow(self) -> np.ndarray:
+        """Changes of the algebraic unknowns with the states."""
+        nx, n = self.nx, len(self.nominal)
+        if n == nx:
+            return np.zeros((0, nx))
+        solve = factored(self.J[nx:n, nx:], self.nominal[nx:], POLICY.ranks.rank)
+        return solve(-self.J[nx:n, :nx].toarray())
+
+    def _eliminated(self, rows: slice) -> np.ndarray:
+        nx = self.nx
+        return self.J[rows, :nx].toarray() + self.J[rows, nx:] @ self._follow
 
 
 class Linearizer:
@@ -36,28 +92,44 @@ class Linearizer:
         The model.
     guess : Point
         A point where loops are closed.
+    space : array, shape (nx, k), optional
+        Cyclic coordinates, if the search is for a steady rotation; see `rotation.cyclic`.
     """
 
-    def __init__(self, problem: Problem, guess: Point) -> None:
+    def __init__(self, problem: Problem, guess: Point, space: np.ndarray | None = None) -> None:
         self.problem, self.guess = problem, guess
+        self.turns = space is not None
+        self.space = np.zeros((problem.nx, 0)) if space is None else space
         compiled, self.nx = problem.compiled, problem.nx
         self.scale = problem.nominal[: self.nx]
         self.rows = np.setdiff1d(np.arange(self.nx), meters(compiled))
         pairs = [coordinate for coordinate, _ in problem.rates]
         self.coordinates = np.array(sorted({*pairs, *kinematic(compiled)}), dtype=int)
+        self.still = self._still()
+
+    def _still(self) -> scipy.sparse.csr_matrix:
+        """Which combinations of rates vanish: one in each row; all but meters, and but those of cyclic coordinates."""
+        turning = np.flatnonzero(np.any(self.space, axis=1))
+        others = np.setdiff1d(self.rows, turning)
+        single = scipy.sparse.identity(self.nx, format="csr")[others]
+        if len(turning) == self.space.shape[1]:
+            return single
+        own = scipy.linalg.null_space(self.space[turning].T).T / self.scale[turning]
+        across = scipy.sparse.lil_matrix((len(own), self.nx))
+        across[:, turning] = own
+        return scipy.sparse.vstack([single, across]).tocsr()
+
+    def unturned(self, step: np.ndarray) -> np.ndarray:
+        """Return a step without what turns cyclic coordinates."""
+        return step - self.scale * (self.space @ (self.space.T @ (step / self.scale)))
 
     def linearized(self, at: Point) -> Linearized:
         """Solve for the algebraic unknowns, and linearise."""
-        nx, nz = self.nx, self.problem.nz
         at = algebraic(self.problem, at)
         local = self.problem.local(at)
         if not (np.all(np.isfinite(local.value)) and np.all(np.isfinite(local.jacobian.data))):
             raise Lost("the equations have no value there", at, 0.0)
-        J = local.jacobian.tocsc()
-        solve = factored(J[nx : nx + nz, nx:], self.problem.nominal[nx:], POLICY.ranks.rank) if nz else None
-        dz = solve(-J[nx : nx + nz, :nx].toarray()) if solve else np.zeros((0, nx))
-        A, C = ((J[rows, :nx] + J[rows, nx:] @ dz) for rows in (slice(0, nx), slice(nx + nz, None)))
-        return Linearized(at, local.value[:nx], np.asarray(A), local.value[nx + nz :], np.asarray(C))
+        return Linearized(at, local.value, local.jacobian.tocsc(), self.problem.nominal)
 
     def closed(self, at: Point) -> Point:
         """Close the loops, and choose again which states follow from others.

@@ -54,14 +54,14 @@ def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float)
     """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
     moves = np.isin(np.arange(own.nx), own.rows)  # meters stay
     solve = _solver(np.eye(own.nx) - h * here.A)
-    step = solve(np.where(moves, h * here.rates, 0.0))
+    step = own.unturned(solve(own.unturned(np.where(moves, h * here.rates, 0.0))))
     if not np.all(np.isfinite(step)) or own.far(step) > far:
         return None
     try:
         there = own.linearized(own.closed(moved(here.point, step)))
     except InitializationError:
         return None
-    left = np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0)
+    left = own.unturned(np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0))
     return there if own.size(solve(left)) <= bent * own.size(step) else None
 
 

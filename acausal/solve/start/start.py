@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +19,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.determined import undetermined
-from acausal.solve.start.initialize import Start, initialize
+from acausal.solve.start.initialize import TURNING, Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.steady import Restless
@@ -49,6 +50,16 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
     InitializationError
         If no values are found, or none whose switches fit them.
     """
+    try:
+        return _started(problem, time, later, initial)
+    except Restless as error:
+        # A rest may lie behind a contact that a steady fall would reach; so steady motion comes last.
+        with suppress(InitializationError):
+            return _started(problem, time, later, TURNING)
+        raise InitializationError(str(error)) from None
+
+
+def _started(problem: Problem, time: float, later: float, initial: str) -> Start:
     guards, p = problem.compiled.guards, problem.p
     tried = Assignments([k for k in guards.watched if k < guards.n_switches])
     decides = decides and initial != "steady"  # an equilibrium may rest on friction
@@ -58,12 +69,11 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
         try:
             begun = _begun(problem, time, head, initial)
         except InitializationError as error:
-            there = _at_guesses(problem, time, head) if initial == "steady" and tried.count == 1 else None
+            steady = initial in ("steady", TURNING)
+            there = _at_guesses(problem, time, head) if steady and tried.count == 1 else None
             if there is None and isinstance(error, Restless):
                 there = _other(_found(problem, error.at, head), head)
             if there is None and not tried.cycle:
-                if isinstance(error, Restless):
-                    raise InitializationError(str(error)) from None
                 raise
             head = tried.then(head, head if there is None else there)
             continue

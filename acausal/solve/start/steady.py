@@ -1,5 +1,7 @@
 """Equilibrium: states at which all rates vanish, on the constraints, near the guesses, stable if one exists.
 
+In steady rotation those of cyclic coordinates do not, see `rotation`.
+
 Newton steps of least norm lead to the nearest equilibrium, which may be an unstable one. The motion itself, with steps
 of the implicit Euler method that grow, loses energy on the way and ends in a stable one (pseudo-transient continuation,
 Kelley & Keyes 1998). What no equation determines goes back to its guess.
@@ -7,16 +9,20 @@ Kelley & Keyes 1998). What no equation determines goes back to its guess.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from acausal.errors import InitializationError, caution
 from acausal.policy import POLICY
 from acausal.solve.points import Point
+from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, motion_text
 from acausal.solve.start.kept import least_sharpness
 from acausal.solve.start.least_change import least_change
 from acausal.solve.start.linearized import Linearized, Linearizer, moved
 from acausal.solve.start.relaxation import relax
+from acausal.solve.start.rotation import cyclic, turning
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
@@ -66,7 +72,7 @@ class Equilibrium(Linearizer):
         if found is None:
             self.linearized(self.guess)  # the cause may be there
             nearly = self._nearly(relaxed)
-            if not at_rest(self.problem, nearly):
+            if not self._is_steady(nearly):
                 raise Restless(motion_text(self.problem, nearly), relaxed)
             found = self.linearized(nearly)
             rate = self._growing(found)[0]
@@ -89,7 +95,7 @@ class Equilibrium(Linearizer):
         """Where the rates are least, whatever the initial conditions; those that remain show what moves."""
         found = [self._search(at, conditions=False) for at in (self.guess, relaxed)]
         resting = [here for here in found if here is not None]
-        resting.sort(key=lambda here: float(np.linalg.norm(here.rates[self.rows])))
+        resting.sort(key=lambda here: float(np.linalg.norm(self.still @ here.rates)))
         return resting[0].point if resting else self.guess
 
     def _newton(self, at: Point) -> Linearized | None:
@@ -119,7 +125,12 @@ class Equilibrium(Linearizer):
         return here
 
     def _rests(self, here: Linearized) -> bool:
-        return at_rest(self.problem, here.point)
+        return self._is_steady(here.point)
+
+    def _is_steady(self, at: Point) -> bool:
+        if self.turns:
+            return turning(self.problem, at, [self.space]) is not None
+        return at_rest(self.problem, at)
 
     def _apart(self, here: Linearized) -> np.ndarray:
         return self.guess.x - here.point.x
@@ -162,7 +173,7 @@ class Equilibrium(Linearizer):
 
     def _all(self, here: Linearized, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
         """Everything that must vanish: rates, initial conditions, constraints; and its Jacobian by the states."""
-        value, J = here.rates[self.rows], here.A[self.rows]
+        value, J = self.still @ here.rates, self.still @ here.A
         if conditions:
             value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
         c = self.problem.compiled.constraints
@@ -189,3 +200,36 @@ class Equilibrium(Linearizer):
         return float(real[k]), REST.push * direction / (
             self.far(direction) or float(np.max(np.abs(direction / self.scale)))
         )
+
+
+def rest(problem: Problem, at: Point, first: Point | None) -> Point:
+    """Return a point at rest near a guess; it does not depend on how fast invariants are kept in a run.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        The guess, where loops are closed.
+    first : Point, optional
+        Where it may rest.
+    """
+    own = replace(problem, feedback=REST.feedback)
+    found = Equilibrium(own, _kept(at, own.feedback)).find(first and _kept(first, own.feedback))
+    return _kept(found, problem.feedback)
+
+
+def rotation(problem: Problem, at: Point) -> Point:
+    """Return a point in steady rotation near a guess; see `rest`."""
+    own = replace(problem, feedback=REST.feedback)
+    guess, failed = _kept(at, own.feedback), InitializationError("no coordinate is cyclic")
+    for space in cyclic(own, guess):
+        try:
+            return _kept(Equilibrium(own, guess, space).find(), problem.feedback)
+        except InitializationError as error:
+            failed = error
+    raise failed
+
+
+def _kept(at: Point, feedback: float) -> Point:
+    return replace(at, constants=replace(at.constants, feedback=feedback))

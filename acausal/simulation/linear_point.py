@@ -1,0 +1,105 @@
+"""Warnings about the point of a linear system: it is no equilibrium, or the system changes as the point turns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
+from acausal.compiler.once import once
+from acausal.errors import caution
+from acausal.flatten.tree import walk
+from acausal.language.functions import time
+from acausal.policy import POLICY
+from acausal.solve.points import Point
+from acausal.solve.problem import Problem
+from acausal.solve.start.at_rest import at_rest, meters, rates_allowed
+from acausal.solve.start.rotation import Turning, cyclic, turning
+
+REST = POLICY.rest
+NAMED = 3  # rates that are named
+
+
+def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.ndarray]) -> None:
+    """Warn where deviations from a point do not follow a linear system with constant matrices.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    at : Point
+        The point of linearisation.
+    slopes_at : callable
+        Returns the derivatives of rates and outputs by states and inputs at a point.
+    """
+    if not _depends_on_time(problem.compiled) and not len(_moving(problem, at, problem.local(at).value[: problem.nx])):
+        return
+    if at_rest(problem, at):
+        return
+    spaces = cyclic(problem, at)
+    turn = turning(problem, at, spaces)
+    if turn is None:
+        rates = Turning(spaces[0], np.zeros(problem.nx), np.inf).others(problem, at)
+        moving = _moving(problem, at, rates)
+        if len(moving):
+            caution(_no_equilibrium_text(problem, at.time, rates, moving))
+    elif changing := _changing(problem, slopes_at(at), slopes_at(turn.on(problem, at, 1.0))):
+        caution(_periodic_text(problem, turn, changing))
+
+
+@once
+def _depends_on_time(compiled: CompiledModel) -> bool:
+    """Whether the equations of motion depend on time."""
+    running = compiled.reduced.running
+    return any(ca.which_depends(ca.vertcat(running.ode, running.alg, 0), time.sx, 1, True))
+
+
+def _moving(problem: Problem, at: Point, rates: np.ndarray) -> np.ndarray:
+    """States whose rates do not vanish, the largest in nominal values first."""
+    moving = np.setdiff1d(np.flatnonzero(~(np.abs(rates) <= rates_allowed(problem, at))), meters(problem.compiled))
+    return moving[np.argsort(-np.abs(rates[moving]) / problem.nominal[moving], kind="stable")]
+
+
+def _changing(problem: Problem, here: np.ndarray, there: np.ndarray) -> str:
+    """Name the matrices that differ between two points."""
+    nx = problem.nx
+    columns = np.append(problem.nominal[:nx], np.ones(here.shape[1] - nx))
+    here, there = here * columns, there * columns
+    row = np.max(np.abs(here), axis=1, keepdims=True, initial=0.0)
+    differs = np.abs(there - here) > REST.periodic * row + REST.faint * np.max(row, initial=0.0)
+    parts = {"A": differs[:nx, :nx], "B": differs[:nx, nx:], "C": differs[nx:, :nx], "D": differs[nx:, nx:]}
+    return ", ".join(name for name, part in parts.items() if part.any())
+
+
+def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving: np.ndarray) -> str:
+    compiled = problem.compiled
+    names = [compiled.states[k] for k in moving]
+    largest = ", ".join(
+        f"der({name}) = {rates[k]:.4g}" for k, name in list(zip(moving.tolist(), names, strict=True))[:NAMED]
+    )
+    parts = [
+        part._path
+        for part in walk(compiled.tree)
+        if "static" in getattr(part.fields.get("initial"), "choices", ())
+        and getattr(part, "initial", None) != "static"
+        and any(name.startswith(f"{part._path}.") for name in names)
+    ]
+    static = f', or initial="static" of {", ".join(parts)}' if parts else ""
+    return (
+        f"{type(compiled.tree).__name__} is linearised about a point that is no equilibrium, t = {at:g} s; the largest rates "
+        f"over nominal values are {largest}. Eigenvalues and frequencies are not those of a motion about a steady state. "
+        f'Do this: linearize(..., initial="steady"){static}.'
+    )
+
+
+def _periodic_text(problem: Problem, turn: Turning, changing: str) -> str:
+    compiled, size = problem.compiled, problem.nominal[: problem.nx]
+    fastest = int(np.argmax(np.abs(turn.rates) / size)) if turn.rates.any() else -1
+    what = f"{compiled.states[fastest]} turns" if fastest >= 0 else "time goes on"
+    return (
+        f"the linear system of {type(compiled.tree).__name__} is periodic: {changing} change{'' if ',' in changing else 's'} as "
+        f"{what}. Eigenvalues at one position do not tell whether the motion is stable. Do this: linearise at several positions, "
+        "or integrate over one period (Floquet)."
+    )
