@@ -12,13 +12,11 @@ from acausal.compiler.once import once
 from acausal.errors import caution
 from acausal.flatten.tree import walk
 from acausal.language.functions import time
-from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import at_rest, meters, rates_allowed
-from acausal.solve.start.rotation import Turning, cyclic, turning
+from acausal.solve.start.rotation import Turning, changes, cyclic, turning
 
-REST = POLICY.rest
 NAMED = 3  # rates that are named
 
 
@@ -34,9 +32,9 @@ def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.nda
     slopes_at : callable
         Returns the derivatives of rates and outputs by states and inputs at a point.
     """
-    if not _depends_on_time(problem.compiled) and not len(_moving(problem, at, problem.local(at).value[: problem.nx])):
-        return
-    if at_rest(problem, at):
+    by_time, constant = _depends(problem.compiled)
+    rates = problem.local(at).value[: problem.nx]
+    if constant or not (by_time or len(_moving(problem, at, rates))) or at_rest(problem, at):
         return
     spaces = cyclic(problem, at)
     turn = turning(problem, at, spaces)
@@ -50,10 +48,14 @@ def check_point(problem: Problem, at: Point, slopes_at: Callable[[Point], np.nda
 
 
 @once
-def _depends_on_time(compiled: CompiledModel) -> bool:
-    """Whether the equations of motion depend on time."""
-    running = compiled.reduced.running
-    return any(ca.which_depends(ca.vertcat(running.ode, running.alg, 0), time.sx, 1, True))
+def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
+    """Whether the equations of motion depend on time, and whether they are linear with constant coefficients: at any point."""
+    running, unknowns = compiled.reduced.running, ca.vertcat(compiled.reduced.x, compiled.reduced.z)
+    column = ca.vertcat(running.ode, running.alg, 0)
+    by_time = any(ca.which_depends(column, time.sx, 1, True))
+    linear = not unknowns.numel() or not any(ca.which_depends(column, unknowns, 2, True))
+    coefficients = ca.jacobian(column, unknowns)
+    return by_time, linear and not ca.depends_on(ca.vertcat(0, *coefficients.nonzeros()), time.sx)
 
 
 def _moving(problem: Problem, at: Point, rates: np.ndarray) -> np.ndarray:
@@ -66,9 +68,7 @@ def _changing(problem: Problem, here: np.ndarray, there: np.ndarray) -> str:
     """Name the matrices that differ between two points."""
     nx = problem.nx
     columns = np.append(problem.nominal[:nx], np.ones(here.shape[1] - nx))
-    here, there = here * columns, there * columns
-    row = np.max(np.abs(here), axis=1, keepdims=True, initial=0.0)
-    differs = np.abs(there - here) > REST.periodic * row + REST.faint * np.max(row, initial=0.0)
+    differs = changes(here * columns, there * columns)
     parts = {"A": differs[:nx, :nx], "B": differs[:nx, nx:], "C": differs[nx:, :nx], "D": differs[nx:, nx:]}
     return ", ".join(name for name, part in parts.items() if part.any())
 
@@ -77,7 +77,8 @@ def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving:
     compiled = problem.compiled
     names = [compiled.states[k] for k in moving]
     largest = ", ".join(
-        f"der({name}) = {rates[k]:.4g}" for k, name in list(zip(moving.tolist(), names, strict=True))[:NAMED]
+        f"der({name}) = {rates[k] / problem.nominal[k]:.4g}"
+        for k, name in list(zip(moving.tolist(), names, strict=True))[:NAMED]
     )
     parts = [
         part._path
@@ -88,8 +89,8 @@ def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving:
     ]
     static = f', or initial="static" of {", ".join(parts)}' if parts else ""
     return (
-        f"{type(compiled.tree).__name__} is linearised about a point that is no equilibrium, t = {at:g} s; the largest rates "
-        f"over nominal values are {largest}. Eigenvalues and frequencies are not those of a motion about a steady state. "
+        f"{type(compiled.tree).__name__} is linearised about a point that is no equilibrium, t = {at:g} s: {largest} in nominal "
+        "values per s. Eigenvalues and frequencies are not those of small motions about a steady state. "
         f'Do this: linearize(..., initial="steady"){static}.'
     )
 
@@ -98,8 +99,12 @@ def _periodic_text(problem: Problem, turn: Turning, changing: str) -> str:
     compiled, size = problem.compiled, problem.nominal[: problem.nx]
     fastest = int(np.argmax(np.abs(turn.rates) / size)) if turn.rates.any() else -1
     what = f"{compiled.states[fastest]} turns" if fastest >= 0 else "time goes on"
+    what_it_means = (
+        "Eigenvalues at one position do not tell whether the motion is stable"
+        if "A" in changing
+        else "Responses at one position do not hold at others"
+    )
     return (
         f"the linear system of {type(compiled.tree).__name__} is periodic: {changing} change{'' if ',' in changing else 's'} as "
-        f"{what}. Eigenvalues at one position do not tell whether the motion is stable. Do this: linearise at several positions, "
-        "or integrate over one period (Floquet)."
+        f"{what}. {what_it_means}. Do this: linearise at several positions, or integrate over one period (Floquet)."
     )

@@ -32,12 +32,16 @@ def meters(compiled: CompiledModel) -> list[int]:
 
 
 @once
-def kinematic(compiled: CompiledModel) -> list[int]:
-    """States whose rates follow from other states without any parameter, as position and turn of a free body do."""
+def kinematic(compiled: CompiledModel, drifts: bool = False) -> list[int]:
+    """States whose rates follow from other states without any parameter, as the position of a free body does.
+
+    So do those of a quaternion, but for the feedback that keeps its norm; `drifts` leaves that out.
+    """
     if not compiled.nx:
         return []
     r = compiled.reduced
-    given = ca.vertcat(r.p, r.constants, ca.SX.sym("none"))
+    constants = r.constants[:-1] if drifts else r.constants  # the last one is the feedback
+    given = ca.vertcat(r.p, constants, ca.SX.sym("none"))
     forced = np.array(ca.which_depends(ca.vertcat(r.alg, r.ode, 0), given, 1, True)[:-1], dtype=bool)
     unknowns = compiled.dependence.needing(np.flatnonzero(forced[: compiled.nz]).tolist())
     through = ca.vertcat(*(r.z[k] for k in sorted(unknowns)), ca.SX.sym("none"))

@@ -15,6 +15,7 @@ from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.at_rest import at_rest
 from acausal.solve.start.blocks import by_blocks
 from acausal.solve.start.complete import closed_guess, ranked
 from acausal.solve.start.conditions import flag_matters, giving, lasting
@@ -23,6 +24,7 @@ from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.opponents import contradiction
 from acausal.solve.start.redundancy import Redundancy
+from acausal.solve.start.rotation import cyclic, turning
 from acausal.solve.start.steady import rest, rotation
 from acausal.solve.start.words import missing_text
 from acausal.structure import complete
@@ -128,7 +130,9 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     steady = initial == "steady"
     given = giving(problem.compiled).items()
     first = {state: row for row, state in reversed(given) if not steady or row in lasting(problem.compiled)}
-    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady))
+    turn = turning(problem, at, cyclic(problem, at)) if steady and not at_rest(problem, at) else None
+    turns = np.flatnonzero(np.any(turn.space, axis=1)) if turn else np.empty(0, dtype=int)
+    return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), turns)
 
 
 def _told(problem: Problem, at: Point, local: Local) -> Local:
@@ -165,12 +169,19 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
     return system, replace(at, z=z), redundancy
 
 
-def _by_ranks(problem: Problem, at: Point, direct: dict[int, int], initial: str, flag: float = 1.0) -> InitialSystem:
-    """Choose the initial system by ranks at a point where the loops are closed."""
+def _by_ranks(
+    problem: Problem,
+    at: Point,
+    direct: dict[int, int],
+    initial: str,
+    flag: float = 1.0,
+    turns: np.ndarray | tuple[()] = (),
+) -> InitialSystem:
+    """Choose the initial system by ranks at a point where the loops are closed; rates of `turns` need not vanish."""
     nx, nz = problem.nx, problem.nz
     others = [row for row in range(nz, nz + problem.compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
-        others += range(-nx, 0)
+        others += [k - nx for k in range(nx) if k not in turns]
     return ranked(problem, at, direct, others, initial == "fixed", flag)
 
 

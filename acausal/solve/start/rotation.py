@@ -111,7 +111,7 @@ def _candidates(compiled: CompiledModel) -> np.ndarray:
     own = {
         k for k, v in enumerate(states) if system.derivative[v] >= 0 and system.derivative[system.derivative[v]] >= 0
     }
-    own |= set(kinematic(compiled))
+    own |= set(kinematic(compiled, True))
     return np.array(sorted(k for k in own if states[k] not in rates), dtype=int)
 
 
@@ -137,6 +137,12 @@ def turning(problem: Problem, at: Point, spaces: list[np.ndarray]) -> Turning | 
             if _is_steady(problem, at, found):
                 return found
     return None
+
+
+def changes(here: np.ndarray, there: np.ndarray) -> np.ndarray:
+    """Which entries of a Jacobian differ between two points, by columns in nominal values."""
+    row = np.max(np.abs(here), axis=1, keepdims=True, initial=0.0)
+    return np.abs(there - here) > REST.periodic * row + REST.faint * np.max(row, initial=0.0)
 
 
 def _prescribed(problem: Problem, at: Point) -> float:

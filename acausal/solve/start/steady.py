@@ -22,7 +22,7 @@ from acausal.solve.start.kept import least_sharpness
 from acausal.solve.start.least_change import least_change
 from acausal.solve.start.linearized import Linearized, Linearizer, moved
 from acausal.solve.start.relaxation import relax
-from acausal.solve.start.rotation import cyclic, turning
+from acausal.solve.start.rotation import changes, cyclic, turning
 from acausal.solve.start.tangent import tangent
 from acausal.solve.start.words import unstable_text
 
@@ -185,7 +185,15 @@ class Equilibrium(Linearizer):
         return value, J
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
-        """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it."""
+        """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it.
+
+        Eigenvalues of a Jacobian that changes as angles turn do not tell.
+        """
+        turn = turning(self.problem, here.point, [self.space]) if self.turns else None
+        if turn:
+            there = self.linearized(turn.on(self.problem, here.point, 1.0))
+            if changes(self.still @ here.A * self.scale, self.still @ there.A * self.scale).any():
+                return 0.0, np.zeros(self.nx)
         N, chosen = tangent(self.problem, here.point)
         size = self.scale[chosen]
         A = (here.A @ N)[chosen] * size / size[:, None]
