@@ -10,7 +10,7 @@ import scipy
 
 from acausal.compiler import CompiledModel
 from acausal.compiler.call import Call
-from acausal.compiler.once import once
+from acausal.compiler.once import latest, once
 from acausal.compiler.rounding import terms
 from acausal.policy import POLICY
 from acausal.solve.points import Point
@@ -53,7 +53,7 @@ def kinematic(compiled: CompiledModel, drifts: bool = False) -> list[int]:
 
 def at_rest(problem: Problem, at: Point) -> bool:
     """Whether all derivatives vanish, loops are closed, and equations and initial conditions hold."""
-    return not _moving(problem, at) and loops_closed(problem, at) and equations_hold(problem, at)
+    return not _moving(problem, at, one=True) and loops_closed(problem, at) and equations_hold(problem, at)
 
 
 def loops_closed(problem: Problem, at: Point) -> bool:
@@ -99,8 +99,8 @@ def motion_text(problem: Problem, at: Point) -> str:
     return "\n".join(lines)
 
 
-def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
-    """Derivatives that do not vanish, the largest first."""
+def _moving(problem: Problem, at: Point, one: bool = False) -> list[tuple[str, float]]:
+    """Derivatives that do not vanish, the largest first; with `one`, the one that does so most clearly is enough."""
     names, call, (rows, columns, shape), _ = derivatives(problem.compiled)
     given = at.x, at.z, problem.p, at.time, at.constants.vector, 0.0
     value, entries = call(*given)
@@ -108,13 +108,25 @@ def _moving(problem: Problem, at: Point) -> list[tuple[str, float]]:
     allowed = _allowed(J, at.y, problem.nominal, POLICY.rest.still)
     if not np.all(np.abs(value) <= allowed):
         allowed = allowed + abs(J)[:, problem.nx :] @ _unsure(problem, at)
-        # What moves nothing, as a frame on an axis at the end of a chain, has slopes of rounding.
-        whole = scipy.sparse.csr_matrix((_terms(problem.compiled)(*given)[0], (rows, columns)), shape=shape)
-        most, adds_up = (abs(M) @ problem.nominal for M in (J, whole))
-        allowed += np.where(most <= POLICY.ranks.rank * adds_up, POLICY.rest.still * adds_up, 0.0)
     wrong = np.flatnonzero(~(np.abs(value) <= allowed))
-    order = wrong[np.argsort(-np.abs(value[wrong]))]
+    order = np.argsort(-np.abs(value[wrong]) / allowed[wrong], kind="stable")[:1]
+    for some in (wrong[order], wrong) if one else (wrong,):
+        moving = some[~(np.abs(value[some]) <= allowed[some] + _beside_rounding(problem, at, J[some], some))]
+        if len(moving):
+            break
+    order = moving[np.argsort(-np.abs(value[moving]))]
     return [(names[k], float(value[k])) for k in order]
+
+
+def _beside_rounding(problem: Problem, at: Point, J: scipy.sparse.csr_matrix, rows: np.ndarray) -> np.ndarray:
+    """What rows may be besides that move nothing, as a frame on an axis at the end of a chain: their slopes are rounding."""
+    if not len(rows):
+        return np.zeros(0)
+    call, places = _terms(problem.compiled, tuple(rows.tolist()))
+    entries = call(at.x, at.z, problem.p, at.time, at.constants.vector, 0.0)[0]
+    whole = scipy.sparse.csr_matrix((entries, places), shape=J.shape)
+    most, adds_up = (abs(M) @ problem.nominal for M in (J, whole))
+    return np.where(most <= POLICY.ranks.rank * adds_up, POLICY.rest.still * adds_up, 0.0)
 
 
 def _unsure(problem: Problem, at: Point) -> np.ndarray:
@@ -147,11 +159,14 @@ def derivatives(
     return names, call, (rows, columns, J.shape), [v for v, _ in pairs]
 
 
-@once
-def _terms(compiled: CompiledModel) -> Call:
-    """Sizes of what adds up in the Jacobian of the derivatives, see `rounding.terms`."""
+@latest(2)
+def _terms(compiled: CompiledModel, rows: tuple[int, ...]) -> tuple[Call, tuple[np.ndarray, np.ndarray]]:
+    """Sizes of what adds up in some rows of the Jacobian of the derivatives, and their places, see `rounding.terms`."""
     J = derivatives(compiled)[1].function.call(compiled.arguments)[1]
-    return Call(ca.Function("terms", compiled.arguments, [terms(compiled.arguments, stacked(scalars(J.nz[:])))]))
+    J = ca.vertcat(*(J[k, :] for k in rows))
+    places = tuple(np.array(k, dtype=int) for k in J.sparsity().get_triplet())
+    column = stacked(scalars(J.nz[:]))
+    return Call(ca.Function("terms", compiled.arguments, [terms(compiled.arguments, column)])), (places[0], places[1])
 
 
 def _allowed(J: Any, y: np.ndarray, nominal: np.ndarray, part: float) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -69,14 +70,47 @@ class Linearized:
         direct, through = (abs(self.J[: self.nx, own]) for own in (slice(0, self.nx), slice(self.nx, None)))
         return np.linalg.norm((direct.toarray() + through @ np.abs(self._follow)) * sizes, axis=1)
 
+    def times(self, x: np.ndarray) -> np.ndarray:
+        """Return A x by sparse factors."""
+        nx, n = self.nx, len(self.nominal)
+        follows = self._solve(-(self.J[nx:n, :nx] @ x)) if n > nx else np.zeros(0)
+        return self.J[:nx] @ np.concatenate([x, follows])
+
+    def implicit(self, h: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """Return a solver of (I - h A) x = b by sparse factors, which gives changes of the algebraic unknowns as well.
+
+        Raises
+        ------
+        RuntimeError
+            If the matrix is singular.
+        """
+        nx, n = self.nx, len(self.nominal)
+        weights = scipy.sparse.diags(np.where(np.arange(n) < nx, -h, 1.0))
+        matrix = weights @ self.J[:n] + scipy.sparse.diags(np.where(np.arange(n) < nx, 1.0, 0.0))
+        factors = scipy.sparse.linalg.splu(matrix.tocsc())
+
+        def solve(right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            found = factors.solve(np.concatenate([right, np.zeros(n - nx)]))
+            return found[:nx], found[nx:]
+
+        return solve
+
+    def follows(self, step: np.ndarray) -> np.ndarray:
+        """Return the changes of the algebraic unknowns with those of the states."""
+        return self._follow @ step
+
+    @cached_property
+    def _solve(self) -> Callable[[np.ndarray], np.ndarray]:
+        nx, n = self.nx, len(self.nominal)
+        return factored(self.J[nx:n, nx:], self.nominal[nx:], POLICY.ranks.rank)
+
     @cached_property
     def _follow(self) -> np.ndarray:
         """Changes of the algebraic unknowns with the states."""
         nx, n = self.nx, len(self.nominal)
         if n == nx:
             return np.zeros((0, nx))
-        solve = factored(self.J[nx:n, nx:], self.nominal[nx:], POLICY.ranks.rank)
-        return solve(-self.J[nx:n, :nx].toarray())
+        return self._solve(-self.J[nx:n, :nx].toarray())
 
     def _eliminated(self, rows: slice) -> np.ndarray:
         nx = self.nx
@@ -157,6 +191,6 @@ class Linearizer:
         return float(np.max(np.abs(step / self.scale)[self.coordinates], initial=0.0))
 
 
-def moved(at: Point, step: np.ndarray) -> Point:
-    """Return a point a step of the states away."""
-    return replace(at, x=at.x + step)
+def moved(at: Point, step: np.ndarray, follows: np.ndarray | float = 0.0) -> Point:
+    """Return a point a step of the states away, and one of the algebraic unknowns, from which these are solved for."""
+    return replace(at, x=at.x + step, z=at.z + follows)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 import scipy
@@ -34,7 +33,7 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
         here = own.linearized(own.closed(at))
     except InitializationError:
         return at
-    fastest = float(np.max(np.abs(np.linalg.eigvals(here.A)), initial=0.0)) or 1.0
+    fastest = _fastest(here) or 1.0
     h = REST.first / fastest
     for _ in range(REST.relaxation):
         there = _euler(own, here, h, far, bent)
@@ -50,24 +49,31 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
     return here.point
 
 
+def _fastest(here: Linearized) -> float:
+    """Largest eigenvalue in 1/s; its size is enough."""
+    n = here.nx
+    if n > POLICY.ranks.small:
+        options = {"which": "LM", "return_eigenvectors": False, "v0": np.cos(np.arange(n)), "tol": POLICY.loops.angles}
+        with suppress(RuntimeError):  # it does not converge
+            operator = scipy.sparse.linalg.LinearOperator((n, n), matvec=here.times, dtype=float)
+            return float(np.max(np.abs(scipy.sparse.linalg.eigs(operator, 2, **options))))
+    return float(np.max(np.abs(np.linalg.eigvals(here.A)), initial=0.0))
+
+
 def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float) -> Linearized | None:
     """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
     moves = np.isin(np.arange(own.nx), own.rows)  # meters stay
-    solve = _solver(np.eye(own.nx) - h * here.A)
-    step = own.unturned(solve(own.unturned(np.where(moves, h * here.rates, 0.0))))
+    try:
+        solve = here.implicit(h)
+    except RuntimeError:
+        return None
+    step, follows = solve(own.unturned(np.where(moves, h * here.rates, 0.0)))
+    step = own.unturned(step)
     if not np.all(np.isfinite(step)) or own.far(step) > far:
         return None
     try:
-        there = own.linearized(own.closed(moved(here.point, step)))
+        there = own.linearized(own.closed(moved(here.point, step, follows)))
     except InitializationError:
         return None
     left = own.unturned(np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0))
-    return there if own.size(solve(left)) <= bent * own.size(step) else None
-
-
-def _solver(matrix: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """Solve with a matrix many times; nan where it is singular."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
-        factors = scipy.linalg.lu_factor(matrix, check_finite=False)
-    return lambda right: scipy.linalg.lu_solve(factors, right, check_finite=False)
+    return there if own.size(solve(left)[0]) <= bent * own.size(step) else None

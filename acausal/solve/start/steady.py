@@ -163,26 +163,34 @@ class Equilibrium(Linearizer):
         weight = 1 / np.where(size > 0, size, 1.0)
         for part in min(1.0, REST.far / (self.far(step) or REST.far)) / 2.0 ** np.arange(REST.halvings):
             try:
-                there = self.linearized(self.closed(moved(here.point, part * step)))
+                there = self.linearized(self.closed(moved(here.point, part * step, part * here.follows(step))))
             except InitializationError:
                 continue
-            left = np.linalg.norm(weight * self._all(there, conditions)[0])
+            left = np.linalg.norm(weight * self._values(there, conditions))
             if left <= (1 - REST.decrease * part) * np.linalg.norm(weight * value) + REST.converged:
                 return there
         return None
 
     def _all(self, here: Linearized, conditions: bool) -> tuple[np.ndarray, np.ndarray]:
         """Everything that must vanish: rates, initial conditions, constraints; and its Jacobian by the states."""
-        value, J = self.still @ here.rates, self.still @ here.A
+        J = self.still @ here.A
         if conditions:
-            value, J = np.concatenate([value, here.conditions]), np.vstack([J, here.C])
-        c = self.problem.compiled.constraints
-        if c.size:
-            off, M = self.problem.constraints(here.point)
-            # Rows that are dropped may be rounding, which would hold something once they have length 1.
-            kept = c.counting(here.point.constants.closures)
-            value, J = np.concatenate([value, off[kept]]), np.vstack([J, M.toarray()[kept]])
-        return value, J
+            J = np.vstack([J, here.C])
+        if self.problem.compiled.constraints.size:
+            J = np.vstack([J, self.problem.constraints(here.point)[1].toarray()[self._kept(here)]])
+        return self._values(here, conditions), J
+
+    def _values(self, here: Linearized, conditions: bool) -> np.ndarray:
+        value = self.still @ here.rates
+        if conditions:
+            value = np.concatenate([value, here.conditions])
+        if self.problem.compiled.constraints.size:
+            value = np.concatenate([value, self.problem.constraints(here.point)[0][self._kept(here)]])
+        return value
+
+    def _kept(self, here: Linearized) -> np.ndarray:
+        """Which constraints count; rows that are dropped may be rounding, which would hold something once they have length 1."""
+        return self.problem.compiled.constraints.counting(here.point.constants.closures)
 
     def _growing(self, here: Linearized) -> tuple[float, np.ndarray]:
         """What grows fastest: its rate in 1/s, 0 if none grows beyond rounding, and a small way along it.
