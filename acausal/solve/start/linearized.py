@@ -13,8 +13,8 @@ from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.at_rest import kinematic, meters
-from acausal.solve.start.loop_states import choose_projection
-from acausal.solve.start.loops import close, tighten
+from acausal.solve.start.loop_states import choose_projection, fits
+from acausal.solve.start.loops import close, polished, tighten
 from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.rank import factored
 
@@ -176,11 +176,16 @@ class Linearizer:
         closed = at
         if not at.constants.moves:
             held = np.setdiff1d(np.arange(self.nx), c.entries[1][at.constants.D != 0])
-            closed, left = close(self.problem, at, held)
+            quick = polished(self.problem, at, held)
+            if quick is not None and self.far(quick.x - at.x) <= POLICY.rest.far:
+                closed, left = quick, 0.0
+            else:
+                closed, left = close(self.problem, at, held)
         if left > POLICY.loops.closed:
             closed = tighten(self.problem, replace(at, constants=self.guess.constants))
-        at = replace(closed, constants=choose_projection(self.problem, closed))
-        return self.problem.completed(at)
+        if closed.constants.moves or not fits(self.problem, closed):
+            closed = replace(closed, constants=choose_projection(self.problem, closed))
+        return self.problem.completed(closed)
 
     def size(self, step: np.ndarray) -> float:
         """Largest change of a state in a step, in nominal values."""

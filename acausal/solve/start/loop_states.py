@@ -245,6 +245,11 @@ def worn(problem: Problem, rows: Rows, constants: Constants) -> np.ndarray:
     return _transversality(levels_of(problem.compiled), J, constants.D / sizes)
 
 
+def fits(problem: Problem, at: Point) -> bool:
+    """Whether the coordinates that follow from others still suit a point, as well as the best choice might but for a factor."""
+    return bool(worn(problem, Rows.of(at), at.constants)[0] >= least_cosine(problem))
+
+
 def suits(problem: Problem, at: Point) -> bool:
     """Whether the projection of a point is one that moves, and suits the point."""
     if not at.constants.moves:

@@ -187,12 +187,19 @@ def _solve(
 
 def tighten(problem: Problem, at: Point) -> Point:
     """Close loops that are nearly closed, by a few steps of least change; where they do not lead there, as `close` does."""
+    tight = polished(problem, at, np.empty(0, int))
+    return close(problem, at, np.empty(0, int))[0] if tight is None else tight
+
+
+def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
+    """Close loops by a few steps of least change of what is not held; None where they do not lead there."""
     tight = at
-    for rows, free in levels(problem.compiled):
-        polished = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
-        tight = _with(tight, free, polished)
-    closed = np.max(np.abs(problem.gaps(tight)), initial=0.0) <= LOOPS.closed
-    return tight if closed else close(problem, at, np.empty(0, int))[0]
+    for rows, columns in levels(problem.compiled):
+        free = np.setdiff1d(columns, held)
+        if free.size:
+            found = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
+            tight = _with(tight, free, found)
+    return tight if np.max(np.abs(problem.gaps(tight)), initial=0.0) <= LOOPS.closed else None
 
 
 def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
