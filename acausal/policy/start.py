@@ -171,9 +171,10 @@ class Rest:
     # Change of a coordinate beyond which an equilibrium may not be the one that is near: a quarter of a turn, and some.
     turn: float = 1.6
     # Steps of the relaxation over the time of the fastest motion at the guess: the first, their growth, the last, and the
-    # shortest.
+    # shortest; part of the step that limits would allow, as in other controls of steps (Hairer & Wanner 1996, section IV.8).
     first: float = 1e-3
-    growth: float = 1.5
+    growth: float = 2.0
+    safety: float = 0.8
     last: float = 1e8
     shortest: float = 1e-12
     # Attempts of the relaxation: how far a step may lead in nominal values, and what a second iteration may change in it, over

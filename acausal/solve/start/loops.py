@@ -168,8 +168,7 @@ def _solve(
         return at, left
     best, scale = at.x[free], sizes[free]
     if linear:
-        best = _polish(evaluate, best, scale)
-        left = float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
+        best, left = _polish(evaluate, best, scale)
     smallest = left if np.isfinite(left) else np.inf
     for k, size in enumerate(attempts):
         if smallest <= LOOPS.closed:
@@ -181,8 +180,8 @@ def _solve(
         left = float(np.max(np.abs(evaluate(u)[0])))
         if left < smallest:
             best, smallest = u, left
-    best = _polish(evaluate, best, scale)
-    return _with(at, free, best), float(np.max(np.abs(evaluate(best)[0]), initial=0.0))
+    best, left = _polish(evaluate, best, scale)
+    return _with(at, free, best), left
 
 
 def tighten(problem: Problem, at: Point) -> Point:
@@ -196,21 +195,23 @@ def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
     tight = at
     for rows, columns in levels(problem.compiled):
         free = np.setdiff1d(columns, held)
-        if free.size:
-            found = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
-            tight = _with(tight, free, found)
-    return tight if np.max(np.abs(problem.gaps(tight)), initial=0.0) <= LOOPS.closed else None
+        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
+        if not left <= LOOPS.closed:
+            return None
+        tight = _with(tight, free, found)
+    return tight
 
 
-def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Gauss-Newton steps of least norm down to rounding."""
+def _polish(evaluate: Residuals, u: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float]:
+    """Take Gauss-Newton steps of least norm down to rounding; return the largest residual as well."""
+    value, J = evaluate(u)
     for _ in range(LOOPS.polishing):
-        value, J = evaluate(u)
-        step = least_norm(J, scale, POLICY.ranks.polish)(-value)
-        if not np.max(np.abs(evaluate(u + step)[0])) < np.max(np.abs(value), initial=0.0):
+        tried = u + least_norm(J, scale, POLICY.ranks.polish)(-value)
+        there, ahead = evaluate(tried)
+        if not np.max(np.abs(there)) < np.max(np.abs(value), initial=0.0):
             break
-        u = u + step
-    return u
+        u, value, J = tried, there, ahead
+    return u, float(np.max(np.abs(value), initial=0.0))
 
 
 def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str = "") -> None:

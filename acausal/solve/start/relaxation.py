@@ -36,14 +36,13 @@ def relax(own: Linearizer, at: Point, far: float, bent: float) -> Point:
     fastest = _fastest(here) or 1.0
     h = REST.first / fastest
     for _ in range(REST.relaxation):
-        there = _euler(own, here, h, far, bent)
+        there, change = _euler(own, here, h, far, bent)
+        h *= change
         if there is None:
-            h /= REST.shrinkage
             if h * fastest < REST.shortest:
                 break
             continue
         step, here = there.point.x - here.point.x, there
-        h *= REST.growth
         if h * fastest > REST.last or np.all(np.abs(step) < REST.converged * (own.scale + np.abs(here.point.x))):
             break
     return here.point
@@ -60,20 +59,27 @@ def _fastest(here: Linearized) -> float:
     return float(np.max(np.abs(np.linalg.eigvals(here.A)), initial=0.0))
 
 
-def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float) -> Linearized | None:
-    """Take a step of length h; None where it cannot be taken, leads too far, or a second iteration would change it much."""
-    moves = np.isin(np.arange(own.nx), own.rows)  # meters stay
+def _euler(own: Linearizer, here: Linearized, h: float, far: float, bent: float) -> tuple[Linearized | None, float]:
+    """Take a step of length h, and tell by how much the next one may be longer.
+
+    None where it cannot be taken, leads too far, or a second iteration would change it much. Both measures grow as h does.
+    """
+    moves, shorter = np.isin(np.arange(own.nx), own.rows), 1 / REST.shrinkage  # meters stay
     try:
         solve = here.implicit(h)
     except RuntimeError:
-        return None
+        return None, shorter
     step, follows = solve(own.unturned(np.where(moves, h * here.rates, 0.0)))
     step = own.unturned(step)
     if not np.all(np.isfinite(step)) or own.far(step) > far:
-        return None
+        return None, shorter
     try:
         there = own.linearized(own.closed(moved(here.point, step, follows)))
     except InitializationError:
-        return None
+        return None, shorter
     left = own.unturned(np.where(moves, h * there.rates - (there.point.x - here.point.x), 0.0))
-    return there if own.size(solve(left)[0]) <= bent * own.size(step) else None
+    size, change = own.size(step), own.size(solve(left)[0])
+    if not change <= bent * size:
+        return None, shorter
+    room = min(bent * size / change if change else np.inf, far / own.far(step) if own.far(step) else np.inf)
+    return there, min(max(REST.safety * room, 1.0), REST.growth)
