@@ -55,7 +55,7 @@ def _depends(compiled: CompiledModel) -> tuple[bool, bool]:
     by_time = any(ca.which_depends(column, time.sx, 1, True))
     linear = not unknowns.numel() or not any(ca.which_depends(column, unknowns, 2, True))
     coefficients = ca.jacobian(column, unknowns)
-    return by_time, linear and not ca.depends_on(ca.vertcat(0, *coefficients.nonzeros()), time.sx)
+    return by_time, linear and not ca.depends_on(coefficients, time.sx)
 
 
 def _moving(problem: Problem, at: Point, rates: np.ndarray) -> np.ndarray:

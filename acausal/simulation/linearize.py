@@ -121,6 +121,9 @@ def linearize(
     body at rest that turns freely adds an eigenvalue of -2 1/s that no input moves and no output shows. Where it is not, as
     for a body that turns, there is none.
 
+    A warning tells if the point is neither at rest nor in steady rotation, and if the matrices change as a cyclic coordinate
+    turns: the linear system is periodic then.
+
     Discrete variables keep their values: a sampled controller does not act.
     """
     how = settled(model, parameters, {"initial": initial})["initial"]

@@ -61,7 +61,7 @@ def simulate(
         Values by path, such as {"beam.E": 7e10}.
     initial : "fixed", "guesses" or "steady"
         Whether states without a condition at the start are refused, take their guesses, or take values at which all
-        derivatives vanish. Default "fixed".
+        derivatives vanish; if there are none, all but those of cyclic coordinates, in steady rotation. Default "fixed".
     method : "auto", "idas", "rosenbrock" or "resolve"
         "idas" is SUNDIALS' multistep method, whose error test sees every velocity; "resolve" is another name for it, and
         follows every vibration. "rosenbrock" is a one-step method of order 5 that damps vibrations too small to be seen in
