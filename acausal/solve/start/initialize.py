@@ -11,11 +11,10 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.local import Local
 from acausal.compiler.once import latest
 from acausal.compiler.report import AtStart
-from acausal.errors import DeclarationError, InitializationError
+from acausal.errors import InitializationError
 from acausal.policy import POLICY
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.at_rest import at_rest
 from acausal.solve.start.blocks import by_blocks
 from acausal.solve.start.complete import closed_guess, ranked
 from acausal.solve.start.conditions import flag_matters, giving, lasting
@@ -24,7 +23,7 @@ from acausal.solve.start.loop_states import choose_projection, independent
 from acausal.solve.start.newton import InitialSystem, algebraic, follow, newton, reach
 from acausal.solve.start.opponents import contradiction
 from acausal.solve.start.redundancy import Redundancy
-from acausal.solve.start.rotation import cyclic, turning
+from acausal.solve.start.rotation import turning_states
 from acausal.solve.start.steady import rest, rotation
 from acausal.solve.start.words import missing_text
 from acausal.structure import complete
@@ -82,9 +81,6 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
     InitializationError
         If conditions are missing or contradict each other, or no solution is found.
     """
-    if initial not in (*INITIAL, TURNING):
-        mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
-        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
     compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
     at, redundancy = _guess(problem, time, head), Redundancy()
     if initial in ("steady", TURNING):
@@ -130,8 +126,7 @@ def initial_system(problem: Problem, at: Point, initial: str) -> InitialSystem:
     steady = initial == "steady"
     given = giving(problem.compiled).items()
     first = {state: row for row, state in reversed(given) if not steady or row in lasting(problem.compiled)}
-    turn = turning(problem, at, cyclic(problem, at)) if steady and not at_rest(problem, at) else None
-    turns = np.flatnonzero(np.any(turn.space, axis=1)) if turn else np.empty(0, dtype=int)
+    turns = turning_states(problem, at) if steady else []
     return _by_ranks(problem, at, {row: state for state, row in first.items()}, initial, float(not steady), turns)
 
 
@@ -170,18 +165,13 @@ def _ranked(problem: Problem, at: Point, initial: str) -> tuple[InitialSystem, P
 
 
 def _by_ranks(
-    problem: Problem,
-    at: Point,
-    direct: dict[int, int],
-    initial: str,
-    flag: float = 1.0,
-    turns: np.ndarray | tuple[()] = (),
+    problem: Problem, at: Point, direct: dict[int, int], initial: str, flag: float = 1.0, turns: list[int] | None = None
 ) -> InitialSystem:
     """Choose the initial system by ranks at a point where the loops are closed; rates of `turns` need not vanish."""
     nx, nz = problem.nx, problem.nz
     others = [row for row in range(nz, nz + problem.compiled.conditions.numel()) if row not in direct]
     if initial == "steady":
-        others += [k - nx for k in range(nx) if k not in turns]
+        others += [k - nx for k in range(nx) if k not in (turns or ())]
     return ranked(problem, at, direct, others, initial == "fixed", flag)
 
 

@@ -120,6 +120,12 @@ def is_steady(problem: Problem, at: Point) -> bool:
     return at_rest(problem, at) or turning(problem, at, cyclic(problem, at)) is not None
 
 
+def turning_states(problem: Problem, at: Point) -> list[int]:
+    """Return the states of cyclic coordinates, if a consistent point is in steady rotation."""
+    found = None if at_rest(problem, at) else turning(problem, at, cyclic(problem, at))
+    return np.flatnonzero(np.any(found.space, axis=1)).tolist() if found else []
+
+
 def turning(problem: Problem, at: Point, spaces: list[np.ndarray]) -> Turning | None:
     """Return the steady rotation of a consistent point along one of some spaces; None if it is in none."""
     size, rates = problem.nominal[: problem.nx], problem.local(at).value[: problem.nx]

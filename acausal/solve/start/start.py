@@ -11,7 +11,7 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.set_valued import MODE, SHARED
 from acausal.compiler.whole import EQUATION, START
-from acausal.errors import InitializationError
+from acausal.errors import DeclarationError, InitializationError
 from acausal.policy import POLICY
 from acausal.solve.causes import cause, without_value
 from acausal.solve.points import Point, Rows
@@ -19,7 +19,7 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.determined import undetermined
-from acausal.solve.start.initialize import TURNING, Start, initialize
+from acausal.solve.start.initialize import INITIAL, TURNING, Start, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
 from acausal.solve.start.steady import Restless
@@ -50,6 +50,9 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
     InitializationError
         If no values are found, or none whose switches fit them.
     """
+    if initial not in INITIAL:
+        mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
+        raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
     try:
         return _started(problem, time, later, initial)
     except Restless as error:
