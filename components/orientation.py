@@ -30,10 +30,15 @@ class Orientation(Record):
     w: Vector3 = variable("angular velocity, resolved in this frame", unit="rad/s")
 
 
+# Entry of a unit vector or of a rotation matrix, of largest entry 1, that is rounding: cos(pi / 2) is 6e-17.
+ROUNDING = 4 * np.finfo(float).eps
+
+
 def unit_vector(n: Any) -> np.ndarray:
-    """Return a vector of numbers scaled to length 1."""
+    """Return a vector of numbers scaled to length 1; rounding leaves true zeros."""
     n = np.asarray(n, dtype=float)
     n = n / np.max(np.abs(n))  # squares neither overflow nor vanish
+    n = np.where(np.abs(n) < ROUNDING, 0.0, n)
     return n / np.linalg.norm(n)
 
 
@@ -176,11 +181,12 @@ def axis_rotation(n: Any, angle: float) -> np.ndarray:
     """Rotation matrix of numbers, from a turn by `angle` in rad about n of length 1; rounding leaves true zeros."""
     outer = np.outer(n, n)
     T = outer + (np.eye(3) - outer) * np.cos(angle) - np.cross(np.eye(3), n) * np.sin(angle)
-    return np.where(np.abs(T) < 1e-15, 0.0, T)
+    return np.where(np.abs(T) < ROUNDING, 0.0, T)
 
 
 def two_axes_rotation(n_x: Any, n_y: Any) -> np.ndarray:
     """Rotation matrix of numbers, from the x-axis of the turned frame and a direction in its xy plane."""
     e_x = unit_vector(n_x)
     e_z = unit_vector(np.cross(e_x, unit_vector(n_y)))
-    return np.array([e_x, np.cross(e_z, e_x), e_z])
+    T = np.array([e_x, np.cross(e_z, e_x), e_z])
+    return np.where(np.abs(T) < ROUNDING, 0.0, T)

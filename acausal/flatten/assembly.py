@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import UnbalancedModelError
-from acausal.flatten.attributes import attributes, weighing
+from acausal.flatten.attributes import attributes, unknown_units, weighing
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.discontinuities import guards, laws, promises
 from acausal.flatten.flat_model import (
@@ -125,7 +125,8 @@ class Assembly:
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
         tape = Tape(self.symbols, given, self.residuals)
         present = set(tape.input) | self._asked()
-        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes).run()
+        units = unknown_units(self.raw, self.lower)
+        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units).run()
         self._refuse_contradictions(done)
         values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         self.origins += [self.origins[row] for _, row in done.left]

@@ -37,7 +37,7 @@ class Attributes:
 
     def derivative(self) -> Attributes:
         """Attributes of the time derivative, of which nothing else is declared."""
-        return Attributes(f"der({self.name})", self.unit and self.unit / SECOND)
+        return Attributes(f"der({self.name})", _rate(self.unit))
 
     def receive(self, alias: Attributes, offset: float, factor: float) -> None:
         """Take what an alias was declared with, which is offset + factor times this unknown."""
@@ -78,11 +78,23 @@ def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapp
     return found
 
 
+def unknown_units(raw: Said, lower: list[int]) -> list[Dimension | None]:
+    """Return the units of all unknowns, those of the derivatives behind those of the variables; None where not known."""
+    found = [unit for array in raw.arrays for unit in array.units]
+    for k in lower:
+        found.append(_rate(found[k]))
+    return found
+
+
 def weighing(raw: Said) -> tuple[str, ...]:
     """Names of the parameters that nominal values depend on."""
     inside = {s.element_hash() for s in ca.symvar(stacked(_weights(raw).values()))}
     own = raw.build.parameters
     return tuple(name for name, s in zip(own.names, own.symbols, strict=True) if s.element_hash() in inside)
+
+
+def _rate(unit: Dimension | None) -> Dimension | None:
+    return unit and unit / SECOND
 
 
 def _declared(array: VariableArray) -> Iterator[Attributes]:

@@ -7,11 +7,15 @@ unknown is the derivative of one other at most.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from acausal.flatten.tape import Linear, Tape, add, scale
+from acausal.policy import POLICY
+from acausal.units import Dimension
 
 DECLARED, CHAINED = 1, 2
+PIVOT = POLICY.elimination.pivot
 # Rounding of a sum of constants.
 ZERO = 1e-12
 
@@ -51,12 +55,20 @@ class Simplifier:
         How strongly an unknown is preferred to stay: CHAINED or DECLARED plus its preference.
     substitutes : dict of int to int, optional
         Residuals that remove no unknown, and the residual that takes the place of each if it is redundant.
+    units : sequence of Dimension or None, optional
+        Unit of each unknown, None where it is not known; default: all are alike.
     """
 
     def __init__(
-        self, tape: Tape, derivative: list[int], rank: list[int], substitutes: dict[int, int] | None = None
+        self,
+        tape: Tape,
+        derivative: list[int],
+        rank: list[int],
+        substitutes: dict[int, int] | None = None,
+        units: Sequence[Dimension | None] = (),
     ) -> None:
         self.tape = tape
+        self.units = units or [None] * len(derivative)
         self.substitutes = substitutes or {}
         self.up = list(derivative)
         self.down = [-1] * len(derivative)
@@ -124,7 +136,8 @@ class Simplifier:
     def _assign(self, value: Linear, row: int, derived: bool = False) -> bool:
         """Use `value == 0`, the residual `row` or its derivative, to remove an unknown; False if none may be removed."""
         c0, terms = value
-        candidates = sorted(terms, key=lambda term: (self._standing(term[0]), -term[0]))
+        pivots = [term for term in terms if self._may_divide(term, terms)]
+        candidates = sorted(pivots, key=lambda term: (self._standing(term[0]), -term[0]))
         for unknown, c in candidates:
             rest = tuple((u, k) for u, k in terms if u != unknown)
             solution = scale((c0, rest), -1 / c)
@@ -138,6 +151,11 @@ class Simplifier:
             self.result.kept[row] = value
             return True
         return False
+
+    def _may_divide(self, term: tuple[int, float], terms: tuple[tuple[int, float], ...]) -> bool:
+        """True if the coefficient of a term is not small beside those of unknowns of the same unit."""
+        unit = self.units[term[0]]
+        return all(abs(term[1]) >= PIVOT * abs(c) for other, c in terms if self.units[other] == unit)
 
     def _standing(self, unknown: int) -> int:
         chained = self.up[unknown] >= 0 or self.down[unknown] >= 0

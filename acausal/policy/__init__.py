@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from acausal.policy.accuracy import Accuracy, Defaults, Estimate, Study
 from acausal.policy.checks import Causes, Meeting, Promises, Validity
+from acausal.policy.elimination import Elimination
 from acausal.policy.events import Agenda, Between, Clock, Instants, Laws, Locate, Looks, Rests, Sampling
 from acausal.policy.integrate import Branches, Calls, Consistent, Energy, Order, Rescue, Sizes
 from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
@@ -19,6 +20,7 @@ from acausal.policy.start import Loops, Newton, Ranks, Rest, Switches
 class Policy:
     """Thresholds, by what they decide."""
 
+    elimination: Elimination
     newton: Newton
     ranks: Ranks
     loops: Loops
@@ -51,6 +53,7 @@ class Policy:
 
 
 POLICY = Policy(
+    Elimination(),
     Newton(),
     Ranks(),
     Loops(),

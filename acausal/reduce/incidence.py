@@ -9,7 +9,8 @@ import casadi as ca
 import numpy as np
 
 from acausal.flatten import FlatModel
-from acausal.language.functions import initial, time
+from acausal.language.functions import feedback, initial, time
+from acausal.policy import POLICY
 from acausal.structure import System
 from acausal.symbols import scalars
 
@@ -86,9 +87,26 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
         ),
         preference=unknowns.preference,
         monic=tuple(frozenset(m) for m in monic),
+        pivots=_pivots(flat, linear),
         closures=_closures(flat),
     )
     return system, linear
+
+
+def _pivots(flat: FlatModel, linear: Linear) -> tuple[frozenset[int], ...]:
+    """Unknowns of each equation whose coefficient is not small beside others of the same unit, for the values when compiled."""
+    found: list[set[int]] = [set() for _ in linear.rows]
+    given = [flat.parameters.symbols, feedback.sx]
+    function = ca.Function("coefficients", given, [ca.vertcat(*linear.explicit.values())])
+    sizes = np.abs(np.array(function(flat.parameters.values, 1.0))).ravel().tolist()
+    places = [(i, j, flat.unknowns.units[j]) for i, j in linear.explicit]
+    largest: dict[tuple[int, Any], float] = {}
+    for (i, _, unit), size in zip(places, sizes, strict=True):
+        largest[i, unit] = max(size, largest.get((i, unit), 0.0))
+    for (i, j, unit), size in zip(places, sizes, strict=True):
+        if size >= POLICY.elimination.pivot * largest[i, unit]:
+            found[i].add(j)
+    return tuple(map(frozenset, found))
 
 
 def _closures(flat: FlatModel) -> dict[int, tuple[int, ...]]:

@@ -116,7 +116,7 @@ def constrain(extension: Extension) -> Constrained:
         for order, row, multiplier, coordinates in zip(range(len(rows), 0, -1), rows, multipliers, held, strict=True):
             seen |= reach(extension.rows[row], written, selection.equation_of)
             extension.rows[row] += (multiplier,)
-            extension.explicit[row] = extension.monic[row] = frozenset()
+            extension.forbid(row)
             for x in coordinates:
                 holding.setdefault(x, []).append((order, multiplier))
         constraints.append(Constraint(base, tuple(rows), multipliers, top))

@@ -12,6 +12,7 @@ class Extension:
         self.rows = list(system.rows)
         self.explicit = list(system.explicit)
         self.monic = list(system.monic)
+        self.pivots = list(system.pivots)
         self.derivative = list(system.derivative)
         self.declared = system.declared
         self.defines = list(system.defines)
@@ -40,7 +41,8 @@ class Extension:
         self.rows.append(tuple(dict.fromkeys((*row, *rates.values(), *expressions))))
         solvable = {v: rate for v, rate in rates.items() if v in explicit and rate not in hidden}
         self.explicit.append(frozenset(solvable.values()))
-        self.monic.append(frozenset(rate for v, rate in solvable.items() if v in self.monic[equation]))
+        for kept in (self.monic, self.pivots):
+            kept.append(frozenset(rate for v, rate in solvable.items() if v in kept[equation]))
         self.defines.append(-1)
         self.differentiated.append(equation)
         self.levels[base].append(len(self.rows) - 1)
@@ -58,7 +60,11 @@ class Extension:
             self.differentiate(base)
         top = self.levels[base][-1]
         self.rows[top] = tuple(dict.fromkeys((*self.rows[top], *self.closures[base])))
-        self.explicit[top] = self.monic[top] = frozenset()
+        self.forbid(top)
+
+    def forbid(self, equation: int) -> None:
+        """Let no variable be solved for from an equation alone."""
+        self.explicit[equation] = self.monic[equation] = self.pivots[equation] = frozenset()
 
     @property
     def lower(self) -> set[int]:
@@ -76,6 +82,7 @@ class Extension:
         self.rows.append(row)
         self.explicit.append(frozenset(explicit))
         self.monic.append(frozenset(monic))
+        self.pivots.append(frozenset(explicit))
         self.defines.append(-1)
         return len(self.rows) - 1
 
@@ -89,4 +96,5 @@ class Extension:
             tuple(self.defines),
             tuple(self.preference),
             tuple(self.monic),
+            tuple(self.pivots),
         )

@@ -44,8 +44,8 @@ def select_states(
     apart : collection of int
         Equations that are left out.
     constant : bool
-        True lets a variable be algebraic only through constant coefficients: any other choice of states could become
-        singular on the way.
+        True lets a variable be algebraic only through constant coefficients that are not small: any other choice of states
+        could become singular on the way, or amplify rounding.
     integrated : collection of int
         Variables that are states in any case.
 
@@ -55,7 +55,7 @@ def select_states(
     highest = [() if e in out else [v for v in row if derivative[v] < 0] for e, row in enumerate(system.rows)]
     matching = maximum_matching(highest, system.n_variables)
     unmatched = [e for e, v in enumerate(matching.variable_of) if v < 0 and e not in apart]
-    ties = [sorted(x) for x in system.explicit] if constant else system.rows
+    ties = [sorted(x) for x in system.pivots] if constant else system.rows
     columns = transpose([() if e in apart else x for e, x in enumerate(ties)], system.n_variables)
     # No free equation can be reached from what a failed search visited, now or later.
     exhausted: set[int] = set(apart)

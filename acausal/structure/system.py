@@ -26,6 +26,9 @@ class System:
         Preference of each variable to be a state: -2 never, -1 avoid, 0 default, 1 prefer, 2 always.
     monic : tuple of frozenset of int, optional
         Those of `explicit` whose coefficient is 1 or -1, so that solving for them divides by nothing; default: all.
+    pivots : tuple of frozenset of int, optional
+        Those of `explicit` whose coefficient is not small beside the others of its equation, so that a state may follow from
+        others through it; default: all.
     closures : mapping of int to tuple of int, optional
         Equations that may turn out to be redundant, and the variables of what then takes the place of each: they
         close loops, are differentiated as often as it takes, and hold at every level.
@@ -39,11 +42,13 @@ class System:
     defines: tuple[int, ...]
     preference: tuple[int, ...]
     monic: tuple[frozenset[int], ...] = ()
+    pivots: tuple[frozenset[int], ...] = ()
     closures: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        if not self.monic:
-            object.__setattr__(self, "monic", self.explicit)
+        for name in ("monic", "pivots"):
+            if not getattr(self, name):
+                object.__setattr__(self, name, self.explicit)
         if not len(self.rows) == len(self.explicit) == len(self.defines):
             raise ValueError("rows, explicit and defines must have one entry an equation")
         if len(self.derivative) != len(self.preference):

@@ -6,6 +6,7 @@ import casadi as ca
 
 from acausal.flatten.simplify import Simplification, Simplifier
 from acausal.flatten.tape import Tape
+from acausal.units import parse
 
 x = ca.SX.sym("x", 6)
 p = ca.SX.sym("p")
@@ -66,3 +67,16 @@ def test_constant_derivative_keeps_the_equation() -> None:
     done = simplify([x[1] - 3], [1, -1, -1, -1, -1, -1])
     assert done.solved == {}
     assert done.kept == {0: (-3.0, ((1, 1.0),))}
+
+
+def test_small_coefficients_are_not_divided_by() -> None:
+    for coefficient in (6e-17, 1e-3):
+        assert simplify([x[0] + coefficient * x[1]]).solved == {0: (0.0, ((1, -coefficient),))}
+        assert simplify([coefficient * x[0] + x[1]]).solved == {1: (0.0, ((0, -coefficient),))}
+
+
+def test_coefficients_of_other_units_are_not_compared() -> None:
+    # A spring: force = 1e6 s, with s = x0, der(s) = x2.
+    tape = Tape(x, p, ca.vertcat(x[1] - 1e6 * x[0]))
+    units = [parse(unit) for unit in ("m", "N", "m/s", "1", "1", "1")]
+    assert Simplifier(tape, [2, -1, -1, -1, -1, -1], [0] * 6, units=units).run().solved == {1: (0.0, ((0, 1e6),))}
