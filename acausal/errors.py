@@ -120,6 +120,10 @@ def line_in(error: BaseException) -> str:
     return ""
 
 
+# numpy and contextlib decorate some of our functions.
+SKIPPED = (__package__, "numpy", "contextlib")
+
+
 def caution(text: str) -> None:
     """Warn with the user's line: the innermost one outside this package.
 
@@ -129,7 +133,6 @@ def caution(text: str) -> None:
         What is doubtful, in the user's names; where; the remedy.
     """
     level, frame = 2, sys._getframe(1)
-    # numpy decorates some of our functions.
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__, "numpy"):
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in SKIPPED:
         level, frame = level + 1, frame.f_back
     warnings.warn(AcausalWarning(text), stacklevel=level)

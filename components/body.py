@@ -8,7 +8,7 @@ from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, geometry, out
 from components.frame import pose
 from components.moving_body import MovingBody, off_centre, past_centre
 from components.orientation import resolve1, resolve2
-from components.rigid import wrong_inertia
+from components.rigid import unusual_inertia, wrong_inertia
 from components.world import World
 
 
@@ -27,8 +27,8 @@ class Body(MovingBody):
         "inertia tensor about the centre of mass",
         unit="kg.m2",
         default=np.zeros((3, 3)),
-        doc="Resolved in frame_a. It must be physically possible, but moments about axes that the body does not "
-        "turn about may be left 0.",
+        doc="Resolved in frame_a. It must have no negative principal moment; moments about axes that the body "
+        "does not turn about may be left 0.",
     )
     gyroscopic: bool = effect(
         "gyroscopic torque w x I w",
@@ -57,6 +57,7 @@ class Body(MovingBody):
 
     def requirements(self):
         yield require(self.I, wrong_inertia)
+        yield require(self.I, unusual_inertia, warning=True)
         yield from off_centre(self, self.world, self._centre())
 
     def validity(self):

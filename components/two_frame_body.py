@@ -8,7 +8,7 @@ from acausal import connect, effect, part, require
 from components.body import Body
 from components.frame import TwoFrames
 from components.moving_body import MovingBody
-from components.rigid import wrong_inertia
+from components.rigid import unusual_inertia, wrong_inertia
 from components.translation import FixedTranslation
 
 
@@ -50,6 +50,7 @@ class TwoFrameBody(TwoFrames, MovingBody):
 
     def requirements(self):
         yield require(self.I, wrong_inertia)
+        yield require(self.I, unusual_inertia, warning=True)
 
     def equations(self):
         for name in ("r_0", "v_0", "a_0", "w_a", "z_a"):

@@ -65,7 +65,8 @@ def compile(
     model, parameters = model_of(model), values_of(parameters)
     free = (free,) if isinstance(free, str) else tuple(free)
     flat = flatten(model, parameters, free)
-    Settable(flat).values(None)  # a length of 0 also breaks the structure: report the cause first
+    settable = Settable(flat)
+    settable.values(None)  # a length of 0 also breaks the structure: report the cause first
     lap("flatten")
     try:
         plan, linear = plan_of(flat)
@@ -78,9 +79,11 @@ def compile(
     reduced = split_clock(reduce(flat, plan, linear))
     lap("reduce")
     compiled = CompiledModel(
-        reduced, seconds, Source(partial(compile, free=free) if free else compile, model, parameters)
+        reduced,
+        seconds,
+        Source(partial(compile, free=free) if free else compile, model, parameters),
+        kept={Settable: settable},  # what it checked is not checked again
     )
-    compiled.parameter_values(None)
     _ = (
         compiled.local,
         compiled.values,

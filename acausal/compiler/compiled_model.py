@@ -295,4 +295,4 @@ class CompiledModel:
     @cached_property
     def settable(self) -> Settable:
         """Its parameters, for callers that let no other thread in."""
-        return Settable(self.reduced.flat)
+        return self.kept.get(Settable) or Settable(self.reduced.flat)

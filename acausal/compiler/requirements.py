@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.compiler.call import Call
-from acausal.errors import AcausalError, DeclarationError
+from acausal.errors import AcausalError, DeclarationError, caution
 from acausal.flatten.origin import Origin, stated
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
@@ -33,6 +33,7 @@ class Requirements:
 
     def __init__(self, tree: Component, parameters: ca.SX) -> None:
         self.tree, self.parameters = tree, parameters
+        self._accepted: np.ndarray | None = None  # what was checked last, and held
 
     @cached_property
     def stated(self) -> list[Stated]:
@@ -45,6 +46,10 @@ class Requirements:
         of_parameters, of_variables = [], []
         for item in self.stated:
             inside = all(s.element_hash() in free for s in ca.symvar(item[0].sx))
+            if item[0].warning and not inside:
+                raise DeclarationError(
+                    f"{item[1]}: require(..., warning=True) takes parameters alone, and no variables."
+                )
             (of_parameters if inside else of_variables).append(item)
         return of_parameters, of_variables
 
@@ -64,9 +69,20 @@ class Requirements:
         return Call(ca.Function("requirements", [self.parameters], [ca.densify(column)]))
 
     def check(self, values: np.ndarray) -> None:
-        """Raise DeclarationError if parameters break a requirement."""
-        if self.of_parameters:
-            refuse(self.of_parameters, self._call(values)[0], DeclarationError)
+        """Raise DeclarationError if parameters break a requirement; warn of those that are only unusual.
+
+        Only requirements on what changed since the last values that were accepted are checked.
+        """
+        if not self.of_parameters:
+            return
+        found = self._call(values)[0].copy()
+        changed = np.ones(len(found), dtype=bool) if self._accepted is None else found != self._accepted
+        broken = _broken(self.of_parameters, found, changed)
+        if wrong := next((text for requirement, text in broken if not requirement.warning), None):
+            raise DeclarationError(wrong)
+        self._accepted = found
+        if unusual := list(dict.fromkeys(text for _, text in broken)):
+            caution("\n".join(unusual))
 
 
 def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> list[Stated]:
@@ -83,10 +99,22 @@ def statements(tree: Component, method: str, kind: type | tuple[type, ...]) -> l
 
 def refuse(stated: list[Stated], values: np.ndarray, kind: type[AcausalError]) -> None:
     """Raise an error for the first requirement that its entries of `values` break."""
-    at = 0
+    for _, text in _broken(stated, values, np.ones(len(values), dtype=bool)):
+        raise kind(text)
+
+
+def _broken(stated: list[Stated], values: np.ndarray, changed: np.ndarray) -> list[tuple[Requirement, str]]:
+    """Requirements that their entries of `values` break, as far as these changed, with what is wrong.
+
+    What is wrong with a component is not repeated for a part of it that has the same value.
+    """
+    found, at, seen = list[tuple[Requirement, str]](), 0, list[tuple[str, Any]]()
     for requirement, origin in stated:
-        size = requirement.sx.numel()
-        problem = requirement.broken(values[at : at + size])
-        at += size
-        if problem:
-            raise kind(f"{origin}: {problem}.")
+        own = slice(at, at := at + requirement.sx.numel())
+        if not changed[own].any() or not (problem := requirement.broken(values[own])):
+            continue
+        what = requirement.problem, values[own].tobytes()
+        if not any(origin.path.startswith(f"{path}.") and what == other for path, other in seen):
+            found.append((requirement, f"{origin}: {problem}."))
+        seen.append((origin.path, what))
+    return found

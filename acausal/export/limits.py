@@ -69,6 +69,6 @@ def _required(stated: list[Stated], kind: Kind) -> Iterator[Limit]:
     """Yield what components require, but for functions, which are no expressions."""
     for requirement, origin in stated:
         condition = requirement.subject
-        if isinstance(condition, Condition):
+        if isinstance(condition, Condition) and not requirement.warning:
             where = f"{origin.path}: " if origin.path else ""
             yield Limit(-requirement.sx, 0.0, condition.kind == "<", kind, f"{where}{requirement.problem}.")

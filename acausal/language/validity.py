@@ -20,10 +20,14 @@ from acausal.symbols import vec
 
 @dataclass(frozen=True)
 class Requirement:
-    """A condition that must hold and what is wrong where it does not, or a function that checks the value of an expression."""
+    """A condition that must hold and what is wrong where it does not, or a function that checks the value of an expression.
+
+    What is only unusual is a warning.
+    """
 
     subject: Condition | Expr
     problem: str | Callable[[np.ndarray], str]
+    warning: bool = False
 
     @cached_property
     def sx(self) -> ca.SX:
@@ -60,7 +64,7 @@ class Separation:
 
 
 @told
-def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Requirement:
+def require(subject: Any, problem: str | Callable[[np.ndarray], str], warning: bool = False) -> Requirement:
     """State what must hold; yield it in requirements().
 
     Parameters
@@ -71,6 +75,8 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Require
     problem : str or callable
         What is wrong where the condition does not hold, and the remedy; of an expression, a function that is given its
         value as an array and returns that, or "" if nothing is wrong.
+    warning : bool, default False
+        True if values that break it are accepted with a warning; only of parameters alone.
 
     Examples
     --------
@@ -82,7 +88,7 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str]) -> Require
             "require needs a condition that compares two scalars and a text, require(self.a < self.b, ...), "
             "or an expression and a function of its value"
         )
-    return Requirement(subject, problem)
+    return Requirement(subject, problem, warning)
 
 
 @told

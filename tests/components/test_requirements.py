@@ -19,7 +19,6 @@ from components import (
     BodyBox,
     BodyCylinder,
     BodyRod,
-    BodyShape,
     Damper,
     FixedTranslation,
     FlexibleBeam,
@@ -39,54 +38,6 @@ class Held(Model):
 
     def connections(self):
         yield chain(self.world, self.hinge, self.it)
-
-
-def turned(I):
-    """The tensor in other axes."""
-    Q, _ = np.linalg.qr(np.array([[1.0, 2, 0.5], [-0.3, 1, 2], [0.7, 0.2, 1]]))
-    return Q @ I @ Q.T
-
-
-IMPOSSIBLE = [
-    (np.diag([1.0, 1, 3]), "sum of the other two"),
-    (np.diag([1.0, 3, 1]), "sum of the other two"),
-    (turned(np.diag([1.0, 1, 3])), "sum of the other two"),
-    (np.array([[1, 0.9, 0], [0.9, 1, 0], [0, 0, 1]]), "sum of the other two"),
-    (-np.eye(3), "negative moment of inertia about x"),
-    (np.diag([0.0, 0, -1]), "negative moment of inertia about z"),
-    (turned(np.diag([1.0, 1, -0.5])), "is not the inertia of a body|negative moment"),
-    (np.array([[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]), r"not symmetric: I\[0,1\] is 0.1 and I\[1,0\] is 0"),
-    (np.array([[1, 0, 0], [0, 1, 0.2], [0, -0.2, 1]]), "not symmetric"),
-]
-POSSIBLE = [
-    np.diag([1.0, 2, 3]),
-    np.diag([0.0, 2, 2]),
-    np.diag([0.0, 0, 1]),
-    turned(np.diag([1.0, 2, 3])),
-    turned(np.diag([0.0, 1, 1])),
-    np.diag([0.333, 0.333, 0.667]),
-]
-
-
-@pytest.mark.parametrize(("I", "message"), IMPOSSIBLE)
-def test_impossible_inertia(I, message):
-    for body in (Body(m=1, I=I), BodyShape(r=(1, 0, 0), m=1, I=I), BodyRod(r=(1, 0, 0), m=1, I=I)):
-        with pytest.raises(DeclarationError, match=message) as error:
-            ac.compile(Held(it=body))
-        assert "`it.I`" in str(error.value)
-        assert "test_requirements.py:" in str(error.value)
-
-
-@pytest.mark.parametrize("I", POSSIBLE)
-def test_possible_inertia(I):
-    ac.compile(Held(it=Body(m=1, I=I)))
-
-
-def test_inertia_is_looked_at_again_when_it_is_changed():
-    compiled = ac.compile(Held(it=Body(m=1, I=turned(np.diag([1.0, 2, 2.5])))))
-    ac.simulate(compiled, stop_time=0.1, parameters={"it.I": turned(np.diag([1.0, 1, 1.5]))})
-    with pytest.raises(DeclarationError, match="sum of the other two"):
-        ac.simulate(compiled, stop_time=0.1, parameters={"it.I": turned(np.diag([1.0, 1, 2.5]))})
 
 
 @pytest.mark.parametrize(
