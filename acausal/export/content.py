@@ -21,7 +21,6 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.kept import closure_of
 from acausal.solve.start.loop_states import choose_projection, sparing
 from acausal.solve.start.loops import levels
-from acausal.solve.start.reach import reaches
 from acausal.symbols import dense, picked, scalars, stacked
 
 VERSION = 5
@@ -104,7 +103,7 @@ class Content:
             "bounds": floats([k for limit in self._limits for k in (limit.least, limit.strict, limit.kind)]),
             "limited": b"".join(limit.text.encode() + b"\0" for limit in self._limits),
             "damped": floats(sizes(self.problem, self.nominal, self.beginning.vibration)),
-            "nominal": floats([self.span, self.tolerance, *self.nominal, *reaches(self.problem), *self._follows]),
+            "nominal": floats([self.span, self.tolerance, *self.nominal, *self.problem.reaches, *self._follows]),
             "natural": floats(self.nominal[self.compiled.nx :]),
         }
 

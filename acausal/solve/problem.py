@@ -17,6 +17,7 @@ from acausal.compiler.whole import whole
 from acausal.core import Settler, library
 from acausal.policy import POLICY
 from acausal.solve.points import Point, Rows
+from acausal.solve.reach import reaches
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +57,11 @@ class Problem:
         return self.compiled.nominal
 
     @property
+    def reaches(self) -> np.ndarray:
+        """Sizes of the states where they close loops."""
+        return reaches(self.compiled, self.p)
+
+    @property
     def rates(self) -> list[tuple[int, int]]:
         """Pairs (coordinate, rate) among the states."""
         return rates_of(self.compiled)
@@ -82,17 +88,17 @@ class Problem:
         return self.compiled.constraints(at.x, self.p, at.time, at.constants.vector)
 
     def gradients(self, at: Point) -> scipy.sparse.csc_matrix:
-        """Return the Jacobian of the constraints by the states over their nominal values.
+        """Return the Jacobian of the constraints by the states over their sizes.
 
         Rows are 0 that are nearly so beside others of their equation, or beside what cancels in them.
         """
-        J = by_columns(self.constraints(at)[1], self.nominal[: self.nx])
+        J = by_columns(self.constraints(at)[1], self.reaches)
         length = lengths(J)
         largest = self._largest_alike(length)
         faint = (largest > 0) & (largest <= POLICY.ranks.faint * max(1.0, np.max(length, initial=0.0)))
         if faint.any():
             entries = with_entries(self.compiled.constraints.pattern, self._terms(at)[1])
-            adds_up = self._largest_alike(lengths(by_columns(entries, self.nominal[: self.nx])))
+            adds_up = self._largest_alike(lengths(by_columns(entries, self.reaches)))
             largest = np.where(faint, np.maximum(largest, adds_up), largest)
         J.data[(length <= POLICY.ranks.rank * largest)[J.indices]] = 0.0
         return J
@@ -101,8 +107,28 @@ class Problem:
         """Size of what adds up in the residuals of the constraints, and in the entries of their Jacobian."""
         return self.compiled.constraints.terms(at.x, self.p, at.time, at.constants.vector)
 
+    def held_in_sizes(self, x: np.ndarray, times: np.ndarray, constants: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return Jacobians of the constraints for states in their sizes, at n points, and the sizes.
+
+        Parameters
+        ----------
+        x, times : arrays, shapes (n, nx), (n,)
+            States, and times in s.
+        constants : array
+            Those of the segment, or of each point.
+
+        Returns
+        -------
+        J : array, shape (n, entries)
+            As `Constraints.entries` has them.
+        sizes : array, shape (entries,)
+        """
+        c = self.compiled.constraints
+        sizes = self.reaches[c.entries[1]]
+        return c.held(x, self.p, times, constants) * sizes, sizes
+
     def gaps(self, at: Point) -> np.ndarray:
-        """Return the residuals of the constraints, over the change that nominal values of the states make in them.
+        """Return the residuals of the constraints, over the change that the sizes of the states make in them.
 
         Entries of one equation have one such size: at a dead centre one of them has no gradient. What no state changes, as
         of parts that are welded to a loop, counts beside what adds up in it.
@@ -110,7 +136,7 @@ class Problem:
         return self.constraints(at)[0] / self.sizes(at)
 
     def sizes(self, at: Point) -> np.ndarray:
-        """Return the change that nominal values of the states make in each residual of the constraints, see `gaps`."""
+        """Return the change that the sizes of the states make in each residual of the constraints, see `gaps`."""
         return self.sized(at)[0]
 
     def sized(self, at: Point) -> tuple[np.ndarray, np.ndarray]:
@@ -119,7 +145,7 @@ class Problem:
         forces = [row for k, rows in enumerate(c.rows) if k not in c.of_loops for row in rows]
         if forces:
             # Where a force has no direction its gradient is very large, but not beside it.
-            away = np.random.default_rng(0).standard_normal(self.nx) * self.nominal[: self.nx]
+            away = np.random.default_rng(0).standard_normal(self.nx) * self.reaches
             beside = self.gradients(replace(at, x=at.x + POLICY.ranks.away * away))[forces]
             own[forces] = np.minimum(own[forces], np.nan_to_num(lengths(beside)))
         sizes = self._largest_alike(own)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from acausal.compiler import CompiledModel
+from acausal.compiler.constants import Constants
+from acausal.compiler.constraints import Constraints
 from acausal.compiler.once import latest, once
 from acausal.policy import POLICY
-from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part, parts
+from acausal.solve.parts import Part, parts
+from acausal.units import BASES, Dimension, parse
 
-LOOPS = POLICY.loops
+LOOPS, RANKS = POLICY.loops, POLICY.ranks
 
 
 @once
@@ -20,85 +22,109 @@ def levels_of(compiled: CompiledModel) -> list[Part]:
     return parts(c.entries[0], c.entries[1], (c.size, compiled.nx))
 
 
-def reaches(problem: Problem) -> np.ndarray:
-    """Return the sizes of the states where they close loops, shape (nx,): nominal values, or more.
+def reaches(compiled: CompiledModel, p: np.ndarray) -> np.ndarray:
+    """Return the sizes of the states where they close loops, shape (nx,): nominal values, or others.
 
     Coordinates of one unit without a declared nominal value that share constraints have one size, with which they change
-    these as much as those with declared ones do, else as much as those that change them most; what each does around the
-    guesses counts, as a crank does nothing at its dead centre.
+    these as much as those with declared ones do, else as much as angles, whose size no unit of length changes, else as much as
+    those that change them most; what each does around the guesses counts, as a crank does nothing at its dead centre.
 
     Parameters
     ----------
-    problem : Problem
+    compiled : CompiledModel
         The model.
+    p : array
+        Values of its free parameters.
     """
-    nominal = problem.nominal[: problem.nx]
-    if not _groups(problem.compiled):
-        return nominal
-    return nominal * _factors(problem.compiled, problem.p.tobytes())
+    nominal = compiled.nominal[: compiled.nx]
+    return nominal * _factors(compiled, p.tobytes()) if _groups(compiled) else nominal
 
 
 @latest(1)
-@np.errstate(all="ignore")
 def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
-    c, nx = compiled.constraints, compiled.nx
-    values, nominal = np.frombuffer(p), compiled.nominal[:nx]
-    around = LOOPS.around * np.random.default_rng(0).standard_normal((LOOPS.looks, nx))
-    x = compiled.start(values, 0.0)[0][:nx] + nominal * around
-    constants = compiled.layout.begin(compiled.guards.estimate(values, 0.0, 0.0)[0], 1.0)
-    J = np.abs(c.held(x, values, np.zeros(len(x)), constants.vector) * nominal[c.entries[1]])
-    J = np.median(np.where(np.isfinite(J), J, 0.0), axis=0)
-    found = np.ones(nx)
-    for declared, groups in _groups(compiled):
-        most = [float(np.max(J[shared])) for _, shared in groups]
-        to = most[0] if declared and most[0] > 0 else max(most)
-        free = slice(int(declared), None)  # of those that are declared nothing changes
-        for (states, _), own in zip(groups[free], most[free], strict=True):
-            if own > LOOPS.slight * to:
-                found[states] = to / own
+    """Factors of the nominal values.
+
+    What is not of the first group stays at its guess at first: without a guess its nominal value may lie far outside the
+    machine.
+    """
+    found = np.ones(compiled.nx)
+    for others in (0.0, 1.0):
+        spread = others * found
+        for _, groups in _groups(compiled):
+            spread[groups[0][0]] = 1.0
+        found = _once(compiled, np.frombuffer(p), spread)
     return found
 
 
-def held_in_sizes(
-    problem: Problem, x: np.ndarray, times: np.ndarray, constants: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return Jacobians of the constraints for states in these sizes, at n points, and the sizes.
+@np.errstate(all="ignore")
+def _once(compiled: CompiledModel, p: np.ndarray, spread: np.ndarray) -> np.ndarray:
+    """Factors from what states do around the guesses, within a spread over their nominal values."""
+    c, nx = compiled.constraints, compiled.nx
+    nominal = compiled.nominal[:nx]
+    around = LOOPS.around * np.random.default_rng(0).standard_normal((LOOPS.looks, nx))
+    x = compiled.start(p, 0.0)[0][:nx] + nominal * spread * around
+    constants = compiled.layout.begin(compiled.guards.estimate(p, 0.0, 0.0)[0], 1.0)
+    J = _typical(c.held(x, p, np.zeros(len(x)), constants.vector)) * nominal[c.entries[1]]
+    found, terms = np.ones(nx), None
+    for first, groups in _groups(compiled):
+        most = _most(c, J, groups)
+        if np.any(most[_most(c, np.ones(len(J)), groups) > 0] <= RANKS.faint * np.max(most)):
+            # Rounding, or a small machine: what moves a loop as a whole cancels, and counts as it does in each of its halves.
+            terms = _terms(compiled, x, p, constants) * nominal[c.entries[1]] if terms is None else terms
+            adds_up = _most(c, terms, groups)
+            most = np.where(most > RANKS.rank * adds_up, most, adds_up)
+        to = np.where(most[0] > 0, most[0], np.max(most, axis=0)) if first else np.max(most, axis=0)
+        for (states, _), own in list(zip(groups, most, strict=True))[int(first) :]:
+            if own.any():
+                found[states] = np.max(to[own > 0]) / np.max(own)
+    return found
 
-    Parameters
-    ----------
-    problem : Problem
-        The model.
-    x, times : arrays, shapes (n, nx), (n,)
-        States, and times in s.
-    constants : array
-        Those of the segment, or of each point.
 
-    Returns
-    -------
-    J : array, shape (n, entries)
-        As `Constraints.entries` has them.
-    sizes : array, shape (entries,)
-    """
-    c = problem.compiled.constraints
-    sizes = reaches(problem)[c.entries[1]]
-    return c.held(x, problem.p, times, constants) * sizes, sizes
+def _most(c: Constraints, J: np.ndarray, groups: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Largest entry of each group in each equation, shape (groups, kinds)."""
+    kinds = c.kinds[c.entries[0]]
+    found = np.zeros((len(groups), int(np.max(c.kinds)) + 1))
+    for own, (_, entries) in zip(found, groups, strict=True):
+        np.maximum.at(own, kinds[entries], J[entries])
+    return found
+
+
+def _typical(J: np.ndarray) -> np.ndarray:
+    """Typical size of each entry at n points; where it has no value it is 0."""
+    return np.median(np.abs(np.where(np.isfinite(J), J, 0.0)), axis=0)
+
+
+def _terms(compiled: CompiledModel, x: np.ndarray, p: np.ndarray, constants: Constants) -> np.ndarray:
+    """Typical size of what adds up in each entry of the constraints' Jacobian at n points, as `Constraints.entries` has them."""
+    c = compiled.constraints
+    found = _typical(np.array([c.terms(row, p, 0.0, constants.vector)[1] for row in x]))
+    columns = np.repeat(np.arange(compiled.nx), np.diff(c.pattern.indptr))
+    place = {pair: k for k, pair in enumerate(zip(c.pattern.indices.tolist(), columns.tolist(), strict=True))}
+    return np.array([found[place[pair]] if pair in place else 0.0 for pair in zip(*c.entries.tolist(), strict=True)])
 
 
 @once
 def _groups(compiled: CompiledModel) -> list[tuple[bool, list[tuple[np.ndarray, np.ndarray]]]]:
     """States of each part by their units, with their entries in equations that several units share.
 
-    First, and told, those whose size is known, if any are.
+    First, and told, those whose size is known, if any are, else those whose unit holds no length or mass, as angles.
     """
     c, unknown, found = compiled.constraints, set(compiled.reduced.flat.unknowns.names), []
     known = [declared or unit in unknown for unit, declared in compiled.sizes]
     labels = np.array(["" if known[k] else f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes)])
+    plain = {f"of {unit}" for k, (unit, _) in enumerate(compiled.sizes) if not known[k] and _is_plain(parse(unit))}
     for part in levels_of(compiled):
         own, kinds = labels[c.entries[1][part.entries]], c.kinds[c.entries[0][part.entries]]
         shared = np.array([len(set(own[kinds == kind].tolist())) > 1 for kind in kinds], dtype=bool)
-        names = sorted(set(own[shared].tolist()))
+        names = sorted(set(own[shared].tolist()), key=lambda name: (name != "", name not in plain, name))
         if names:
             entries = [part.entries[shared & (own == name)] for name in names]
             states = [part.columns[labels[part.columns] == name] for name in names]
-            found.append((names[0] == "", list(zip(states, entries, strict=True))))
+            first = names[0] == "" or names[0] in plain
+            found.append((first, list(zip(states, entries, strict=True))))
     return found
+
+
+def _is_plain(unit: Dimension) -> bool:
+    """True if a unit is a power of time: no other unit of length or mass changes its values."""
+    return all(not exponent for base, exponent in zip(BASES, unit.exponents, strict=True) if base != "s")

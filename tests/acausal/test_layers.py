@@ -29,7 +29,10 @@ MAY = {
 ROOMS = {"measuring": {"measuring"}, "studies": {"measuring", "studies"}, "effects": {"measuring", "effects"}}
 SOLVE = (
     "points",
+    "parts",
+    "reach",
     "problem",
+    "scaling",
     "hermite",
     "looks",
     "guesses",

@@ -104,6 +104,8 @@ def _stated(compiled: CompiledModel) -> tuple[list[Stated], list[str]]:
     kept: list[Stated] = []
     unchecked: list[str] = []
     for statement, origin in compiled.requirements.stated:
+        if statement.warning:
+            continue
         if callable(statement.problem):
             unchecked.append(getattr(statement.subject, "name", "") or origin.path)
             kept.append((replace(statement, problem=""), origin))

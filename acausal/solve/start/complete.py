@@ -90,7 +90,7 @@ def ranked(
         # A condition can lack influence at one position without lacking it around.
         shake = POLICY.ranks.shake * np.random.default_rng(0).standard_normal(len(free))
         moved = at.x.copy()
-        moved[free] += shake * problem.nominal[free]
+        moved[free] += shake * problem.reaches[free]
         M, C = _reduced(problem, replace(at, x=moved), free, rows, flag)
         used, surplus = _independent(M, C)
     determined = (M.shape[0] if is_regular(M) else rank(M.toarray())) + len(used)
@@ -117,7 +117,7 @@ def _reduced(
 ) -> tuple[scipy.sparse.csc_matrix, np.ndarray]:
     """Jacobians of the constraints, and of some rows with algebraic unknowns eliminated, by the free states."""
     nx, nz = problem.nx, problem.nz
-    M, size = problem.gradients(at)[:, free], problem.nominal[free]
+    M, size = problem.gradients(at)[:, free], problem.reaches[free]
     if not rows.size:
         return M, np.zeros((0, len(free)))
     J = problem.local(at, flag).jacobian.tocsc()
@@ -166,17 +166,17 @@ def leave_singular(problem: Problem, at: Point) -> Point:
     pairs = np.array(problem.rates, dtype=int).reshape(-1, 2)
     moving = np.isin(pairs[:, 0], problem.compiled.constraints.states)
     coordinates, rates = pairs[moving].T
-    nominal = problem.nominal
-    if not np.any(np.abs(x[rates]) > LOOPS.rest * nominal[rates]):
+    sizes = problem.reaches
+    if not np.any(np.abs(x[rates]) > LOOPS.rest * sizes[rates]):
         raise InitializationError(
             f"the start at t = {at.time:g} s is a singular position at rest: nothing determines on which branch the loops "
             "continue. Give a velocity, for instance w=fixed(...) of a joint, or start away from it."
         )
-    later = LOOPS.away / float(np.max(np.abs(x[rates]) / nominal[coordinates]))
+    later = LOOPS.away / float(np.max(np.abs(x[rates]) / sizes[coordinates]))
     moved = x.copy()
     moved[coordinates] += later * x[rates]
     left = close(problem, replace(at, time=at.time + later, x=moved), np.empty(0, int))[0]
-    allowed = LOOPS.stays * np.max(np.abs(x[rates]) / nominal[rates]) * nominal[rates]
+    allowed = LOOPS.stays * np.max(np.abs(x[rates]) / sizes[rates]) * sizes[rates]
     if np.any(np.abs(left.x[rates] - x[rates]) > allowed):
         raise InitializationError(
             f"the start at t = {at.time:g} s is a singular position, where several branches meet, and these velocities are "

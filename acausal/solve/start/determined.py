@@ -17,9 +17,10 @@ from acausal.compiler.core_equations import core_square
 from acausal.compiler.once import once
 from acausal.policy import POLICY
 from acausal.solve.dependent import said_twice
+from acausal.solve.parts import Part, part_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part, part_of
+from acausal.solve.scaling import scaled_to_pivots
 from acausal.solve.there import ROUNDING, beside, is_rounding
 
 
@@ -52,8 +53,11 @@ def _pivots_hold(J: scipy.sparse.csc_matrix) -> bool:
     """Whether no pivot is the rounding of its terms; equations without a value are not looked at."""
     if not (J.shape[0] and np.all(np.isfinite(J.data))):
         return True
+    scaled = scaled_to_pivots(J)
+    if scaled is None:
+        return False
     try:
-        factors = scipy.sparse.linalg.splu(J, permc_spec="NATURAL")
+        factors = scipy.sparse.linalg.splu(scaled, permc_spec="NATURAL")
     except RuntimeError:
         return False
     terms = np.asarray(abs(factors.L).multiply(abs(factors.U).T).sum(axis=1)).ravel()

@@ -16,11 +16,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.parts import Part
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part
+from acausal.solve.reach import levels_of
 from acausal.solve.start.rank import pivots
-from acausal.solve.start.reach import held_in_sizes, levels_of
 from acausal.solve.start.regular import gram, least_singular_value
 
 RANKS = POLICY.ranks
@@ -62,7 +62,7 @@ class Held:
     def J(self) -> np.ndarray:
         """Their Jacobian, over the size of each equation: in a flat position a row may vanish by itself."""
         c = self.problem.compiled.constraints
-        held, _ = held_in_sizes(self.problem, self.x, self.times, self.constants.vector)
+        held, _ = self.problem.held_in_sizes(self.x, self.times, self.constants.vector)
         rows = c.entries[0]
         lengths = np.zeros((len(held), c.size))
         np.add.at(lengths.T, rows, held.T**2)

@@ -12,11 +12,11 @@ from acausal.compiler import CompiledModel
 from acausal.compiler.constants import Constants
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.parts import Part
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part
+from acausal.solve.reach import levels_of
 from acausal.solve.start.rank import columns_by_pivots, pivots
-from acausal.solve.start.reach import held_in_sizes, levels_of
 from acausal.solve.start.tangent import Elimination
 
 LOOPS, SMALL = POLICY.loops, POLICY.ranks.small
@@ -82,7 +82,7 @@ def sparing(problem: Problem, at: Point, held: np.ndarray) -> np.ndarray:
     held : array of int
         States that are given, which do not move.
     """
-    c, sizes = problem.compiled.constraints, problem.nominal[: problem.nx].copy()
+    c, sizes = problem.compiled.constraints, problem.reaches.copy()
     rows, columns = c.entries
     J = _held(problem, Rows.of(at), at.constants)[0][0] * c.counting(at.constants.closures)[rows]
     J[np.isin(columns, held)] = 0.0
@@ -261,7 +261,7 @@ def suits(problem: Problem, at: Point) -> bool:
 
 def _held(problem: Problem, rows: Rows, constants: Constants) -> tuple[np.ndarray, np.ndarray]:
     """Constraint Jacobians for states in their sizes, and these, as `Constraints.entries` has them."""
-    return held_in_sizes(problem, rows.x, rows.times, constants.vector)
+    return problem.held_in_sizes(rows.x, rows.times, constants.vector)
 
 
 def least_cosine(problem: Problem) -> float:

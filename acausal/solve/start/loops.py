@@ -12,11 +12,11 @@ from acausal.errors import InitializationError
 from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.policy import POLICY
+from acausal.solve.parts import part_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.conditions import giving, soft
 from acausal.solve.start.descent import Matrix, Residuals, descend
-from acausal.solve.start.parts import part_of
 from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
@@ -56,7 +56,7 @@ def close(
     positions : bool
         True for the lowest level of each constraint alone: positions, or velocities where a part states these.
     sizes : array, optional
-        Sizes over which changes of the states count, shape (nx,); nominal values if not given.
+        Sizes over which changes of the states count, shape (nx,); those in loops if not given.
     yielding : array of int, optional
         States among those that are held which change a little where the loops cannot close without.
 
@@ -68,7 +68,7 @@ def close(
         Largest residual, over its size.
     """
     at = _with_value(problem, at, held)
-    mismatch, sizes = 0.0, problem.nominal if sizes is None else sizes
+    mismatch, sizes = 0.0, problem.reaches if sizes is None else sizes
     is_lowest = problem.compiled.constraints.is_lowest
     for depth, (rows, columns) in enumerate(levels(problem.compiled)):
         if positions and not any(is_lowest[rows]):
@@ -80,7 +80,7 @@ def close(
             at, left = found
         else:
             at, left = _solve(problem, at, rows, free, depth > 0, sizes)
-        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.nominal[: problem.nx])):
+        if depth and LOOPS.closed < left <= LOOPS.rough * (1 + np.max(np.abs(at.x) / problem.reaches)):
             # Near a singular position rates are known only as well as the root of the positions.
             at, left = _solve(problem, at, rows, columns, depth > 0, sizes)
         mismatch = max(mismatch, left)
@@ -95,7 +95,7 @@ def _with_value(problem: Problem, at: Point, held: np.ndarray) -> Point:
         return at
     free = np.setdiff1d(problem.compiled.constraints.states, held)
     for k, size in enumerate(LOOPS.attempts):
-        start = at.x[free] + size * problem.nominal[free] * np.random.default_rng(k).standard_normal(len(free))
+        start = at.x[free] + size * problem.reaches[free] * np.random.default_rng(k).standard_normal(len(free))
         tried = _with(at, free, start)
         if np.all(np.isfinite(problem.constraints(tried)[0])):
             return tried
@@ -195,7 +195,7 @@ def polished(problem: Problem, at: Point, held: np.ndarray) -> Point | None:
     tight = at
     for rows, columns in levels(problem.compiled):
         free = np.setdiff1d(columns, held)
-        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.nominal[free])
+        found, left = _polish(_residuals(problem, tight, rows, free), tight.x[free], problem.reaches[free])
         if not left <= LOOPS.closed:
             return None
         tight = _with(tight, free, found)

@@ -14,9 +14,9 @@ from acausal.compiler.local import Local
 from acausal.compiler.once import once
 from acausal.errors import InitializationError
 from acausal.policy import POLICY
+from acausal.solve.parts import Part, part_of
 from acausal.solve.points import Point, Rows
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part, part_of
 from acausal.solve.start.rank import factored
 from acausal.solve.start.words import lost_text, worst_lines
 

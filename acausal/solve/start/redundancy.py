@@ -13,11 +13,11 @@ import numpy as np
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.parts import Part, part_of, parts, parts_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.kept import droppable
 from acausal.solve.start.loops import close
-from acausal.solve.start.parts import Part, part_of, parts, parts_of
 from acausal.solve.start.rank import is_regular, null_space, pivots, rank, scaled
 
 RANKS = POLICY.ranks
@@ -103,5 +103,5 @@ def _aside(problem: Problem, at: Point, doubtful: list[Part], here: list[np.ndar
         null = null_space(J)
         if len(null):
             direction = null.T @ random.standard_normal(len(null))
-            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.nominal[part.columns]
+            x[part.columns] += RANKS.motion * direction / np.linalg.norm(direction) * problem.reaches[part.columns]
     return None if np.array_equal(x, at.x) else replace(at, x=x)

@@ -54,18 +54,18 @@ def start(problem: Problem, time: float, later: float, initial: str, decides: bo
         mend = "" if isinstance(initial, str) else " Start values are given in the model: Revolute(phi=fixed(0.1))."
         raise DeclarationError(f"initial is {initial!r}; it must be one of {', '.join(INITIAL)}.{mend}")
     try:
-        return _started(problem, time, later, initial)
+        return _started(problem, time, later, initial, decides)
     except Restless as error:
         # A rest may lie behind a contact that a steady fall would reach; so steady motion comes last.
         with suppress(InitializationError):
-            return _started(problem, time, later, TURNING)
+            return _started(problem, time, later, TURNING, decides)
         raise InitializationError(str(error)) from None
 
 
-def _started(problem: Problem, time: float, later: float, initial: str) -> Start:
+def _started(problem: Problem, time: float, later: float, initial: str, decides: bool) -> Start:
     guards, p = problem.compiled.guards, problem.p
     tried = Assignments([k for k in guards.watched if k < guards.n_switches])
-    decides = decides and initial != "steady"  # an equilibrium may rest on friction
+    decides = decides and initial not in ("steady", TURNING)  # an equilibrium may rest on friction
     head = _released(problem, guards.estimate(p, time, later)[0].copy(), decides)
     head = tried.then(head, head)
     while head is not None and tried.count <= MOST:

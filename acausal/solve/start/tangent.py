@@ -11,9 +11,9 @@ import scipy
 from acausal.compiler import CompiledModel
 from acausal.compiler.once import once
 from acausal.policy import POLICY
+from acausal.solve.parts import Part, Places, part_of
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
-from acausal.solve.start.parts import Part, Places, part_of
 from acausal.solve.start.rank import null_space, pivots
 
 # Columns in one call of a sparse solver.
@@ -32,7 +32,7 @@ def tangent(problem: Problem, at: Point) -> tuple[np.ndarray, np.ndarray]:
     """
     if not problem.compiled.constraints.size:
         return np.eye(problem.nx), np.arange(problem.nx)
-    J, size = problem.gradients(at), problem.nominal[: problem.nx]
+    J, size = problem.gradients(at), problem.reaches
     null = null_space(J)
     rate_of = dict(problem.rates)
     # Whatever no constraint holds stays a state of its own, before all others; coordinates come before their rates.

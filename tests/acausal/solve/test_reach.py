@@ -8,7 +8,7 @@ import pytest
 import acausal as ac
 from acausal import guess
 from acausal.solve.problem import Problem
-from acausal.solve.start.reach import reaches
+from acausal.solve.reach import reaches
 from components import Prismatic
 from models import FourBar, SimplePendulum, Squeezer
 from tests.hard.test_units_of_length import LENGTHS, SliderCrank, Yoke
@@ -17,7 +17,7 @@ from tests.hard.test_units_of_length import LENGTHS, SliderCrank, Yoke
 def sizes(model: ac.Component) -> dict[str, float]:
     compiled = ac.compile(model)
     problem = Problem(compiled, compiled.parameter_values(None))
-    return dict(zip(compiled.states, reaches(problem).tolist(), strict=True))
+    return dict(zip(compiled.states, reaches(compiled, problem.p).tolist(), strict=True))
 
 
 @pytest.mark.parametrize(("scene", "slide"), [(SliderCrank, "slide.s"), (Yoke, "way.s")])
@@ -34,9 +34,7 @@ def test_a_slide_counts_in_lengths_of_the_machine(scene, slide):
 @pytest.mark.parametrize("scene", [FourBar, Squeezer, SimplePendulum])
 def test_coordinates_of_one_unit_count_in_nominal_values(scene):
     compiled = ac.compile(scene())
-    np.testing.assert_array_equal(
-        reaches(Problem(compiled, compiled.parameter_values(None))), compiled.nominal[: compiled.nx]
-    )
+    np.testing.assert_array_equal(reaches(compiled, compiled.parameter_values(None)), compiled.nominal[: compiled.nx])
 
 
 def test_declared_nominal_values_stay():

@@ -9,11 +9,11 @@ import pytest
 
 import acausal as ac
 from acausal.solve.integrate.order import eigenvalues_of
+from acausal.solve.parts import Part, parts
 from acausal.solve.points import Rows
 from acausal.solve.start.loop_states import _select, _spared, _transversality, choose_projection, independent, worn
 from acausal.solve.start.loops import close, levels, tighten
 from acausal.solve.start.newton import algebraic
-from acausal.solve.start.parts import Part, parts
 from acausal.solve.start.tangent import tangent
 from tests.acausal.solve.circle import compiled, plane, point, problem
 

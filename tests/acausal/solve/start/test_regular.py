@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy
 
+from acausal.solve.parts import parts_of
 from acausal.solve.start import loop_states
 from acausal.solve.start.loop_states import _oblique, _select, _transversality
-from acausal.solve.start.parts import parts_of
 from acausal.solve.start.rank import columns_by_pivots, is_regular, least_norm, null_space, outside, rank
 from acausal.solve.start.regular import complement, gram, least_singular_value, unit_rows
 
