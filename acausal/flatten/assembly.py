@@ -24,7 +24,7 @@ from acausal.flatten.flat_model import (
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said
-from acausal.flatten.simplify import DECLARED, Simplification, Simplifier
+from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.flatten.tape import Linear, Tape, expressions
 from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
@@ -129,7 +129,7 @@ class Assembly:
         done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units).run()
         self._refuse_contradictions(done)
         values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
-        self.origins += [self.origins[row] for _, row in done.left]
+        self.origins += [self.origins[source.row] for _, source in done.left]
         unused = self._unused(done)
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
@@ -165,17 +165,28 @@ class Assembly:
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
-            givers=lambda k: self._givers(left.rows[k], left.done),
+            givers=lambda k: self._givers(self._source(left.rows[k], left.done), left.done),
+            repeats=lambda: self._repeats(left.done),
         )
 
-    def _givers(self, row: int, done: Simplification) -> tuple[Origin, ...]:
+    def _source(self, row: int, done: Simplification) -> Source:
+        """What a row is: a residual, or a derivative that removed no unknown."""
+        n = self.residuals.numel()
+        return Source(row) if row < n else done.left[row - n][1]
+
+    def _givers(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
         """Equations that removed the unknowns of a residual, those of the whole model first."""
         place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))}
-        entries, found = scalars(self.residuals), [row]
-        for r in found:
-            inside = (place.get(s.element_hash()) for s in ca.symvar(entries[r]))
+        entries, found = scalars(self.residuals), [source]
+        for row, derivatives in found:
+            inside = (*(place.get(s.element_hash(), -1) for s in ca.symvar(entries[row])), *derivatives)
             found += dict.fromkeys(done.givers[k] for k in inside if k in done.givers and done.givers[k] not in found)
-        return tuple(sorted((self.origins[r] for r in found[1:]), key=lambda o: bool(o.path)))
+        return tuple(sorted((self.origins[s.row] for s in found[1:]), key=lambda o: bool(o.path)))
+
+    def _repeats(self, done: Simplification) -> tuple[tuple[Origin, ...], ...]:
+        """Redundant equations that close no loop, each followed by those that gave its unknowns."""
+        own = [*(Source(row) for row in done.redundant if row not in self.substitutes), *done.repeated]
+        return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._givers(s, done)))) for s in own)
 
     def _parameters(self) -> FlatParameters:
         own = self.raw.build.parameters
@@ -286,6 +297,6 @@ class Assembly:
 
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:
-            wrong = [(self.origins[row], value) for row, value in done.contradictions]
-            others = dict.fromkeys(o for row, _ in done.contradictions[:5] for o in self._givers(row, done))
+            wrong = [(self.origins[source.row], value) for source, value in done.contradictions]
+            others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._givers(source, done))
             raise UnbalancedModelError(contradiction_text(self.raw.build.root, wrong, others))

@@ -141,6 +141,8 @@ class FlatEquations:
         Redundant equations.
     givers : callable
         From a residual to the equations that gave the unknowns that were removed from it.
+    repeats : callable
+        Redundant equations that close no loop, each followed by those that gave its unknowns.
     """
 
     residuals: ca.SX
@@ -149,6 +151,7 @@ class FlatEquations:
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
     givers: Callable[[int], tuple[Origin, ...]]
+    repeats: Callable[[], tuple[tuple[Origin, ...], ...]]
 
 
 @dataclass(frozen=True)

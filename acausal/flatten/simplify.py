@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from acausal.flatten.tape import Linear, Tape, add, scale
 from acausal.policy import POLICY
@@ -20,6 +21,13 @@ PIVOT = POLICY.elimination.pivot
 ZERO = 1e-12
 
 
+class Source(NamedTuple):
+    """A residual; or a derivative of it, which holds the derivatives `unknowns` besides what it holds."""
+
+    row: int
+    unknowns: tuple[int, ...] = ()
+
+
 @dataclass
 class Simplification:
     """Result of the propagation, in indices of unknowns and residuals.
@@ -28,18 +36,19 @@ class Simplification:
     among the remaining ones; `used` are residuals that removed an unknown,
     `givers` those that gave each removed one, itself or by a derivative, `redundant` those that became 0 = 0, `kept`
     those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
-    that residual; `contradictions` can never hold.
+    that residual, `repeated` those that became 0 = 0; `contradictions` can never hold.
     """
 
     derivative: list[int]
     rank: list[int]
     solved: dict[int, Linear] = field(default_factory=dict)
     used: dict[int, int] = field(default_factory=dict)
-    givers: dict[int, int] = field(default_factory=dict)
+    givers: dict[int, Source] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
-    left: list[tuple[Linear, int]] = field(default_factory=list)
-    contradictions: list[tuple[int, float]] = field(default_factory=list)
+    left: list[tuple[Linear, Source]] = field(default_factory=list)
+    repeated: list[Source] = field(default_factory=list)
+    contradictions: list[tuple[Source, float]] = field(default_factory=list)
 
 
 class Simplifier:
@@ -77,7 +86,7 @@ class Simplifier:
                 self.down[upper] = lower
         self.rank = rank
         self.result = Simplification(self.up, rank, tape.solved)
-        self.extra: list[tuple[Linear, int]] = []
+        self.extra: list[tuple[Linear, Source]] = []
         self.done: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
@@ -89,32 +98,34 @@ class Simplifier:
                     self._visit(row)
             left = []
             while self.extra:
-                value, row = self.extra.pop()
-                if not self._derived(value, row):
-                    left.append((value, row))
+                value, source = self.extra.pop()
+                if not self._derived(value, source):
+                    left.append((value, source))
             # What becomes known later may let them remove an unknown.
             self.extra = left
             queue = self.tape.update()
-        self.result.left = [(value, row) for value, row in self._settled(self.extra) if value[1]]
-        kept = self._settled([(value, row) for row, value in self.result.kept.items()])
-        self.result.kept = {row: value for value, row in kept if value[1]}
-        self.result.redundant += [row for value, row in kept if not value[1]]
+        self.result.left = [(value, source) for value, source in self._settled(self.extra) if value[1]]
+        kept = self._settled([(value, Source(row)) for row, value in self.result.kept.items()])
+        self.result.kept = {source.row: value for value, source in kept if value[1]}
+        self.result.redundant += [source.row for value, source in kept if not value[1]]
         return self.result
 
-    def _settled(self, values: list[tuple[Linear, int]]) -> list[tuple[Linear, int]]:
+    def _settled(self, values: list[tuple[Linear, Source]]) -> list[tuple[Linear, Source]]:
         """Write values in unknowns that remain, and note contradictions."""
-        found = [(self.tape.resolve(value), row) for value, row in values]
-        self.result.contradictions += [(row, v[0]) for v, row in found if not v[1] and abs(v[0]) > ZERO]
+        found = [(self.tape.resolve(value), source) for value, source in values]
+        self.result.contradictions += [(source, v[0]) for v, source in found if not v[1] and abs(v[0]) > ZERO]
         return found
 
-    def _derived(self, value: Linear, row: int) -> bool:
+    def _derived(self, value: Linear, source: Source) -> bool:
         """Use the derivative of a residual to remove an unknown; False if it has to stay."""
         value = self.tape.resolve(value)
         if not value[1]:
             if abs(value[0]) > ZERO:
-                self.result.contradictions.append((row, value[0]))
+                self.result.contradictions.append((source, value[0]))
+            else:
+                self.result.repeated.append(source)
             return True
-        return self._assign(value, row, derived=True)
+        return self._assign(value, source)
 
     def _visit(self, row: int) -> None:
         value = self.tape.value[self.tape.residual[row]]
@@ -124,17 +135,17 @@ class Simplifier:
         if not value[1]:
             self.done.add(row)
             if abs(value[0]) > ZERO:
-                self.result.contradictions.append((row, value[0]))
+                self.result.contradictions.append((Source(row), value[0]))
             else:
                 self.result.redundant.append(row)
                 if row in self.substitutes:
                     self.done.discard(self.substitutes[row])
                     self._visit(self.substitutes[row])
-        elif row not in self.substitutes and self._assign(value, row):
+        elif row not in self.substitutes and self._assign(value, Source(row)):
             self.done.add(row)
 
-    def _assign(self, value: Linear, row: int, derived: bool = False) -> bool:
-        """Use `value == 0`, the residual `row` or its derivative, to remove an unknown; False if none may be removed."""
+    def _assign(self, value: Linear, source: Source) -> bool:
+        """Use `value == 0`, a residual or its derivative, to remove an unknown; False if none may be removed."""
         c0, terms = value
         pivots = [term for term in terms if self._may_divide(term, terms)]
         candidates = sorted(pivots, key=lambda term: (self._standing(term[0]), -term[0]))
@@ -142,13 +153,13 @@ class Simplifier:
             rest = tuple((u, k) for u, k in terms if u != unknown)
             solution = scale((c0, rest), -1 / c)
             if self._may_replace(unknown, solution):
-                self._replace(unknown, solution, row)
-                if not derived:
-                    self.result.used[row] = unknown
+                self._replace(unknown, solution, source)
+                if not source.unknowns:
+                    self.result.used[source.row] = unknown
                 return True
-        if len(terms) == 1 and not derived:
+        if len(terms) == 1 and not source.unknowns:
             # The derivative of an unknown is constant: others may know, but the chain needs the unknown itself.
-            self.result.kept[row] = value
+            self.result.kept[source.row] = value
             return True
         return False
 
@@ -182,9 +193,9 @@ class Simplifier:
             unknown = self.down[unknown]
         return unknown
 
-    def _replace(self, unknown: int, solution: Linear, row: int) -> None:
+    def _replace(self, unknown: int, solution: Linear, source: Source) -> None:
         self.tape.solve(unknown, solution)
-        self.result.givers[unknown] = row
+        self.result.givers[unknown] = source
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1
         other, c = solution[1][0] if solution[1] else (-1, 0.0)
@@ -195,10 +206,10 @@ class Simplifier:
             return
         self.down[upper] = -1
         if other < 0:
-            self.extra.append(((0.0, ((upper, 1.0),)), row))
+            self.extra.append(((0.0, ((upper, 1.0),)), Source(source.row, (*source.unknowns, upper))))
         elif self.up[other] < 0:
             self.up[other], self.down[upper] = upper, other
         else:
             link = add((0.0, ((upper, 1.0),)), (0.0, ((self.up[other], c),)), -1.0)
             assert link is not None
-            self.extra.append((link, row))
+            self.extra.append((link, Source(source.row, (*source.unknowns, upper, self.up[other]))))

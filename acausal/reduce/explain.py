@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import casadi as ca
 
@@ -19,6 +19,7 @@ from acausal.symbols import scalars
 
 MOST, SHORT = 5, 3
 UNCONNECTED = "Not connected"
+OUT = "take one of them out"
 KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
 DECLARED = "What an equation is to determine is declared variable(...)."
 
@@ -44,8 +45,10 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
     lines = [head]
     if over and under and not _hints(flat, under):
-        lines += _determined(flat, over[0])[0] + _undetermined(flat, under)
-        return "\n".join([*lines, f"One of the first equations should probably contain {_one_of(flat, under)}."])
+        stated, mend = _determined(flat, over[0])
+        if OUT not in mend:
+            mend = f"One of the first equations should probably contain {_one_of(flat, under)}."
+        return "\n".join([*lines, *stated, *_undetermined(flat, under), mend])
     if over:
         lines += _too_many(flat, over[0])
     if under:
@@ -79,7 +82,8 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     inside = [o for o in dict.fromkeys(origins[e] for e in rows) if o.kind != "root"]
     givers = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
     every = dict.fromkeys([*inside, *givers])
-    users = _lines([o for o in every if is_users(flat.tree, o)], bases)
+    own = [o for o in every if is_users(flat.tree, o)]
+    users, rivals = _lines(own, bases), _rivals(own)
     n = len(part.variables)
     # Where unknowns are left, what parts gave of them is no more than how the equations were solved.
     stated = [o for o in (inside if n else every) if not is_users(flat.tree, o)]
@@ -90,7 +94,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
         one = len(users) == 1
         head = "This equation has" if one else "One of these equations has"
         held = f"These already determine what {'it holds' if one else 'they hold'}:"
-        mend = "Remove it." if one else "Remove one of yours."
+        mend = "Remove it." if one else rivals or "Remove one of yours."
         return [f"{head} no unknown left to determine:", *users, held, *others], mend
     if not n:
         return ["One of these equations has no unknown left to determine:", *(users or others)], "Remove one of them."
@@ -98,7 +102,15 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     own = _lines(inside, bases)
     given = [line for line in users if line not in own]
     lines = [count, *own, *(["with others that are given by:", *given] if given else [])]
-    return lines, "One of them is too many: remove it."
+    return lines, rivals or "One of them is too many: remove it."
+
+
+def _rivals(users: Iterable[Origin]) -> str:
+    """Name the parts for which the user states all of these equations; "" where it is one part, or the model itself."""
+    names = [f"`{path}`" for path in dict.fromkeys(o.path for o in users)]
+    if "``" in names or not 1 < len(names) <= MOST:
+        return ""
+    return f"{', '.join(names[:-1])} and {names[-1]} determine the same: {OUT}."
 
 
 def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str], str]:
@@ -143,6 +155,8 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     """What nothing determines, the likely cause first, and the mend."""
     hints = _hints(flat, part)
     lines = [*hints, *_undetermined(flat, part)]
+    if not hints and (repeats := _repeats(flat)):
+        return [*lines, *repeats]
     ports = any(line.startswith(UNCONNECTED) for line in hints)
     mend = (
         "Connect the part, or give it what is missing"
@@ -154,6 +168,20 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
     mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, mend + zero]
+
+
+def _repeats(flat: FlatModel) -> list[str]:
+    """Equations of which one repeats what the others say, the user's own where there are several; and the mend."""
+    found = flat.equations.repeats()
+    if not found:
+        return []
+    # A group to which the user contributes most holds the likely slip.
+    stated, users = max(
+        ((own, [o for o in own if is_users(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
+    )
+    lines = _lines(users if len(users) > 1 else [*users, *(o for o in stated if o not in users)], {})
+    mend = _rivals(users) or "Replace one of them, or take out a part that determines the same as another."
+    return ["One of these equations repeats what the others say, and determines nothing:", *lines, mend]
 
 
 def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:

@@ -41,7 +41,7 @@ def test_parameters_are_no_constants() -> None:
 def test_redundant_and_contradictory_equations() -> None:
     done = simplify([x[0] - x[1], x[1] - x[0], x[2] - 1, x[2] - 2])
     assert done.redundant == [1]
-    assert [(row, abs(value)) for row, value in done.contradictions] == [(3, 1.0)]
+    assert [(source.row, abs(value)) for source, value in done.contradictions] == [(3, 1.0)]
 
 
 def test_speed_becomes_the_derivative() -> None:
