@@ -75,10 +75,10 @@ def without_value(
         return ""
     if broken := _broken(problem, there):
         return broken
-    found = [(row, *_operation(row, there)) for row in rows]
+    found = [(row, *operation(row, there)) for row in rows]
     lines = list(dict.fromkeys(_line(row, text) for row, text, _ in found))[: CAUSES.shown]
     what = "these equations have" if len(lines) > 1 else f"this {rows[0].kind} has"
-    own = _mend(problem, there, rows, found[0][2])
+    own = remedy(problem, there, rows, found[0][2])
     head = f"at t = {at.time:.6g} s " if timed else ""
     return "\n".join([f"{head}{what} no value:", *lines, own or mend or mend_of(problem, found[0][2])])
 
@@ -108,7 +108,7 @@ def _broken(problem: Problem, there: There) -> str:
     return ""
 
 
-def _mend(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
+def remedy(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
     """Which parameter needs another value, "" if variables are the cause."""
     zeros = [name for name, k in zeros_in(problem, rows) if not _fails(there.with_parameter(k, 1.0), rows)]
     own = problem.compiled.reduced.flat.parameters
@@ -129,7 +129,7 @@ def _line(row: Row, what: str) -> str:
     return f"  {row.origin}: {'' if row.kind == EQUATION else f'the {row.kind} '}{what}"
 
 
-def _operation(row: Row, there: There) -> tuple[str, Any]:
+def operation(row: Row, there: There) -> tuple[str, Any]:
     """The first operation in an expression that has no value, in words, and its operand."""
     nodes: list[Any] = []
     seen: set[int] = set()

@@ -82,7 +82,7 @@ def initialize(problem: Problem, time: float, head: np.ndarray, initial: str) ->
         If conditions are missing or contradict each other, or no solution is found.
     """
     compiled, loops = problem.compiled, bool(problem.compiled.constraints.size)
-    at, redundancy = _guess(problem, time, head), Redundancy()
+    at, redundancy = first_guess(problem, time, head), Redundancy()
     if initial in ("steady", TURNING):
         first = _sparse(problem, at) if initial == "steady" else None
         at, redundancy, _ = _closed(problem, at)
@@ -143,7 +143,7 @@ def _told(problem: Problem, at: Point, local: Local) -> Local:
         return local
 
 
-def _guess(problem: Problem, time: float, head: np.ndarray) -> Point:
+def first_guess(problem: Problem, time: float, head: np.ndarray) -> Point:
     """Start values of all unknowns."""
     y = problem.compiled.start(problem.p, time)[0].copy()
     return Point(time, y[: problem.nx], y[problem.nx :], problem.compiled.layout.begin(head, problem.feedback))

@@ -19,9 +19,10 @@ from acausal.solve.problem import Problem
 from acausal.solve.start.assignments import MOST, Assignments
 from acausal.solve.start.complete import leave_singular
 from acausal.solve.start.determined import undetermined
-from acausal.solve.start.initialize import INITIAL, TURNING, Start, initialize
+from acausal.solve.start.initialize import INITIAL, TURNING, Start, first_guess, initialize
 from acausal.solve.start.loop_states import choose_projection
 from acausal.solve.start.newton import Lost, algebraic
+from acausal.solve.start.no_numbers import no_numbers
 from acausal.solve.start.steady import Restless
 from acausal.solve.undecided import undecided
 
@@ -66,7 +67,10 @@ def _started(problem: Problem, time: float, later: float, initial: str, decides:
     guards, p = problem.compiled.guards, problem.p
     tried = Assignments([k for k in guards.watched if k < guards.n_switches])
     decides = decides and initial not in ("steady", TURNING)  # an equilibrium may rest on friction
-    head = _released(problem, guards.estimate(p, time, later)[0].copy(), decides)
+    head = guards.estimate(p, time, later)[0].copy()
+    if text := no_numbers(problem, first_guess(problem, time, head)):
+        raise InitializationError(text)
+    head = _released(problem, head, decides)
     head = tried.then(head, head)
     while head is not None and tried.count <= MOST:
         try:

@@ -3,7 +3,7 @@
 import acausal as ac
 from acausal import Model, chain, connect, fixed, sin, time
 from components import Body, Revolute, World
-from components.rotational import Fixed, Inertia, Position, Spring, Speed
+from components.rotational import Fixed, Inertia, Position, Speed, Spring
 
 
 class Shaft(Model):
@@ -33,14 +33,14 @@ def driven_by_angle_and_constant_speed(repaired):
             yield chain(self.position, self.rotor)
             yield chain(self.speed, self.spring, self.rotor) if repaired else chain(self.speed, self.rotor)
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, initial="guesses")
 
 
 def driven_by_two_angles(repaired):
     class M(Sprung if repaired else Shaft):
         two = Position(phi_ref=sin(time))
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, initial="guesses")
 
 
 def driven_by_two_speeds(repaired):
@@ -54,7 +54,7 @@ def driven_by_speed_and_filtered_angle(repaired):
     class M(Sprung if repaired else Shaft):
         one = Position(phi_ref=time, exact=False)
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, initial="guesses")
 
 
 def driven_three_times(repaired):
@@ -66,7 +66,7 @@ def driven_three_times(repaired):
             yield from super().connections()
             yield chain(self.three, self.third, self.rotor) if repaired else chain(self.three, self.rotor)
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, initial="guesses")
 
 
 def held_and_turned(repaired):
@@ -122,4 +122,4 @@ def driven_and_prescribed(repaired):
             if not repaired:
                 yield self.rotor.w == 3 + time
 
-    ac.simulate(M(), stop_time=0.1)
+    ac.simulate(M(), stop_time=0.1, initial="guesses")
