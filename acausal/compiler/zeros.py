@@ -19,9 +19,9 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.reduce import plan_of
-from acausal.symbols import scalars, vec
+from acausal.symbols import scalars, stacked, vec
 
-MOST, SECONDS = 12, 5.0  # parameters that are tried, and how long
+MOST, SECONDS = 40, 5.0  # parameters that are tried, and how long
 SHORT = 3  # unknowns that are named
 
 
@@ -52,32 +52,37 @@ def mend_of_zeros(model: Component, parameters: Mapping[str, Any] | None, flat: 
     zeros = _zeros(flat, getattr(error.__context__, "under", ()))
     ends, completed = clock.perf_counter() + SECONDS, dict[tuple[str, ...], FlatModel]()
 
-    def completes(*tried: str) -> bool | None:
-        """Whether the model has as many equations as it needs, None where it rejects the values."""
+    def lacking(*tried: str) -> float:
+        """How many equations the model lacks with other values of these, infinite where it rejects them."""
         try:
             tried_flat = flatten(model, {**(parameters or {}), **{path: zeros[path].other for path in tried}})
-        except AcausalError:
-            return None
-        try:
             plan_of(tried_flat)
-        except (UnbalancedModelError, StructurallySingularError):
-            return False
+        except (UnbalancedModelError, StructurallySingularError) as error:
+            return _lacking(error) or np.inf
         except AcausalError:
-            return None
+            return np.inf
         completed[tried] = tried_flat
-        return True
+        return 0
 
-    found = {path: completes(path) for path in zeros if clock.perf_counter() < ends}
-    alone = [path for path, complete in found.items() if complete]
-    needed = [path for path, complete in found.items() if complete is False]
-    if not alone and (len(needed) < 2 or not completes(*needed)):
+    found = {path: lacking(path) for path in zeros if clock.perf_counter() < ends}
+    alone = [path for path, count in found.items() if count == 0]
+    # Two factors of one product help together only.
+    needed = [path for path, count in found.items() if count < _lacking(error)] or [
+        p for p in found if found[p] < np.inf
+    ]
+    if not alone and (len(needed) < 2 or lacking(*needed)):
         return ""
     for path in () if alone else tuple(needed):
-        if clock.perf_counter() < ends and completes(*(rest := [p for p in needed if p != path])):
+        if clock.perf_counter() < ends and not lacking(*(rest := [p for p in needed if p != path])):
             needed = rest
     ways = [(path,) for path in alone] or [tuple(needed)]
     gained = [_gained(flat, completed[way], [zeros[path] for path in way]) for way in ways]
     return _told([zeros[path] for path in alone or needed], bool(alone), gained)
+
+
+def _lacking(error: AcausalError) -> int:
+    """How many equations a model lacks whose structure was refused, in its under-determined parts."""
+    return sum(len(part.variables) - len(part.equations) for part in getattr(error.__context__, "under", ()))
 
 
 def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
@@ -90,7 +95,7 @@ def _told(zeros: list[_Zero], alone: bool, gained: list[dict[str, str]]) -> str:
     lines = "\n".join(f"  {zero.mend}" for zero in zeros)
     return (
         f"{head} parameter {where}, so the terms that it multiplies were removed. Give {which}:\n{lines}\n"
-        "or a connection or an equation that determines it."
+        "or connect a part that has mass or inertia, or add an equation that determines it."
     )
 
 
@@ -126,6 +131,7 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
     parts, names, origins = list(parts), flat.unknowns.names, flat.equations.origins
     touched = {names[v] for part in parts for v in part.variables if v < len(names)}
     touched |= {origins[e].path for part in parts for e in part.equations if e < len(origins)}
+    moved = _moved(flat, {v for part in parts for v in part.variables})
     set_, some = (
         {re.sub(r"\[[\d,]+\]$", "", name) for name in own}  # parameters of entries
         for own in (flat.parameters.structural_zeros, flat.parameters.names)
@@ -135,7 +141,8 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
     found = {}
     for component in walk(flat.tree):
         path = component._path
-        if path and not any(t == path or t.startswith((f"{path}.", f"der({path}.")) for t in touched):
+        near = any(t == path or t.startswith((f"{path}.", f"der({path}.")) for t in touched)
+        if path and not near and path not in moved:
             continue
         for name, declared in component.fields.items():
             whole = join(path, name)
@@ -147,6 +154,23 @@ def _zeros(flat: FlatModel, parts: Iterable[Any]) -> dict[str, _Zero]:
                 mend = f"{where}{type(component).__name__}({name}=...), {declared.description}"
                 found[whole] = _Zero(component, zero, _other(getattr(component, name).shape), mend)
     return found
+
+
+def _moved(flat: FlatModel, unknowns: set[int]) -> set[str]:
+    """Paths of the components with a variable that is an alias of some unknowns or of their derivatives."""
+    own, up = scalars(flat.unknowns.symbols), flat.unknowns.derivative
+    reached = [v for v in unknowns if v < len(own)]
+    reached += (up[v] for v in reached if up[v] >= 0)
+    inside = {own[v].element_hash() for v in reached}
+    columns = [(c._path, vec(e.sx)) for c in walk(flat.tree) for n, e in vars(c).items() if _is_variable(c, n)]
+    paths = [path for path, column in columns for _ in range(column.numel())]
+    remaining = ca.substitute([stacked([column for _, column in columns])], *([e] for e in flat.unknowns.eliminated))[0]
+    held = zip(paths, scalars(remaining), strict=True)
+    return {path for path, e in held if any(s.element_hash() in inside for s in ca.symvar(e))}
+
+
+def _is_variable(component: Component, name: str) -> bool:
+    return isinstance(component.fields.get(name), f.Variable)
 
 
 def _is_singular(value: Any) -> bool:

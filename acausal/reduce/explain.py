@@ -218,6 +218,9 @@ def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
         if isinstance(declared, Variable) and declared.causality == "input" and own not in c._values
         if _holds(flat, part, getattr(c, own).sx)
     ]
+    if not ports and not inputs:
+        owners = {n.rpartition(".")[0] for n in names}
+        ports = [p for p in flat.unconnected if p.rpartition(".")[0] in owners]
     lines = [f"{UNCONNECTED}: {', '.join(f'`{p}`' for p in ports[:MOST])}."] if ports else []
     if inputs:
         lines.append(f"Inputs that need a value or an equation: {', '.join(f'`{i}`' for i in inputs[:MOST])}.")

@@ -110,7 +110,7 @@ def _broken(problem: Problem, there: There) -> str:
 
 def remedy(problem: Problem, there: There, rows: list[Row], operand: Any) -> str:
     """Which parameter needs another value, "" if variables are the cause."""
-    zeros = [name for name, k in zeros_in(problem, rows) if not _fails(there.with_parameter(k, 1.0), rows)]
+    zeros = zeros_in(problem, rows, lambda places: not _fails(there.with_parameters(places, 1.0), rows))
     own = problem.compiled.reduced.flat.parameters
     names = {s.element_hash(): name for name, s in zip(own.names, scalars(own.symbols), strict=True)}
     inside = [s.element_hash() for s in ca.symvar(operand)]

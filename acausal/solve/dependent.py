@@ -44,7 +44,7 @@ def dependent(problem: Problem, at: Point, flag: float = 0.0) -> str:
     origins = dict.fromkeys(str(rows[k].origin) for k in _heavy(left) if rows[k].origin.where)
     open_ = [f"`{names[there.whole.solved[k]]}`" for k in _heavy(right) if names[there.whole.solved[k]]]
     inside = [rows[k] for k in _heavy(left)]
-    zeros = [name for name, k in zeros_in(problem, inside) if not len(_null(there.with_parameter(k, 1.0))[1])]
+    zeros = zeros_in(problem, inside, lambda places: not len(_null(there.with_parameters(places, 1.0))[1]))
     what = ", ".join(open_[: CAUSES.shown]) + (f" and {more} more" if (more := len(open_) - CAUSES.shown) > 0 else "")
     lines = "\n".join(f"  {origin}" for origin in list(origins)[: CAUSES.shown])
     if zeros:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -50,23 +51,37 @@ class There:
         J, changed = (self.whole.jacobian(*at.arguments) for at in (self, replace(self, p=beside(self.p))))
         return np.where(is_rounding(J, changed), 0.0, J)
 
-    def with_parameter(self, k: int, value: float) -> There:
-        """The same point with another parameter."""
+    def with_parameters(self, places: Sequence[int], value: float) -> There:
+        """The same point with other parameters."""
         p = self.p.copy()
-        p[k] = value
+        p[list(places)] = value
         return replace(self, p=p)
 
 
-def zeros_in(problem: Problem, rows: list[Row]) -> list[tuple[str, int]]:
-    """Parameters in some rows that are 0."""
+def zeros_in(problem: Problem, rows: list[Row], matters: Callable[[Sequence[int]], bool]) -> list[str]:
+    """Return the parameters in some rows that are 0 and matter: single ones, or where none does alone, whole arrays.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    rows : list of Row
+        Where they are looked for.
+    matters : callable
+        Whether the rows are in order with other values of the parameters at some places.
+    """
     own = problem.compiled.reduced.flat.parameters
     inside = {s.element_hash() for row in rows for s in ca.symvar(row.expression)}
     symbols = scalars(own.symbols)
-    return [
-        (name, k)
-        for k, (name, s) in enumerate(zip(own.names, symbols, strict=True))
-        if s.element_hash() in inside and problem.p[k] == 0
-    ]
+    zeros = {own.names[k]: k for k, s in enumerate(symbols) if s.element_hash() in inside and problem.p[k] == 0}
+    if alone := [name for name, k in zeros.items() if matters([k])]:
+        return alone
+    arrays: dict[str, list[int]] = {}
+    for name, k in zeros.items():
+        array, _, index = name.removesuffix("]").partition("[")
+        if index and len(set(index.split(","))) == 1:  # a vector, or the diagonal of a matrix
+            arrays.setdefault(array, []).append(k)
+    return [array for array, places in arrays.items() if len(places) > 1 and matters(places)]
 
 
 def of_zeros(names: list[str]) -> str:
