@@ -9,6 +9,8 @@ from collections.abc import Iterable, Sequence
 LONG = 200  # characters of a path
 MOST = 8  # names that are listed
 NEAR = 0.6  # similarity of two names that differ by a slip
+SLIP = 0.85  # similarity of two names of which one is the other misspelt
+PIECE, WORD = 3, 4  # letters of a name inside another one, and of a word that two names share: shorter ones are chance
 
 
 def nearest(path: str, known: Sequence[str]) -> list[str]:
@@ -17,12 +19,50 @@ def nearest(path: str, known: Sequence[str]) -> list[str]:
     near += [name for name in known if name.casefold() == path.casefold() and name not in near]
     alike = [name for name in known if _is_near(path, name)]
     near += [name for name in difflib.get_close_matches(path[:LONG], alike, 3, 0.5) if name not in near]
+    part, _, own = path.rpartition(".")
+    beside = {name.rpartition(".")[2]: name for name in known if name.rpartition(".")[0] == part}
+    near += [beside[name] for name in _related(own, beside)[:1] if not near]
     return near[:3]
 
 
-def likeliest(name: str, known: Iterable[str], share: float = 0.6) -> str:
-    """Return the name that resembles another one most, "" if none resembles it by this share at least."""
-    return next(iter(difflib.get_close_matches(name, known, 1, share)), "")
+def likeliest(name: str, known: Iterable[str], share: float = NEAR) -> str:
+    """Return the name that was probably meant by one that does not exist, "" if none resembles it.
+
+    Slips of spelling come first, then names that have a word in common with it, then others.
+
+    Parameters
+    ----------
+    name : str
+        What does not exist.
+    known : iterable of str
+        Names that do.
+    share : float
+        How much of the letters others have in common with it, from 0 to 1.
+    """
+    known = list(known)
+    slip, other = (difflib.get_close_matches(name, known, 1, least) for least in (SLIP, share))
+    return next(iter([*slip, *_related(name, known), *other]), "")
+
+
+def _related(name: str, known: Iterable[str]) -> list[str]:
+    """Return names that contain another one, then those inside it, then those that share words with it; the nearest first."""
+    own, plain = _words(name), _plain(name)
+    found = []
+    for k in known:
+        words, other = _words(k), _plain(k)
+        inside = min(len(k), len(name)) >= PIECE and (plain in other or other in plain)
+        shared = sum(len(word) >= WORD for word in own & words)
+        if inside or shared:
+            found.append((not inside, inside and len(k) < len(name), -shared, abs(len(k) - len(name)), k))
+    return [k for *_, k in sorted(found)]
+
+
+def _plain(name: str) -> str:
+    return name.casefold().replace("-", "_")
+
+
+def _words(name: str) -> set[str]:
+    return set(_plain(name).split("_"))
 
 
 def missing(path: str, known: Sequence[str], kind: str = "") -> str:

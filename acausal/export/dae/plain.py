@@ -35,8 +35,8 @@ from acausal.structure.constraints import Constrained, Constraint, Projection
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
-# What is left out has no meaning without the classes of a model: `givers`, which explains models that cannot be compiled;
-# `tree`, which is written by itself.
+# What is left out has no meaning without the classes of a model: `givers` and `repeats`, which explain models that cannot be
+# compiled; `tree`, which is written by itself.
 FIELDS: dict[type, str] = {
     Origin: "path kind where text",
     Initial: "residual text origin",

@@ -1,0 +1,39 @@
+"""Names that are meant by others: slips of spelling, parts of a name, words in common."""
+
+import pytest
+
+from acausal.nearest import likeliest, nearest
+from components import Body, FlexibleBeam, Revolute, SubstructuredBeam
+
+
+@pytest.mark.parametrize(
+    ("cls", "name", "meant"),
+    [
+        (SubstructuredBeam, "elements", "elements_per_volume"),
+        (SubstructuredBeam, "element", "elements_per_volume"),
+        (SubstructuredBeam, "n_elements", "elements_per_volume"),
+        (SubstructuredBeam, "number_of_volumes", "volumes"),
+        (FlexibleBeam, "element", "elements"),
+        (FlexibleBeam, "stiffness", "geometric_stiffness"),
+        (FlexibleBeam, "inertia", "rotary_inertia"),
+        (Revolute, "use_axis", "use_axis_flange"),
+        (Revolute, "flange", "use_axis_flange"),
+        (Body, "CM", "r_CM"),
+        (Body, "gyroscopc", "gyroscopic"),
+    ],
+)
+def test_a_field(cls, name, meant):
+    assert likeliest(name, cls.fields) == meant
+
+
+def test_a_misspelt_name_comes_before_one_with_a_common_word():
+    assert likeliest("inner_diamter", ["outer_inner", "inner_diameter", "diamter_of_all"]) == "inner_diameter"
+
+
+def test_what_has_nothing_in_common():
+    assert likeliest("voltage", ["phi", "w", "a", "tau"]) == ""
+
+
+def test_a_path_is_looked_for_in_its_part():
+    known = ["beam.elements_per_volume", "rod.elements", "beam.volumes"]
+    assert nearest("beam.elements", known) == ["beam.elements_per_volume"]
