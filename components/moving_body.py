@@ -35,7 +35,7 @@ class MovingBody(Component):
         doc="In rad; the orientation of a freely moving body, a guess unless angles_fixed. Joints that hold the "
         "body have start values of their own.",
     )
-    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
+    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     r_0: Vector3 = variable("position of the body, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")

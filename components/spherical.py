@@ -31,7 +31,7 @@ class Spherical(TwoFrames):
         shape=(3,),
         doc="In rad; the orientation of frame_b relative to frame_a.",
     )
-    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,))
+    sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
     Q_start: Any = structural(
         "quaternion of these angles",

@@ -41,8 +41,12 @@ def structural_value(bound: Component, declared: f.Structural, given: Any, where
             f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
             "later. Give numbers, or declare the parameter that it follows from by structural(...)."
         )
-    if declared.choices is not None and not any(_is(value, c) for c in declared.choices):
-        raise DeclarationError(f"{where} is {_written(value)}; it must be {one_of(declared.choices)}.")
+    if declared.choices is not None:
+        each = isinstance(declared.shape, tuple)
+        entries = numeric(value, declared.shape, where).flat if each else [value]
+        if not all(any(_is(entry, c) for c in declared.choices) for entry in entries):
+            which = "each entry" if each else "it"
+            raise DeclarationError(f"{where} is {_written(value)}; {which} must be {one_of(declared.choices)}.")
     if value is None and declared.default is None:
         return None
     if declared.cls is not None:

@@ -43,7 +43,7 @@ def structural(
     default : object
         Value where none is given; a function of the component for one that depends on other structural parameters.
     choices : sequence, optional
-        The allowed values.
+        The allowed values; of an array those of each entry.
     cls : type, optional
         Class of the value, int for a whole number. None is allowed as well where it is the default. Where the class reads
         files, `load(path)`, the name of a file stands for what it holds. Data that are compared, in a journal or a study,

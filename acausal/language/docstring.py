@@ -57,7 +57,8 @@ def _type(cls: Any, name: str, field: f.Field) -> str:
     choices, kind = (field.choices, field.cls) if isinstance(field, f.Structural) else (None, None)
     if choices and set(choices) != {True, False}:
         *most, last = (_shown(choice) for choice in choices)
-        return f"{', '.join(most)} or {last}" if most else last
+        text = f"{', '.join(most)} or {last}" if most else last
+        return f"array of {text}, shape {field.shape}" if isinstance(field.shape, tuple) else text
     annotation = next((a[name] for base in cls.__mro__ if name in (a := inspect.get_annotations(base))), "")
     plain = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
     if choices or plain in PLAIN:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import hashlib
 import inspect
-import pickle
 import sys
 from collections.abc import Iterator, Sequence
 from types import CodeType
@@ -76,11 +75,8 @@ def check_sendable(name: str, run: Any, home: str) -> None:
     """
     try:
         pack(run, home)
-    except (TypeError, AttributeError, ValueError, pickle.PicklingError) as error:
-        raise DeclarationError(
-            f"formulation `{name}`: the run cannot be sent to workers: {error}. Let it be a function of a file, and make there "
-            "what it needs."
-        ) from None
+    except DeclarationError as error:
+        raise DeclarationError(f"formulation `{name}`: the run: {error}") from None
 
 
 def identity_of(run: Any) -> Any:

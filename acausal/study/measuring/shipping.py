@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import pickle
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,9 +14,13 @@ from typing import Any
 import casadi as ca
 import cloudpickle
 
-from acausal.language.fields import MISSING
+from acausal.errors import DeclarationError
+from acausal.language.fields import MISSING, Template
 from acausal.language.shipped import symbols, text
 from acausal.locks import alone
+from acausal.study.measuring.unsendable import unsendable
+
+UNSENDABLE = (TypeError, AttributeError, ValueError, RecursionError, pickle.PicklingError)
 
 
 @alone
@@ -30,11 +35,36 @@ def pack(model: Any, home: str = "") -> bytes:
         An instance, such as SpinUp(omega=4).
     home : str
         Module of the class of the model; not needed for a model itself.
+
+    Raises
+    ------
+    DeclarationError
+        If something in it cannot be sent, such as an open file; by its name.
     """
-    stream = io.BytesIO()
     with _by_value(sys.modules[home or type(model).__module__]):
-        _Pickler(stream).dump(model)
+        try:
+            return _sent(model)
+        except UNSENDABLE as error:
+            what = unsendable(model, _sends) or f"it holds what cannot be sent: {error}"
+            name = type(model).__name__ if isinstance(model, Template) else "what is given"
+            raise DeclarationError(
+                f"{name} cannot be sent to the workers of a study: {what}. Give what can be copied, such as the name of a file "
+                "in place of an open one, and make the rest from it in equations() or in a part."
+            ) from None
+
+
+def _sent(value: Any) -> bytes:
+    stream = io.BytesIO()
+    _Pickler(stream).dump(value)
     return stream.getvalue()
+
+
+def _sends(value: Any) -> bool:
+    try:
+        _sent(value)
+    except UNSENDABLE:
+        return False
+    return True
 
 
 def unpack(data: bytes) -> Any:
