@@ -24,6 +24,7 @@ from acausal.errors import (
     StructurallySingularError,
     UnbalancedModelError,
     UnitsError,
+    caution,
 )
 from acausal.language import (
     ALWAYS,
@@ -102,6 +103,7 @@ from acausal.language import (
     when,
 )
 from acausal.result import Result
+from acausal.shadowed import shadowed
 from acausal.simulation import CompiledStep, Linearization, March, linearize, march, result_of, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 
@@ -216,6 +218,9 @@ __all__ = [
 if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
     from acausal.result.several import animate
+
+if _hidden := shadowed():
+    caution(_hidden)
 
 # What few runs need: loading it takes as long as a small simulation.
 _LATER = {

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.nearest import likeliest
+from acausal.shadowed import NAMES, shadowed
 
 _PACKAGES = tuple(str(Path(PACKAGE).parent / name) + os.sep for name in ("acausal", "components"))
 _NO_TEXT: dict[type[BaseException], str] = {MemoryError: "this needs more memory than there is"}
@@ -52,6 +53,8 @@ def brief(error: BaseException) -> str:
 
 
 def _not_imported(error: ImportError, text: str) -> str:
+    if (error.name or "").partition(".")[0] in NAMES and (hidden := shadowed()):
+        return f"{type(error).__name__}: {text.partition(' (')[0]}: {hidden}"
     missing = _NOT_THERE.search(text)
     if missing:
         name, module = missing.groups()

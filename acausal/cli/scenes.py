@@ -16,6 +16,7 @@ from acausal.errors import DeclarationError
 from acausal.language.component import Component, Model
 from acausal.nearest import likeliest
 from acausal.result import shown_name
+from acausal.shadowed import shadowed
 
 FORM = "a model of your own is given as path/to/file.py:ClassName."
 _FILE = re.compile(r"(.+?\.py)(?::(.*))?", re.IGNORECASE | re.DOTALL)
@@ -27,6 +28,8 @@ def scenes() -> Mapping[str, type[Model]]:
         from models import SCENES
     except ImportError:
         SCENES = None
+    if hidden := shadowed():
+        raise DeclarationError(hidden)
     if not isinstance(SCENES, Mapping):
         other = getattr(sys.modules.get("models"), "__file__", None)
         raise DeclarationError(

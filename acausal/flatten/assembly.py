@@ -21,6 +21,7 @@ from acausal.flatten.flat_model import (
     FlatUnknowns,
     Initial,
 )
+from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.said import Said
@@ -299,4 +300,5 @@ class Assembly:
         if done.contradictions:
             wrong = [(self.origins[source.row], value) for source, value in done.contradictions]
             others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._givers(source, done))
-            raise UnbalancedModelError(contradiction_text(self.raw.build.root, wrong, others))
+            kinds = wrong_kinds(self.raw.build.root, [self.residuals[source.row] for source, _ in done.contradictions])
+            raise UnbalancedModelError("\n".join([*kinds, contradiction_text(self.raw.build.root, wrong, others)]))

@@ -42,10 +42,10 @@ def structural_value(bound: Component, declared: f.Structural, given: Any, where
             "later. Give numbers, or declare the parameter that it follows from by structural(...)."
         )
     if declared.choices is not None:
-        each = isinstance(declared.shape, tuple)
-        entries = numeric(value, declared.shape, where).flat if each else [value]
+        shape = declared.shape
+        entries = numeric(value, shape, where).flat if isinstance(shape, tuple) else [value]
         if not all(any(_is(entry, c) for c in declared.choices) for entry in entries):
-            which = "each entry" if each else "it"
+            which = "each entry" if isinstance(shape, tuple) else "it"
             raise DeclarationError(f"{where} is {_written(value)}; {which} must be {one_of(declared.choices)}.")
     if value is None and declared.default is None:
         return None

@@ -163,5 +163,5 @@ def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
         return type(old)(description, make=value, many=old.many, is_port=old.is_port, name=name)
     raise DeclarationError(
         f"{where} is a part; put a component in its place, `{name} = Body(m=1)`, or None to leave it out, "
-        f"not {shown(value)}."
+        f"not {f'the class {value.__name__}' if isinstance(value, type) else shown(value)}."
     )

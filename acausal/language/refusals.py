@@ -80,6 +80,12 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
             f"`{name} = {shown(value)}`, or, if it depends on structural values, as a method marked @part: "
             f"`@part def {name}(self): return ...`."
         )
+    if isinstance(value, f.Field):
+        kind = type(value).__name__.lower()
+        raise DeclarationError(
+            f"`{name}` cannot be declared by assignment to an instance of {cls.__name__}: fields stand in the body of the class, "
+            f"`{name}: Scalar = {kind}(...)`; their values are given to the constructor, {cls.__name__}({name}=...)."
+        )
     declared = any(name in inspect.get_annotations(base) for base in cls.__mro__)
     if hasattr(cls, name) or declared or name in cls._settings:
         return

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
 from acausal.flatten.whose import is_users
@@ -44,6 +45,8 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         head = "the model has as many equations as unknowns, but they cannot determine all of them."
     over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
     lines = [head]
+    residuals = scalars(flat.equations.residuals)
+    lines += wrong_kinds(flat.tree, [residuals[e] for part in over for e in part.equations if e < len(residuals)])
     if over and under and not _hints(flat, under):
         stated, mend = _determined(flat, over[0])
         if OUT not in mend:
