@@ -106,6 +106,7 @@ from acausal.result import Result
 from acausal.shadowed import shadowed
 from acausal.simulation import CompiledStep, Linearization, March, linearize, march, result_of, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
+from acausal.tracebacks import install
 
 __all__ = [
     "ALWAYS",
@@ -219,6 +220,7 @@ if TYPE_CHECKING:
     from acausal.export import export_dae, export_fmu, load_dae
     from acausal.result.several import animate
 
+install()
 if _hidden := shadowed():
     caution(_hidden)
 

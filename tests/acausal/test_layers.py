@@ -9,7 +9,19 @@ import networkx as nx
 import pytest
 
 ROOT = Path(__file__).parents[2]
-BASE = {"errors", "garbage", "instructions", "locks", "nearest", "policy", "shadowed", "signals", "symbols", "units"}
+BASE = {
+    "errors",
+    "garbage",
+    "instructions",
+    "locks",
+    "nearest",
+    "policy",
+    "shadowed",
+    "signals",
+    "symbols",
+    "tracebacks",
+    "units",
+}
 MAY = {
     "language": BASE,
     "flatten": BASE | {"language"},
