@@ -17,6 +17,7 @@ from acausal.solve.points import Point
 from acausal.solve.problem import Problem
 from acausal.solve.start.conditions import giving, soft
 from acausal.solve.start.descent import Matrix, Residuals, descend
+from acausal.solve.start.directions import differing
 from acausal.solve.start.rank import least_norm
 
 LOOPS = POLICY.loops
@@ -219,7 +220,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
     compiled = problem.compiled
     c, flat = compiled.constraints, compiled.reduced.flat
     value, gap = np.abs(problem.constraints(at)[0]), np.abs(problem.gaps(at))
-    lines = list[str]()
+    lines, directions = list[str](), dict[str, None]()
     for number, loop in enumerate(flat.loops.cuts):
         own = [c.rows[c.closures[k]] for k, closure in enumerate(flat.loops.closures) if closure.loop == number]
         levels_of = [[rows[level] for rows in own if len(rows) > level] for level in (0, 1)]
@@ -230,6 +231,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
             if open_:
                 through = f"the loop goes through {', '.join(loop.parts)}" if loop.parts else "no joint is in the loop"
                 lines.append(f"  {loop.a} and {loop.b} ({loop.where}) {text}; {through}")
+                directions[differing(compiled, loop.parts)] = None
                 break
     for k, rows in enumerate(c.rows):
         base = compiled.reduced.plan.constrained.constraints[k].base
@@ -248,7 +250,7 @@ def refuse_open_loops(problem: Problem, at: Point, held: np.ndarray, jump: str =
             )
             head = f"{loops} not close with {names}, where {jump} lets {they} jump:"
             mend = f"Let {they} jump to what the loop can reach."
-        raise InitializationError("\n".join([head, *lines, mend]))
+        raise InitializationError("\n".join([head, *lines, *filter(None, directions), mend]))
 
 
 def _open_head(time: float, n: int, fixed: bool) -> str:
