@@ -24,7 +24,6 @@ from acausal.errors import (
     StructurallySingularError,
     UnbalancedModelError,
     UnitsError,
-    caution,
 )
 from acausal.language import (
     ALWAYS,
@@ -103,7 +102,6 @@ from acausal.language import (
     when,
 )
 from acausal.result import Result
-from acausal.shadowed import shadowed
 from acausal.simulation import CompiledStep, Linearization, March, linearize, march, result_of, simulate
 from acausal.study import Effects, Formulation, Study, effects, study, with_and_without
 from acausal.tracebacks import install
@@ -221,8 +219,6 @@ if TYPE_CHECKING:
     from acausal.result.several import animate
 
 install()
-if _hidden := shadowed():
-    caution(_hidden)
 
 # What few runs need: loading it takes as long as a small simulation.
 _LATER = {

@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from acausal.errors import AcausalError
+from acausal.shadowed import NAMES, shadowed
 
 SETTING = "ACAUSAL_TRACEBACK"
 _HOME = Path(__file__).parent.parent
@@ -54,6 +55,8 @@ def _show(kind: type[BaseException], error: BaseException, trace: TracebackType 
         sys.stderr.write(written(error, trace))
     else:
         sys.__excepthook__(kind, error, trace)
+        if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in NAMES and (hidden := shadowed()):
+            sys.stderr.write(f"{hidden[0].upper()}{hidden[1:]}\n")
 
 
 def _show_in_notebook(

@@ -31,9 +31,7 @@ def told(folder, *arguments):
         ("models/__init__.py", "folder", "models"),
     ],
 )
-@pytest.mark.parametrize(
-    "command", [("-m", "acausal", "list"), ("-m", "acausal", "check", "four-bar"), ("-c", "import acausal")]
-)
+@pytest.mark.parametrize("command", [("-m", "acausal", "list"), ("-m", "acausal", "check", "four-bar")])
 def test_what_hides_a_package_is_named(tmp_path, hides, what, name, command):
     path = tmp_path / hides
     path.parent.mkdir(exist_ok=True)
@@ -50,6 +48,19 @@ def test_an_import_that_fails_for_it(tmp_path):
     text = told(tmp_path, "-m", "acausal", "check", "own.py:M")
     assert "cannot import name 'World' from 'components': the file" in text
     assert f"Error: {tmp_path / 'own.py'}:2: ImportError" in text
+
+
+def test_an_import_that_fails_in_a_script(tmp_path):
+    (tmp_path / "components.py").write_text("x = 1\n")
+    (tmp_path / "own.py").write_text(MODEL)
+    text = told(tmp_path, "own.py")
+    assert "cannot import name 'World' from 'components'" in text
+    assert f"The file {tmp_path / 'components.py'} hides the package `components` of acausal" in text
+
+
+def test_other_packages_of_these_names_are_nobodys_business(tmp_path):
+    (tmp_path / "models.py").write_text("x = 1\n")
+    assert told(tmp_path, "-c", "import acausal, models; print(models.x)") == ""
 
 
 def test_a_folder_that_is_no_package_hides_nothing(tmp_path):
