@@ -11,10 +11,10 @@ import numpy as np
 
 from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, unknown_units, weighing
+from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
-from acausal.flatten.discontinuities import guards, laws, promises
+from acausal.flatten.events import discontinuities
 from acausal.flatten.flat_model import (
-    FlatDiscontinuities,
     FlatEquations,
     FlatModel,
     FlatParameters,
@@ -85,14 +85,7 @@ class Assembly:
         )
         self.initial_residuals, self.energies = starts, dict(zip(raw.energies, ca.vertsplit(energies), strict=True))
         self.symbols, self.lower = ca.vertcat(*chain.levels), chain.lower
-        self.discontinuities = FlatDiscontinuities(
-            tuple(switch for switch, _ in raw.pending.switches),
-            guards(raw.pending, raw.discretes, resolved),
-            tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
-            tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
-            promises(raw.pending, resolved),
-            laws(raw.pending, raw.discretes, resolved),
-        )
+        self.discontinuities = discontinuities(raw, resolved)
         self.origins = raw.equations.scalar_origins()
         self.substitutes = {c.row: len(self.origins) + k for k, c in enumerate(closures)}
         self.origins += [self.origins[c.row] for c in closures]
@@ -221,9 +214,9 @@ class Assembly:
         return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
 
     def _rates(self, left: _Left) -> set[int]:
-        """Hashes of the unknowns that remain and have no derivative."""
+        """Hashes of the unknowns with which a constraint of a part does not constrain by itself."""
         found = [k for k in left.unknowns if k not in self.declared and left.done.derivative[k] < 0]
-        return {s.element_hash() for s in scalars(picked(self.symbols, found))}
+        return rates(picked(self.symbols, found), self.raw.declared, self.raw.index, self.declared)
 
     def _unused(self, done: Simplification) -> set[int]:
         """Redundant residuals, and the substitutes of the others."""

@@ -8,7 +8,7 @@ allow are flows f = C' m; C f tells them, whatever the component calls them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import casadi as ca
@@ -54,6 +54,32 @@ def add_constraints(
         for row, dual in zip(stated, duals, strict=True):
             if not dual.is_zero():
                 equations.closures.append(Closure(row, dual, None, statement_of[row]))
+
+
+def rates(
+    free: ca.SX, declared: Sequence[tuple[Any, Any]], index: Mapping[int, int], followed: Collection[int]
+) -> set[int]:
+    """Hashes of the unknowns without a derivative, or whose derivative an equation of a root states in others that have one.
+
+    Parameters
+    ----------
+    free : casadi.SX
+        Unknowns without a derivative, a column.
+    declared : sequence of (Expr, Expr)
+        Variables with their declared derivatives.
+    index : mapping of int to int
+        Hash of each variable -> its place.
+    followed : collection of int
+        Places of those whose declared derivative is used to differentiate, and not integrated.
+    """
+    found = {s.element_hash() for s in scalars(free)}
+    pairs = [(s, e) for v, d in declared for s, e in zip(scalars(v.sx), scalars(d.sx), strict=True)]
+    known = {s.element_hash() for s, _ in pairs}
+    for symbol, derivative in pairs:
+        inside = {s.element_hash() for s in ca.symvar(derivative)}
+        if index[symbol.element_hash()] not in followed and inside <= known:
+            found.add(symbol.element_hash())
+    return found
 
 
 def _is_given(port: Any) -> bool:

@@ -41,7 +41,8 @@ def loops_of(
     substitutes : dict of int to int
         Residual that closes a loop -> row of the flow that works on it.
     rates : set of int
-        Hashes of the unknowns without a derivative. A constraint of a part that holds one does not constrain by itself.
+        Hashes of the unknowns without a derivative, or whose derivative an equation states. A constraint of a part that holds
+        one does not constrain by itself.
     """
     place = {r: n for n, r in enumerate(rows)}
     entries = scalars(residuals)

@@ -83,7 +83,7 @@ def _no_equilibrium_text(problem: Problem, at: float, rates: np.ndarray, moving:
     parts = [
         part._path
         for part in walk(compiled.tree)
-        if "static" in getattr(part.fields.get("initial"), "choices", ())
+        if "static" in (getattr(part.fields.get("initial"), "choices", None) or ())
         and getattr(part, "initial", None) != "static"
         and any(name.startswith(f"{part._path}.") for name in names)
     ]

@@ -41,5 +41,5 @@ def scaled_to_pivots(J: scipy.sparse.csc_matrix) -> scipy.sparse.csc_matrix | No
     edges = np.concatenate([(length - own[row])[~matched] + GRID, np.ones(n)])
     graph = scipy.sparse.csr_matrix((edges, ends), shape=(n + 1, n + 1))
     potential = scipy.sparse.csgraph.bellman_ford(graph, indices=n)[:n]
-    entry = np.sign(data) * np.exp(own[row] - potential[of_row[row]] + potential[column] - length)
+    entry = data * np.exp(own[row] - potential[of_row[row]] + potential[column])
     return scipy.sparse.csc_matrix((entry, (of_row[row], column)), shape=J.shape)

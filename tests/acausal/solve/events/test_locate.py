@@ -13,7 +13,7 @@ from acausal.solve.integrate.trace import Leg
 from acausal.solve.looks import uneven
 from acausal.solve.points import Point, Rows
 
-NOTHING = Layout(0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
+NOTHING = Layout(0, 0, 0, 0, 0, 0).begin(np.zeros(0), 1.0)
 WIDTH = 1e-9
 
 

@@ -11,7 +11,7 @@ from acausal.solve.points import Point, Rows
 
 
 def constants(*switches: float) -> Constants:
-    return Layout(len(switches), 0, 0, 0, 0).begin(np.array(switches, dtype=float), 1.0)
+    return Layout(len(switches), 0, 0, 0, 0, 0).begin(np.array(switches, dtype=float), 1.0)
 
 
 def leg(*times: float, switch: float = 0.0) -> Leg:

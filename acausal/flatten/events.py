@@ -1,0 +1,22 @@
+"""What switches and jumps in a model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal.flatten.discontinuities import guards, laws, promises
+from acausal.flatten.flat_model import FlatDiscontinuities
+from acausal.flatten.said import Said
+from acausal.symbols import vec
+
+
+def discontinuities(raw: Said, resolved: Any) -> FlatDiscontinuities:
+    """Return what switches and jumps; `resolved` replaces placeholders of derivatives in a list of expressions."""
+    return FlatDiscontinuities(
+        tuple(switch for switch, _ in raw.pending.switches),
+        guards(raw.pending, raw.discretes, resolved),
+        tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
+        tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
+        promises(raw.pending, resolved),
+        laws(raw.pending, raw.discretes, resolved),
+    )
