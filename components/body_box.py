@@ -94,8 +94,8 @@ class BodyBox(TwoFrameBody):
         given = self._direction()
         aside = cross(given, self.length_direction / norm(self.length_direction))
         text = (
-            f"`width_direction` of {name} lies along the length, so that it names no side of the box; give a direction across, "
-            "such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
+            f"`width_direction` of {name} lies along `r`, or `length_direction`, and names no side of the box; "
+            "give a direction across, such as width_direction=(0, 1, 0) for r=(1, 0, 0)"
         )
         yield require(dot(aside, aside) > PARALLEL**2 * float(np.dot(given, given)), text)
         yield from super().requirements()

@@ -113,13 +113,18 @@ def test_shapes_are_kinds_of_geometry(name):
             assert all(value.shape[0] == n for value in several)
 
 
-@pytest.mark.parametrize("name", [name for name in SCENES if name.startswith("rotational.")])
+# Parts in one dimension, sensors, and what joins drive trains or guides nothing.
+PLACELESS = [name for name in SCENES if name.startswith(("rotational.", "translational.", "thermal.", "sensors."))]
+PLACELESS += ["Mounting1D", "BevelGear1D", "FreeMotion"]
+
+
+@pytest.mark.parametrize("name", PLACELESS)
 def test_parts_of_drives_have_no_place(name):
     assert list(collected(ran(SCENES[name]).tree.it)) == []
 
 
 @pytest.mark.filterwarnings("ignore:.*linear frames:acausal.AcausalWarning")
-@pytest.mark.parametrize("name", [name for name in SCENES if not name.startswith("rotational.") and name != "World"])
+@pytest.mark.parametrize("name", [name for name in SCENES if name not in (*PLACELESS, "World")])
 def test_every_component_shows_something(name):
     tree = ran(SCENES[name]).tree
     assert list(collected(tree.it if hasattr(tree, "it") else tree.tip))

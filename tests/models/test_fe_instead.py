@@ -10,7 +10,7 @@ import pytest
 import acausal as ac
 from acausal import chain, connect
 from components import FixedRotation, FixedTranslation
-from components.fe import FEBody, ReducedBody, box, reduce_body
+from components.fe import FEBody, ReducedBody, box, reduce_body, rigid
 from models import FourBar, SliderCrank, SpinUp
 from tests.components.fe.moving import ends
 from tests.reference import cantilever
@@ -18,13 +18,22 @@ from tests.reference import cantilever
 
 @cache
 def bar(
-    length: float, area: float, J: float, E: float, rho: float, elements: int, modes: int, basis: str = "held"
+    length: float,
+    area: float,
+    J: float,
+    E: float,
+    rho: float,
+    elements: int,
+    modes: int,
+    basis: str = "held",
+    welded: bool = False,
 ) -> ReducedBody:
     """A bar of hex20 whose height follows from J / A; the modulus and the density give it the stiffness and mass of the beam."""
     height, width = np.sqrt(12 * J / area), 0.06
     scale = area / (height * width)
     M, K, nodes = box((length, height, width), (elements, 1, 1), "hex20", E=E * scale, nu=0.0, rho=rho * scale)
-    return reduce_body(M, K, nodes, frames=ends(nodes), hold="frame_a", modes=modes, basis=basis)
+    frames = {name: rigid(at) for name, at in ends(nodes).items()} if welded else ends(nodes)
+    return reduce_body(M, K, nodes, frames=frames, hold="frame_a", modes=modes, basis=basis)
 
 
 HUB = (8.0, 7.299e-5, 8.214e-9, 6.895e10, 2767.0)
@@ -52,7 +61,7 @@ class InARow(SpinUp):
     @ac.parts
     def links(self):
         length, *section = HUB
-        body = bar(length / self.bodies, *section, 40 // self.bodies, 6, "craig-bampton")
+        body = bar(length / self.bodies, *section, 40 // self.bodies, 6, "craig-bampton", welded=True)
         return [FEBody(reduced=body, check_range=False) for _ in range(self.bodies)]
 
     @ac.part

@@ -114,7 +114,10 @@ def test_vehicles():
                 f"{car}.windSpeed.v": lambda r, c=car: r[f"{c}.v_wind"],
                 f"{car}.windSpeed.s": lambda r, c=car: cumulative_trapezoid(r[f"{c}.v_wind"], r.time, initial=0),
             }
-    filtered = ("vehicleDragInVar.windSpeed.v", "vehicleDragInVar.windSpeed.s")  # there the wind passes a filter of 50 Hz
+    filtered = (
+        "vehicleDragInVar.windSpeed.v",
+        "vehicleDragInVar.windSpeed.s",
+    )  # there the wind passes a filter of 50 Hz
     result = compare("ModelicaTest.Translational.Vehicles", Cars(), names, left_out=filtered)
     alpha = atan(0.05)
     decelerating = 9.80665 * sin(alpha) / (1 + 2.3 / 0.31**2 / 1200)
