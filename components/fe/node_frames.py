@@ -96,7 +96,7 @@ def frame(name: str, nodes: Any, places: Array, cells: Mapping[str, Array]) -> F
             _look_at_centre(name, at, place)
     else:
         place = np.array(spider.place)
-        _check_place(name, place - mean, directions[:, ~held], np.linalg.norm(np.ptp(places, axis=0)))
+        _check_place(name, place - mean, directions[:, ~held], float(np.linalg.norm(np.ptp(places, axis=0))))
         moved = moved - _skew(place - mean) @ rotation
     orientation = np.eye(3) if spider.axes is None else spider.axes
     return Frame(name, rows, spider.kind, place, orientation, np.vstack([moved, rotation]), axes, radius)

@@ -220,7 +220,9 @@ class ReducedBody:
         content = archive.read(Path(path))
         frames, k = [], 0
         while f"name {k}" in content:
-            more = {name: content[key] for name in (*MAPS, "turns", "averages") if (key := f"{name} {k}") in content}
+            more: dict[str, Any] = {
+                name: content[key] for name in (*MAPS, "turns", "averages") if (key := f"{name} {k}") in content
+            }
             frames.append(Interface(name=str(content[f"name {k}"]), **more))
             k += 1
         nodal = None
