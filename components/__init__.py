@@ -45,6 +45,7 @@ from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
 from components.rotor_1d import Rotor1D
 from components.spherical import Spherical
+from components.spherical_spherical import SphericalSpherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
 from components.spring_damper_series import SpringDamperSeries
@@ -94,6 +95,7 @@ __all__ = [
     "RevolutePlanarLoopConstraint",
     "Rotor1D",
     "Spherical",
+    "SphericalSpherical",
     "Spring",
     "SpringDamperParallel",
     "SpringDamperSeries",

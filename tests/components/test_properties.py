@@ -94,6 +94,7 @@ SCENES: dict[str, type[Scene]] = {
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
     "Spherical": OnSphericalJoint,
+    "SphericalSpherical": joints.OnSphericalSpherical,
     "Spring": OnSpring,
     "Damper": OnDamper,
     "SpringDamperParallel": OnSpringDamper,

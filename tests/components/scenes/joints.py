@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import acausal as ac
-from acausal import Component, chain, connect, fixed, part, sin, structural, time
+from acausal import Component, chain, connect, fixed, guess, part, sin, structural, time
 from components import (
     Body,
     BodyRod,
@@ -18,6 +18,7 @@ from components import (
     Revolute,
     RevolutePlanarLoopConstraint,
     Spherical,
+    SphericalSpherical,
     Spring,
     TranslationalFlange,
     Universal,
@@ -185,3 +186,22 @@ class OnFreeMotion(Scene):
 
     def graph(self):
         yield from self.path(self.it)
+
+
+class OnSphericalSpherical(Scene):
+    """A crank that carries the tip drives a slide through the rod."""
+
+    joint, arm = Revolute(n=(1, 0, 0), phi=fixed(0.2), w=fixed(5.0)), FixedTranslation(r=(0, 0.5, 0.1))
+    rail, slide = FixedTranslation(r=(1, 0, 0)), Prismatic(n=(1, 0, 0), s=guess(0))
+    lever, base = FixedTranslation(r=(0, 0.2, 0)), Body(m=2.0)
+
+    @part
+    def it(self):
+        return SphericalSpherical(rod_length=1.05, m=0.8)
+
+    def graph(self):
+        yield from self.path(self.joint, self.arm)
+        yield chain(self.place, self.rail, self.slide, self.lever, self.base)
+        first, second = self.through(self.it)
+        yield connect(self.arm.frame_b, first)
+        yield connect(self.lever.frame_b, second)
