@@ -13,6 +13,7 @@ from components.damper import Damper
 from components.driven_joint import DrivenJoint
 from components.fixed import Fixed
 from components.fixed_rotation import FixedRotation
+from components.fixed_translation import FixedTranslation
 from components.flange import Flange, TwoFlanges
 from components.force import Force
 from components.force_and_torque import ForceAndTorque
@@ -50,10 +51,10 @@ from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
 from components.spring_damper_series import SpringDamperSeries
 from components.torque import Torque
-from components.translation import FixedTranslation
 from components.translational.flange import TranslationalFlange
 from components.two_frame_body import TwoFrameBody
 from components.universal import Universal
+from components.universal_spherical import UniversalSpherical
 from components.world import World
 from components.world_force import WorldForce
 from components.world_force_and_torque import WorldForceAndTorque
@@ -106,6 +107,7 @@ __all__ = [
     "TwoFrameBody",
     "TwoFrames",
     "Universal",
+    "UniversalSpherical",
     "World",
     "WorldForce",
     "WorldForceAndTorque",

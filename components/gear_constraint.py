@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from acausal import PREFER, Component, Scalar, Vector3, chain, connect, der, parameter, port, structural, variable
+from components.fixed_translation import FixedTranslation
 from components.frame import Frame
 from components.revolute import Revolute
 from components.rotational.ideal_gear import IdealGear
-from components.translation import FixedTranslation
 
 
 class GearConstraint(Component):

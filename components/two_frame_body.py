@@ -6,10 +6,10 @@ from typing import Any
 
 from acausal import connect, effect, part, require
 from components.body import Body
+from components.fixed_translation import FixedTranslation
 from components.frame import TwoFrames
 from components.moving_body import MovingBody
 from components.rigid import unusual_inertia, wrong_inertia
-from components.translation import FixedTranslation
 
 
 class TwoFrameBody(TwoFrames, MovingBody):

@@ -95,6 +95,7 @@ SCENES: dict[str, type[Scene]] = {
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
     "Spherical": OnSphericalJoint,
     "SphericalSpherical": joints.OnSphericalSpherical,
+    "UniversalSpherical": joints.OnUniversalSpherical,
     "Spring": OnSpring,
     "Damper": OnDamper,
     "SpringDamperParallel": OnSpringDamper,

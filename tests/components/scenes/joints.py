@@ -22,6 +22,7 @@ from components import (
     Spring,
     TranslationalFlange,
     Universal,
+    UniversalSpherical,
 )
 from tests.components.scenes.scene import SPIN, OnSpherical, Scene
 
@@ -205,3 +206,11 @@ class OnSphericalSpherical(Scene):
         first, second = self.through(self.it)
         yield connect(self.arm.frame_b, first)
         yield connect(self.lever.frame_b, second)
+
+
+class OnUniversalSpherical(OnSphericalSpherical):
+    """Turned round, the universal joint is at the other end."""
+
+    @part
+    def it(self):
+        return UniversalSpherical(n1_a=(0, 1, 0), r_rod_ia=(1.05, 0, 0))

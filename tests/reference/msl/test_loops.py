@@ -13,6 +13,7 @@ from components import (
     Spherical,
     SphericalSpherical,
     Universal,
+    UniversalSpherical,
     World,
 )
 from tests.reference.msl.published import compare
@@ -59,3 +60,17 @@ class BallAndUniversal(FourBar):
 
 def test_spherical_and_universal():
     compare(VARIANTS + "SphericalAndUniversal", BallAndUniversal())
+
+
+class RodOfBoth(FourBar):
+    """The same rod as one part."""
+
+    rod = UniversalSpherical(n1_a=(0, 1, 0), r_rod_ia=(-1, 0.3, 0.1))
+
+    def rod_connections(self):
+        yield connect(self.rod.frame_a, self.b2.frame_b)
+        yield connect(self.rod.frame_b, self.b1.frame_b)
+
+
+def test_universal_spherical():
+    compare(VARIANTS + "SphericalAndUniversal", RodOfBoth())
