@@ -19,6 +19,7 @@ from components import (
     Body,
     TwoFrames,
     World,
+    assemblies,
     fe,
     rotational,
     sensors,
@@ -26,6 +27,7 @@ from components import (
     translational,
 )
 from components.flange import TwoFlanges
+from tests.components.scenes import assemblies as scenes_of_assemblies
 from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
@@ -96,6 +98,10 @@ SCENES: dict[str, type[Scene]] = {
     "Spherical": OnSphericalJoint,
     "SphericalSpherical": joints.OnSphericalSpherical,
     "UniversalSpherical": joints.OnUniversalSpherical,
+    "assemblies.JointRRR": scenes_of_assemblies.OnJointRRR,
+    "assemblies.JointSSR": scenes_of_assemblies.OnJointSSR,
+    "assemblies.JointUPS": scenes_of_assemblies.OnJointUPS,
+    "assemblies.JointUSR": scenes_of_assemblies.OnJointUSR,
     "Spring": OnSpring,
     "Damper": OnDamper,
     "SpringDamperParallel": OnSpringDamper,
@@ -212,6 +218,7 @@ BASES = {
     "rotational.OneFlange",
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
+BASES |= {"assemblies.RevoluteEnd"}
 BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
@@ -223,7 +230,7 @@ BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "transl
 def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
-    for package in (rotational, translational, thermal, sensors, fe):
+    for package in (assemblies, rotational, translational, thermal, sensors, fe):
         short = package.__name__.rpartition(".")[2]
         found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}

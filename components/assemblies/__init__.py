@@ -1,0 +1,15 @@
+"""Chains of joints with two massless rods, each as one part."""
+
+from components.assemblies.joint_rrr import JointRRR
+from components.assemblies.joint_ssr import JointSSR
+from components.assemblies.joint_ups import JointUPS
+from components.assemblies.joint_usr import JointUSR
+from components.assemblies.revolute_end import RevoluteEnd
+
+__all__ = [
+    "JointRRR",
+    "JointSSR",
+    "JointUPS",
+    "JointUSR",
+    "RevoluteEnd",
+]

@@ -1,0 +1,24 @@
+"""JointSSR: two ball joints and a revolute joint in a chain."""
+
+from __future__ import annotations
+
+from acausal import Scalar, connect, parameter, part
+from components.assemblies.revolute_end import RevoluteEnd
+from components.spherical_spherical import SphericalSpherical
+
+
+class JointSSR(RevoluteEnd):
+    """Ball joint at frame_a, rod 1, ball joint in the middle, rod 2, revolute joint at frame_b."""
+
+    rod1_length: Scalar = parameter("distance of the ball joints", unit="m", positive=True)
+    rod1_mass: Scalar = parameter("mass, in the middle of rod 1", unit="kg", default=0, minimum=0)
+
+    @part
+    def rod1(self):
+        """Rod between the ball joints."""
+        return SphericalSpherical(rod_length=self.rod1_length, m=self.rod1_mass)
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.rod1.frame_a, self.frame_a)
+        yield connect(self.rod1.frame_b, self.rod2.frame_b)
