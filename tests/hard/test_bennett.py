@@ -87,7 +87,9 @@ def test_events_are_those_of_the_motion() -> None:
         within("force of a joint, N", float(forces.max()), 100.0)
 
 
-@pytest.mark.parametrize("intervals", [1, 2, 5])
+@pytest.mark.parametrize(
+    "intervals", [pytest.param(1, marks=pytest.mark.slow), 2, pytest.param(5, marks=pytest.mark.slow)]
+)
 def test_few_outputs_of_many_turns(intervals: int) -> None:
     """IDAS is looked at after a call: it is asked for no more than what is kept may last, and costs what the time takes."""
     model = bennett(4.0, True)
@@ -170,6 +172,7 @@ def test_what_is_kept_is_independent() -> None:
     assert held(problem, at, replace(worst, closures=np.ones(closures))).fitness[0] == 1
 
 
+@pytest.mark.slow
 def test_a_large_mechanism_keeps_what_is_independent() -> None:
     """What is kept of more than 100 constraints stays fit, and a choice that is not is mended."""
     compiled = ac.compile(Row())

@@ -106,7 +106,9 @@ def same_runs(one: ac.CompiledModel, other: ac.CompiledModel, **how: Any) -> Non
     assert told[0] == told[1]
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    "scene", [pytest.param(s, marks=pytest.mark.slow) if s == "slider-crank" else s for s in SCENES]
+)
 def test_scenes_simulate_identically(scene, tmp_path):
     own = compiled(SCENES[scene])
     loaded = saved(own, tmp_path / "a.dae")

@@ -316,6 +316,7 @@ def test_times_may_be_equal(distinct):
     np.testing.assert_allclose(found, np.tile(times, (2, 1)).T, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_events_a_rounding_error_from_an_output_leave_energies_as_they_are():
     class Backlash(Model):
         """Two masses that touch in both directions."""

@@ -67,7 +67,10 @@ class OnWheel(Model):
         yield connect(self.foot.frame_b, self.tyre.frame_a)
 
 
-@pytest.mark.parametrize("position", [-SINKS, -0.5 * SINKS, -0.05])
+@pytest.mark.parametrize(
+    "position",
+    [pytest.param(-SINKS, marks=pytest.mark.slow), -0.5 * SINKS, pytest.param(-0.05, marks=pytest.mark.slow)],
+)
 def test_a_contact_that_the_guess_of_the_position_closes(position):
     result = ac.simulate(OnWheel(guide=Prismatic(n=(0, 1, 0), s=guess(position))), stop_time=0.1, initial="steady")
     np.testing.assert_allclose(result["guide.s"], -SINKS, atol=1e-9)

@@ -42,7 +42,7 @@ class Portal(Model):
 
 
 @pytest.mark.parametrize("tilt", [0.0, 0.3, 0.7, 2.0])
-@pytest.mark.parametrize("n", [4, 16])
+@pytest.mark.parametrize("n", [4, pytest.param(16, marks=pytest.mark.slow)])
 def test_a_portal_sways_alike_in_every_plane(tilt: float, n: int) -> None:
     """Slope deflection of a clamped portal: F h^3 (3 k + 2) / (12 E J (6 k + 1)), k = 2 J h / (J b).
 

@@ -70,7 +70,7 @@ class Rope(Model):
         yield connect(self.end.frame_b, self.hook.frame_b)
 
 
-@pytest.mark.parametrize("volumes", [4, 12, 20])
+@pytest.mark.parametrize("volumes", [4, 12, pytest.param(20, marks=pytest.mark.slow)])
 def test_a_frame_bends_to_the_same_place(volumes: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Geometrically exact beams of another program: within some 1e-3 with 4 volumes, and by the square of their length."""
     calls = []
@@ -83,7 +83,7 @@ def test_a_frame_bends_to_the_same_place(volumes: int, monkeypatch: pytest.Monke
     assert len(calls) < 400
 
 
-@pytest.mark.parametrize("links", [10, 40])
+@pytest.mark.parametrize("links", [10, pytest.param(40, marks=pytest.mark.slow)])
 def test_a_rope_hangs_in_a_catenary(links: int) -> None:
     """A rope of length s over a span l sags by a (cosh(l / 2a) - 1), with 2 a sinh(l / 2a) = s; one of rods by nearly as much."""
     run = ac.simulate(Rope(links=links), stop_time=1e-3, intervals=2, initial="steady")
