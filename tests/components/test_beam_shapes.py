@@ -167,6 +167,7 @@ def test_axis_converges_to_the_arc_of_a_bent_beam():
     assert np.log2(np.array(errors[:-1]) / errors[1:]).min() > 3.5
 
 
+@pytest.mark.slow
 def test_axis_of_second_order_converges_to_that_of_a_finer_beam():
     """Across the beam with the fourth power; along it as its nodes do, whose shortening has its own error."""
     fine = bent(0.2, elements=64)["beam.node_r_0"][0]

@@ -53,7 +53,7 @@ def triangle(left: int, right: int, turned: bool) -> Model:
     return type("Triangle", (Model,), {**parts, "connections": connections})()
 
 
-@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("turned", [False, pytest.param(True, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("left", "right"), [(4, 0), (2, 0), (1, 0), (0, 0), (0, 1), (0, 3)])
 def test_the_motion_does_not_depend_on_the_cut(left: int, right: int, turned: bool) -> None:
     found, known = (

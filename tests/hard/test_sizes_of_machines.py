@@ -110,7 +110,7 @@ def motion(machine: type[Machine], free: bool, length: float) -> np.ndarray:
     return np.array([result["joint.phi"], result["pin.phi"]])
 
 
-@pytest.mark.parametrize("machine", [SliderCrank, FourBar, SpatialSlider])
+@pytest.mark.parametrize("machine", [SliderCrank, FourBar, pytest.param(SpatialSlider, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("length", LENGTHS)
 def test_angles_do_not_depend_on_the_size(machine, free, length):

@@ -108,6 +108,7 @@ def test_start_gravity_and_body_are_those_of_the_scene():
         assert coarse / fine == pytest.approx(16, rel=0.1)
 
 
+@pytest.mark.slow
 def test_study(tmp_path):
     """Errors against time: the steps end at their gap, which is told."""
     found = ac.study(FEPlate(mesh=PLATE), tolerances=(1e-5, 1e-9), dt=(2.5e-4, 1.25e-4), repeats=1, workers=2)

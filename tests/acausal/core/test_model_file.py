@@ -99,7 +99,7 @@ def damaged(made, file: Path, changes: int) -> None:
 @pytest.mark.parametrize(
     ("name", "changes"),
     [
-        ("simple-pendulum", 10_000),
+        ("simple-pendulum", 2_000),
         pytest.param("simple-pendulum", 500_000, marks=pytest.mark.slow),
         pytest.param("car-axis", 20_000, marks=pytest.mark.slow),
         pytest.param("governor", 20_000, marks=pytest.mark.slow),

@@ -53,11 +53,15 @@ SOLVED_BY_CVODE = (
 )
 
 
+LONG = ("bennett", "bricard", "governor", "squeezer")
+
+
 def each_in_turn(scenes: Iterable[str]) -> list[Any]:
-    """Each scene with one version, and with the other one among the slow tests."""
+    """Each scene with one version, and with the other one among the slow tests; the longest with both of them there."""
     found: list[Any] = []
     for k, scene in enumerate(scenes):
-        found += [(scene, 2 + k % 2), pytest.param(scene, 3 - k % 2, marks=pytest.mark.slow)]
+        marks = [pytest.mark.slow] if scene in LONG else []
+        found += [pytest.param(scene, 2 + k % 2, marks=marks), pytest.param(scene, 3 - k % 2, marks=pytest.mark.slow)]
     return found
 
 

@@ -78,7 +78,9 @@ def test_a_contact_that_the_guess_of_the_position_closes(position):
     np.testing.assert_allclose(result["low.phi"], 0.0, atol=1e-8)
 
 
-@pytest.mark.parametrize("position", [0.0, 1e-3, 0.05, 1.0])
+@pytest.mark.parametrize(
+    "position", [pytest.param(0.0, marks=pytest.mark.slow), 1e-3, pytest.param(0.05, marks=pytest.mark.slow), 1.0]
+)
 def test_a_contact_that_the_guess_of_the_position_has_open(position):
     result = ac.simulate(OnWheel(guide=Prismatic(n=(0, 1, 0), s=guess(position))), stop_time=0.1, initial="steady")
     np.testing.assert_allclose(result["guide.s"], -SINKS, atol=1e-9)

@@ -86,7 +86,7 @@ def test_a_soft_beam_in_a_loop_sags(J: float, volumes: int) -> None:
         assert rest[name][0] == pytest.approx(final[name][-1], abs=1e-3)
 
 
-@pytest.mark.parametrize("turn", [-1.5, 1.0, 3.0])
+@pytest.mark.parametrize("turn", [-1.5, 1.0, pytest.param(3.0, marks=pytest.mark.slow)])
 def test_rest_of_a_loop_does_not_depend_on_the_stop_time(turn: float) -> None:
     """How fast a run returns to its constraints follows from that; the search has its own."""
     model = Swing(J=3e-9, left=Revolute(use_axis_flange=True, phi=guess(turn)))
