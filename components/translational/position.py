@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from acausal import PREFER, Scalar, der, input, parameter, structural, variable
+from components.rotational.position import AF, BF
 from components.translational.one_flange import OneFlange
-
-# Bessel filter of the second order, -3 dB at its critical frequency.
-AF, BF = 1.3617, 0.6180
 
 
 class Position(OneFlange):
