@@ -44,6 +44,8 @@ class Laws:
     regular: float = 1e-10
     # Distance of a force from its limit, relative to that, at which it has reached it.
     limit: float = 1e-9
+    # Speed over its tolerance at which a law does not rest, since a jump brought it there: events are located to about 1.
+    moves: float = 100.0
     # Most iterations of the active-set method for each law: random problems of 1 to 50 laws take 1.5.
     rounds: int = 50
 

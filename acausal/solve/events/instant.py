@@ -148,7 +148,10 @@ class Instants:
         flips = self.is_switch & changed
         jumped = self._jump(at, fires, constants.switched(self.watched[flips], now[flips]))
         self._refuse_jumps(at, jumped.constants, self._leeway(at, changed))
-        return replace(self._decided(jumped, at.constants), truth=now)
+        decided = self._decided(jumped, at.constants)
+        if fires and (parted := self.laws.parted(decided)) is not decided:
+            decided = self._decided(parted)
+        return replace(decided, truth=now)
 
     def _decided(self, at: Point, before: Constants | None = None) -> Point:
         """Return the point with set-valued laws at rest decided, and the algebraic unknowns solved for."""

@@ -43,6 +43,17 @@ class Laws:
         mode, _, _, _, slip = self._read(constants)
         return bool(np.any((mode == 0) & (slip == 0)))
 
+    def parted(self, at: Point) -> Point:
+        """Return the point after jumps with laws sliding that rest while their speed is not 0."""
+        if not len(self.laws):
+            return at
+        found = self.laws(self.nominal, at.x, at.z, self.problem.p, at.time, at.constants.vector)
+        far = np.abs(found.speed) > LAWS.moves * self.tolerance * found.size
+        # Prescribed speeds, whose size is 0, do not jump.
+        moves = np.flatnonzero((self._read(at.constants)[MODE] == 0) & far & (found.size > 0))
+        given = {MODE: np.sign(found.speed[moves]), OFFSET: 0.0, SHARED: 0.0, SHARE: 0.0}
+        return replace(at, constants=self._with(at.constants, moves, given)) if moves.size else at
+
     def decided(self, before: Constants, at: Point) -> Point:
         """Return the point with its laws at rest decided.
 

@@ -19,9 +19,11 @@ from acausal import (
     der,
     fixed,
     piecewise,
+    reinit,
     sin,
     time,
     variable,
+    when,
 )
 from components import rotational
 
@@ -99,6 +101,25 @@ def test_clutch_locks_two_rotors():
     slipping = (result.time > 1) & ~locked
     np.testing.assert_allclose(result["a.w"][slipping], 10 - 2.5 * (result.time[slipping] - 1), atol=1e-6)
     assert result.stats["energy_dissipated"] == pytest.approx(60.0, abs=1e-5)
+
+
+class Struck(Coupled):
+    """A blow at 2 s turns one of two rotors back that the clutch holds together."""
+
+    a, b = rotational.Inertia(J=2.0, phi=fixed(0), w=fixed(4)), rotational.Inertia(J=3.0, phi=fixed(0), w=fixed(4))
+    clutch = rotational.Clutch(tau_max=5.0, f_normalized=1.0)
+
+    def equations(self):
+        yield when(time > 2, reinit(self.a.w, -6.0))
+
+
+@pytest.mark.parametrize("method", ["auto", "idas"])
+def test_a_blow_parts_what_stuck(method):
+    """The clutch slides until the rotors turn alike, at (-6 2 + 4 3) / 5 = 0, after 4 3 / 5 s."""
+    result = ac.simulate(Struck(), stop_time=6.0, method=method)
+    after = result.time > 2
+    np.testing.assert_allclose(result["b.w"][after], np.maximum(4 - 5 / 3 * (result.time[after] - 2), 0), atol=1e-4)
+    np.testing.assert_allclose(result["a.w"][after], np.minimum(2.5 * (result.time[after] - 2) - 6, 0), atol=1e-4)
 
 
 class Brakes(Model):
