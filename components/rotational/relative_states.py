@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from acausal import PREFER, Scalar, der, variable
+from acausal import ALWAYS, Scalar, der, variable
 from components.flange import TwoFlanges
 
 
 class RelativeStates(TwoFlanges):
     """Makes the relative angle and speed of two shaft ends states; it transmits no torque."""
 
-    phi_rel: Scalar = variable("angle of flange_b relative to flange_a", unit="rad", select=PREFER)
-    w_rel: Scalar = variable("der(phi_rel)", unit="rad/s", select=PREFER)
+    phi_rel: Scalar = variable("angle of flange_b relative to flange_a", unit="rad", select=ALWAYS)
+    w_rel: Scalar = variable("der(phi_rel)", unit="rad/s", select=ALWAYS)
     a_rel: Scalar = variable("der(w_rel)", unit="rad/s2")
 
     def equations(self):

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from acausal import PREFER, Scalar, der, variable
+from acausal import ALWAYS, Scalar, der, variable
 from components.translational.flange import TwoFlanges
 
 
 class RelativeStates(TwoFlanges):
     """Makes the relative position and speed of two rod ends states; it transmits no force."""
 
-    s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m", select=PREFER)
-    v_rel: Scalar = variable("der(s_rel)", unit="m/s", select=PREFER)
+    s_rel: Scalar = variable("position of flange_b relative to flange_a", unit="m", select=ALWAYS)
+    v_rel: Scalar = variable("der(s_rel)", unit="m/s", select=ALWAYS)
     a_rel: Scalar = variable("der(v_rel)", unit="m/s2")
 
     def equations(self):
