@@ -5,6 +5,8 @@ from components.rotational.absolute_sensor import AbsoluteSensor
 from components.rotational.acc_sensor import AccSensor
 from components.rotational.accelerate import Accelerate
 from components.rotational.angle_sensor import AngleSensor
+from components.rotational.bearing_friction import BearingFriction
+from components.rotational.brake import Brake
 from components.rotational.clutch import Clutch
 from components.rotational.compliant import Compliant
 from components.rotational.constant_speed import ConstantSpeed
@@ -17,6 +19,7 @@ from components.rotational.elasto_backlash import ElastoBacklash
 from components.rotational.elasto_backlash2 import ElastoBacklash2
 from components.rotational.fixed import Fixed
 from components.rotational.friction import Friction
+from components.rotational.gearbox import Gearbox
 from components.rotational.ideal_gear import IdealGear
 from components.rotational.ideal_planetary import IdealPlanetary
 from components.rotational.inertia import Inertia
@@ -24,17 +27,22 @@ from components.rotational.initialize_flange import InitializeFlange
 from components.rotational.inverse_speed_dependent_torque import InverseSpeedDependentTorque
 from components.rotational.linear_speed_dependent_torque import LinearSpeedDependentTorque
 from components.rotational.loading_torque import LoadingTorque
+from components.rotational.lossy_gear import LossyGear
 from components.rotational.multi_sensor import MultiSensor
 from components.rotational.one_flange import OneFlange
+from components.rotational.one_way_clutch import OneWayClutch
 from components.rotational.position import Position
 from components.rotational.power_sensor import PowerSensor
+from components.rotational.pressed_shaft import PressedShaft
 from components.rotational.quadratic_speed_dependent_torque import QuadraticSpeedDependentTorque
 from components.rotational.rel_acc_sensor import RelAccSensor
 from components.rotational.rel_angle_sensor import RelAngleSensor
 from components.rotational.rel_speed_sensor import RelSpeedSensor
 from components.rotational.relative_sensor import RelativeSensor
 from components.rotational.relative_states import RelativeStates
+from components.rotational.shaft_friction import ShaftFriction
 from components.rotational.sign_torque import SignTorque
+from components.rotational.sliding_torque import SlidingTorque
 from components.rotational.slipping import Slipping
 from components.rotational.speed import Speed
 from components.rotational.speed_sensor import SpeedSensor
@@ -53,6 +61,8 @@ __all__ = [
     "AccSensor",
     "Accelerate",
     "AngleSensor",
+    "BearingFriction",
+    "Brake",
     "Clutch",
     "Compliant",
     "ConstantSpeed",
@@ -66,6 +76,7 @@ __all__ = [
     "Fixed",
     "Flange",
     "Friction",
+    "Gearbox",
     "IdealGear",
     "IdealGearR2T",
     "IdealPlanetary",
@@ -75,17 +86,22 @@ __all__ = [
     "InverseSpeedDependentTorque",
     "LinearSpeedDependentTorque",
     "LoadingTorque",
+    "LossyGear",
     "MultiSensor",
     "OneFlange",
+    "OneWayClutch",
     "Position",
     "PowerSensor",
+    "PressedShaft",
     "QuadraticSpeedDependentTorque",
     "RelAccSensor",
     "RelAngleSensor",
     "RelSpeedSensor",
     "RelativeSensor",
     "RelativeStates",
+    "ShaftFriction",
     "SignTorque",
+    "SlidingTorque",
     "Slipping",
     "Speed",
     "SpeedSensor",

@@ -3,6 +3,7 @@
 from components.translational.absolute_sensor import AbsoluteSensor
 from components.translational.acc_sensor import AccSensor
 from components.translational.accelerate import Accelerate
+from components.translational.brake import Brake
 from components.translational.compliant import Compliant
 from components.translational.constant_force import ConstantForce
 from components.translational.constant_speed import ConstantSpeed
@@ -23,6 +24,7 @@ from components.translational.inverse_speed_dependent_force import InverseSpeedD
 from components.translational.linear_speed_dependent_force import LinearSpeedDependentForce
 from components.translational.loading_force import LoadingForce
 from components.translational.mass import Mass
+from components.translational.mass_with_stop_and_friction import MassWithStopAndFriction
 from components.translational.multi_sensor import MultiSensor
 from components.translational.one_flange import OneFlange
 from components.translational.position import Position
@@ -36,6 +38,7 @@ from components.translational.relative_sensor import RelativeSensor
 from components.translational.relative_states import RelativeStates
 from components.translational.rigid import Rigid
 from components.translational.rod import Rod
+from components.translational.rod_friction import RodFriction
 from components.translational.rolling_resistance import RollingResistance
 from components.translational.rotational_to_translational import RotationalToTranslational
 from components.translational.sign_force import SignForce
@@ -43,12 +46,14 @@ from components.translational.speed import Speed
 from components.translational.speed_sensor import SpeedSensor
 from components.translational.spring import Spring
 from components.translational.spring_damper import SpringDamper
+from components.translational.support_friction import SupportFriction
 from components.translational.vehicle import Vehicle
 
 __all__ = [
     "AbsoluteSensor",
     "AccSensor",
     "Accelerate",
+    "Brake",
     "Compliant",
     "ConstantForce",
     "ConstantSpeed",
@@ -68,6 +73,7 @@ __all__ = [
     "LinearSpeedDependentForce",
     "LoadingForce",
     "Mass",
+    "MassWithStopAndFriction",
     "MultiSensor",
     "OneFlange",
     "Position",
@@ -81,6 +87,7 @@ __all__ = [
     "RelativeStates",
     "Rigid",
     "Rod",
+    "RodFriction",
     "RollingResistance",
     "RotationalToTranslational",
     "SignForce",
@@ -88,6 +95,7 @@ __all__ = [
     "SpeedSensor",
     "Spring",
     "SpringDamper",
+    "SupportFriction",
     "TranslationalFlange",
     "TwoFlanges",
     "Vehicle",

@@ -28,7 +28,7 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods
+from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
     OnBeam,
@@ -54,10 +54,8 @@ from tests.components.scenes.forces import (
 from tests.components.scenes.joints import OnDrivenPrismatic, OnPlanarLoop, OnPrismatic, OnRevolute, OnSphericalJoint
 from tests.components.scenes.scene import INERTIA, SPIN, M, Plain, Scene
 from tests.components.scenes.shafts import (
-    OnShaftClutch,
     OnShaftDamper,
     OnShaftFixed,
-    OnShaftFriction,
     OnShaftInertia,
     OnShaftPosition,
     OnShaftSpeed,
@@ -115,8 +113,16 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Spring": OnShaftSpring,
     "rotational.Damper": OnShaftDamper,
     "rotational.SpringDamper": OnShaftSpringDamper,
-    "rotational.Friction": OnShaftFriction,
-    "rotational.Clutch": OnShaftClutch,
+    "rotational.Friction": friction.OnShaftFriction,
+    "rotational.Clutch": friction.OnShaftClutch,
+    "rotational.OneWayClutch": friction.OnOneWayClutch,
+    "rotational.BearingFriction": friction.OnBearingFriction,
+    "rotational.Brake": friction.OnBrake,
+    "rotational.LossyGear": friction.OnLossyGear,
+    "rotational.Gearbox": friction.OnGearbox,
+    "translational.SupportFriction": friction.OnSupportFriction,
+    "translational.Brake": friction.OnRodBrake,
+    "translational.MassWithStopAndFriction": friction.OnMassWithStopAndFriction,
     "rotational.Fixed": OnShaftFixed,
     "rotational.Inertia": OnShaftInertia,
     "rotational.Torque": OnShaftTorque,
@@ -224,6 +230,12 @@ BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant
 BASES |= {
     f"{p}.{name}" for p in ("translational", "rotational") for name in ("AbsoluteSensor", "RelativeSensor", "CutSensor")
 }
+BASES |= {
+    "rotational.PressedShaft",
+    "rotational.ShaftFriction",
+    "rotational.SlidingTorque",
+    "translational.RodFriction",
+}
 BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "translational.RotationalToTranslational"}
 
 
@@ -245,6 +257,8 @@ SIDED = [
 DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
 DISSIPATING |= {"fe.FEBody", "SpringDamperSeries", "LineForceWithMass", "LineForceWithTwoMasses"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
+DISSIPATING |= {f"rotational.{name}" for name in ("OneWayClutch", "BearingFriction", "Brake", "LossyGear", "Gearbox")}
+DISSIPATING |= {f"translational.{name}" for name in ("SupportFriction", "Brake", "MassWithStopAndFriction")}
 SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotational.Inertia", "rotational.Torque"}
 SUPPLYING |= {
     "ForceAndTorque",
@@ -254,6 +268,7 @@ SUPPLYING |= {
     "thermal.FixedTemperature",
     "thermal.PrescribedTemperature",
 }
+SUPPLYING |= {"translational.MassWithStopAndFriction"}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}
@@ -385,6 +400,8 @@ def test_documented(name):
         ), n
 
 
+DRY = {"BearingFriction", "Brake", "Clutch", "Friction", "LossyGear", "MassWithStopAndFriction", "OneWayClutch"}
+DRY |= {"PressedShaft", "RodFriction", "ShaftFriction", "SlidingTorque", "Slipping", "SupportFriction"}
 DIMENSIONLESS = {
     ("Orientation", "T"),
     ("FEBody", "damping_ratio"),
@@ -392,9 +409,10 @@ DIMENSIONLESS = {
     ("Frame", "Q"),
     ("Spherical", "Q"),
     ("FreeMotion", "Q"),
-    *[(kind, name) for kind in ("Friction", "Slipping", "Clutch") for name in ("mode", "shared", "share")],
-    ("Clutch", "f_normalized"),
-    ("Clutch", "peak"),
+    *[(kind, name) for kind in DRY for name in ("mode", "shared", "share", "peak", "f_normalized", "stopped")],
+    ("Brake", "cgeo"),
+    ("LossyGear", "ratio"),
+    ("Gearbox", "ratio"),
     ("ElastoGap", "n"),
     ("LineForceWithMass", "length_fraction"),
     ("MassOnLine", "length_fraction"),

@@ -53,14 +53,6 @@ class OnShaftSpringDamper(WithRotor):
         return rotational.SpringDamper(c=8.0, d=0.3, phi_rel0=-0.3 if self.turned else 0.3)
 
 
-class OnShaftFriction(WithRotor):
-    it = rotational.Friction(tau_sliding=0.05, tau_static=0.1)
-
-
-class OnShaftClutch(WithRotor):
-    it = rotational.Clutch(tau_max=0.1, f_normalized=0.5)
-
-
 class OnShaftFixed(Shaft):
     it = rotational.Fixed(phi0=0.2)
     spring = rotational.Spring(c=8.0)
