@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal import Matrix33, Scalar, Vector3, cross, dot, effect, geometry, outer, parameter, port, require
-from components.frame import pose
+from components.frame import Frame, pose
 from components.moving_body import MovingBody, off_centre, past_centre
 from components.orientation import resolve1, resolve2
 from components.rigid import unusual_inertia, wrong_inertia
@@ -39,7 +39,7 @@ class Body(MovingBody):
     world: World = outer(World)
 
     @port
-    def frame_a(self):
+    def frame_a(self) -> Frame:
         """Coordinate system fixed to the body."""
         return self.free_frame()
 

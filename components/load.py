@@ -23,7 +23,7 @@ class WorldLoad(Component):
     frame_b: Frame = port(Frame, "where the load acts")
 
     @port
-    def frame_resolve(self):
+    def frame_resolve(self) -> Frame | None:
         """Frame in which the load is resolved."""
         return Frame() if self.resolve_in_frame == "frame_resolve" else None
 
@@ -52,7 +52,7 @@ class FrameLoad(TwoFrames):
     )
 
     @port
-    def frame_resolve(self):
+    def frame_resolve(self) -> Frame | None:
         """Frame in which the load is resolved."""
         return Frame() if self.resolve_in_frame == "frame_resolve" else None
 

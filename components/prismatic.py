@@ -35,12 +35,12 @@ class Prismatic(DrivenJoint):
     f: Scalar = variable("drive force along n", unit="N")
 
     @port
-    def axis(self):
+    def axis(self) -> TranslationalFlange | None:
         """Drive rod."""
         return TranslationalFlange() if self.use_axis_flange else None
 
     @port
-    def support(self):
+    def support(self) -> TranslationalFlange | None:
         """Housing of the drive."""
         return TranslationalFlange() if self.use_axis_flange else None
 

@@ -40,12 +40,12 @@ class Revolute(DrivenJoint):
     tau: Scalar = variable("drive torque about n", unit="N.m")
 
     @port
-    def axis(self):
+    def axis(self) -> Flange | None:
         """Drive shaft."""
         return Flange() if self.use_axis_flange else None
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing of the drive."""
         return Flange() if self.use_axis_flange else None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
@@ -12,12 +13,22 @@ from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.arguments import refused, told
 from acausal.language.body import read_body
-from acausal.language.docstring import with_parameters
+from acausal.language.docstring import signature, with_fields
 from acausal.language.path import Path
 from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.signal import CONNECTING, Signal
 from acausal.language.slips import SETTINGS
 from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
+
+
+class _Signature:
+    """The `__signature__` of a component class, computed where it is read: from its fields, or its own constructor's."""
+
+    def __get__(self, owner: Any, cls: Any) -> inspect.Signature:
+        if cls.__init__ is Component.__init__:
+            return signature(cls)
+        written = inspect.signature(cls.__init__)
+        return written.replace(parameters=[*written.parameters.values()][1:])
 
 
 @dataclass_transform(
@@ -39,6 +50,7 @@ class Component(f.Template):
         If a name is not one of the fields, or a value cannot be of this field.
     """
 
+    __signature__: ClassVar[Any] = _Signature()
     fields: ClassVar[dict[str, f.Field]] = {}
     ends: ClassVar[tuple[str, str]] = ("", "")
     start_words: ClassVar[dict[str, str]] = {}
@@ -67,7 +79,7 @@ class Component(f.Template):
             name, value = next(iter(kwargs.items()))
             raise DeclarationError(values_of_class(cls, name, value)) from None
         read_body(cls)
-        cls.__doc__ = with_parameters(cls)
+        cls.__doc__ = with_fields(cls)
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
         """Refuse classes whose constructor a decorator has written: it would not know the fields."""

@@ -1,10 +1,11 @@
-"""The Parameters section of a component's docstring, made from its fields."""
+"""Docstring and signature of a component class, made from its fields."""
 
 from __future__ import annotations
 
 import inspect
 import re
 import textwrap
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -15,28 +16,46 @@ from acausal.language.quantities import is_quantity
 
 WIDTH = 100
 SECTION = re.compile(r"\n\n(?=[A-Z][\w ]*\n-{3,}$)", re.MULTILINE)
-PLAIN = ("bool", "float", "int", "str")
+WORD = re.compile(r"^(a|[a-z]{2,})(?= |\.?$)")  # the first word of a sentence, not a symbol such as der(phi)
+PLAIN = {"bool": bool, "float": float, "int": int, "str": str}
+COMPUTED: Any = type("Computed", (), {"__repr__": lambda self: "..."})()  # a default that follows from other values
 
 
-def with_parameters(cls: Any) -> str | None:
-    """Return the docstring of a component class with all that its constructor takes, inherited fields too.
+def with_fields(cls: Any) -> str | None:
+    """Return the docstring of a component class with what its constructor takes, its ports and variables.
 
     Parameters
     ----------
     cls : Component class
         Whose fields were read; without a docstring, or with a Parameters section of its own, it keeps what it has.
     """
-    written = vars(cls).get("__doc__")
-    given = [_entry(cls, name, field) for name, field in cls.fields.items() if _is_parameter(field)]
-    if not written or not given or re.search(r"^\s*Parameters\n\s*-{3,}$", written, re.MULTILINE):
+    written, fields = vars(cls).get("__doc__"), cls.fields.items()
+    made = [
+        *_section("Parameters", (_entry(n, d, [_kind(cls, n, d), _default(cls, n, d)]) for n, d in _parameters(cls))),
+        *_section("Ports", (_entry(n, d, [d.connector]) for n, d in fields if d.connector)),
+        *_section("Variables", (_entry(n, d, [_kind(cls, n, d)]) for n, d in fields if _is_variable(d))),
+    ]
+    if not written or not made or re.search(r"^\s*Parameters\n\s*-{3,}$", written, re.MULTILINE):
         return written
     summary, *sections = SECTION.split(inspect.cleandoc(written))
-    return "\n\n".join([summary, "\n".join(["Parameters", "----------", *given]), *sections])
+    return "\n\n".join([summary, *made, *sections])
+
+
+def signature(cls: Any) -> inspect.Signature:
+    """Return the signature of the constructor of a component class: all by name, variables with their start values."""
+    started = [(n, d) for n, d in cls.fields.items() if isinstance(d, f.Variable) and not _is_parameter(d)]
+    return inspect.Signature([_argument(cls, n, d) for n, d in [*_parameters(cls), *started]])
 
 
 def first_line(cls: type) -> str:
     """Return the first line of the docstring of a class, "" where it has none."""
     return (cls.__doc__ or "").strip().partition("\n")[0]
+
+
+def _parameters(cls: Any) -> list[tuple[str, f.Field]]:
+    """Return what the constructor takes beside start values, what has no default first."""
+    given = [(n, d) for n, d in cls.fields.items() if _is_parameter(d)]
+    return sorted(given, key=lambda item: _value(cls, *item) is not inspect.Parameter.empty)
 
 
 def _is_parameter(field: f.Field) -> bool:
@@ -45,12 +64,48 @@ def _is_parameter(field: f.Field) -> bool:
     )
 
 
-def _entry(cls: Any, name: str, field: f.Field) -> str:
+def _is_variable(field: f.Field) -> bool:
+    return isinstance(field, f.Variable | f.Observed) and not _is_parameter(field)
+
+
+def _argument(cls: Any, name: str, field: f.Field) -> inspect.Parameter:
+    """Return a field as an argument of the constructor."""
+    said: Any = _kind(cls, name, field)
+    kind = PLAIN.get(said, said) if _is_parameter(field) else f"{said}; fixed() or guess()"
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_value(cls, name, field), annotation=kind)
+
+
+def _value(cls: Any, name: str, field: f.Field) -> Any:
+    """Return the default of a field in a call, `...` for one that follows from other values."""
+    value = cls._class_values.get(name, field.default)
+    if isinstance(field, f.Variable) and not _is_parameter(field):
+        start = value if isinstance(value, f.InitialValue) else f.InitialValue(field.start, field.fixed)
+        return f.InitialValue(_plain(start.value), start.fixed) if _is_known(start.value) else COMPUTED
+    if value is f.MISSING:
+        return COMPUTED if isinstance(field, f.Variable) else inspect.Parameter.empty
+    return _plain(value) if _is_known(value) else COMPUTED
+
+
+def _section(title: str, entries: Iterable[str]) -> list[str]:
+    """Return a section of a docstring; none where there are no entries."""
+    lines = [*entries]
+    return ["\n".join([title, "-" * len(title), *lines])] if lines else []
+
+
+def _entry(name: str, field: f.Field, kind: Iterable[str]) -> str:
     """Name, type, unit and default on one line, then the description."""
-    parts = [_type(cls, name, field), _unit(field), _bound(field), _default(cls._class_values.get(name, field.default))]
-    text = field.description[:1].upper() + field.description[1:]
+    text = WORD.sub(lambda word: word[0].capitalize(), field.description)
     text = f"{text}{'' if text.endswith('.') else '.'} {field.doc}".strip()
-    return f"{name} : {', '.join(filter(None, parts))}\n" + textwrap.indent(textwrap.fill(text, WIDTH), "    ")
+    head = f"{name} : {', '.join(filter(None, kind))}"
+    return head if text == "." else f"{head}\n" + textwrap.indent(textwrap.fill(text, WIDTH), "    ")
+
+
+def _kind(cls: Any, name: str, field: f.Field) -> str:
+    """Type, unit and bounds of a field."""
+    if isinstance(field, f.Observed):
+        return "computed where it is read"
+    causality = field.causality if isinstance(field, f.Variable) and not _is_parameter(field) else ""
+    return ", ".join(filter(None, (_type(cls, name, field), causality, _unit(field), _bound(field))))
 
 
 def _type(cls: Any, name: str, field: f.Field) -> str:
@@ -65,7 +120,7 @@ def _type(cls: Any, name: str, field: f.Field) -> str:
         return "bool" if choices else plain
     if kind is not None:
         return kind.__name__ + " or str" * data.loads(kind)
-    more = " or expression of time" if isinstance(field, f.Variable) else ""
+    more = " or expression of time" * (isinstance(field, f.Variable) and _is_parameter(field))
     if field.shape is None:
         return "object"
     shape = f", shape {field.shape}" if field.shape and not callable(field.shape) else ""
@@ -87,19 +142,31 @@ def _bound(field: f.Field) -> str:
     return ", ".join(f"{word} {end:g}" for word, end in zip(bounds, ends, strict=True))
 
 
-def _default(value: Any) -> str:
+def _default(cls: Any, name: str, field: f.Field) -> str:
     """Describe the default, "optional" for one that follows from other values."""
+    value = cls._class_values.get(name, field.default)
     if value is f.MISSING:
         return ""
     if is_quantity(value):
         return f"default {value}"
-    if isinstance(value, np.ndarray):
-        value = value.tolist() if value.any() else 0
-    known = value is None or isinstance(value, bool | int | float | str | list | tuple)
-    return f"default {_shown(value)}" if known else "optional"
+    return f"default {_shown(_plain(value))}" if _is_known(value) else "optional"
+
+
+def _is_known(value: Any) -> bool:
+    """True for a value that is known without an instance."""
+    if isinstance(value, list | tuple):
+        return all(map(_is_known, value))
+    return value is None or isinstance(value, bool | int | float | str | np.ndarray) or is_quantity(value)
+
+
+def _plain(value: Any) -> Any:
+    """Return an array as a list, or as 0."""
+    return (value.tolist() if value.any() else 0) if isinstance(value, np.ndarray) else value
 
 
 def _shown(value: Any) -> str:
     if isinstance(value, str):
         return f'"{value}"'
+    if value is callable:
+        return "function"
     return f"{value:.10g}" if isinstance(value, float) else repr(value)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import operator
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -124,7 +126,7 @@ class InitialValue:
         return f"{'fixed' if self.fixed else 'guess'}({self.value!r})"
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Field(Deferrable):
     """A declared member of a component class."""
 
@@ -147,12 +149,22 @@ class Field(Deferrable):
         """Give the field in a class, and its path in a template that is not built."""
         return self if owner is None else owner._member_path(self.name, self)
 
+    def __repr__(self) -> str:
+        """Show what help() lists: `<parameter in kg: mass>`."""
+        unit = f" in {self.unit}" if isinstance(self.unit, str) and self.unit != "1" else ""
+        return f"<{'port' if self.connector else type(self).__name__.lower()}{unit}: {self.description}>"
+
+    @property
+    def connector(self) -> str:
+        """Class of a port, with ", optional" where it may be absent; "" for what is no port."""
+        return ""
+
     def evaluate(self, owner: Any) -> Any:
         """Return the value of the field in the built component `owner`."""
         return getattr(owner, self.name)
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Structural(Field):
     """Fixes sizes and equations; a plain Python value in an instance."""
 
@@ -165,7 +177,7 @@ class Structural(Field):
     refine: Callable[[Any], bool] | None = None
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Parameter(Field):
     """A number or array that can be changed after compiling."""
 
@@ -173,7 +185,7 @@ class Parameter(Field):
     positive: bool = False
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Variable(Field):
     """An unknown of the model."""
 
@@ -186,7 +198,7 @@ class Variable(Field):
     root: bool = False
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Part(Field):
     """A component inside: a template, or a method that makes it from structural values."""
 
@@ -195,8 +207,21 @@ class Part(Field):
     is_port: bool = False
     family: str = ""  # the field of the class that makes it, for a port whose name only the instance knows
 
+    @property
+    def connector(self) -> str:
+        """Class of a port, of one that a method makes as its annotation says; "" for other parts."""
+        if not self.is_port or self.make is None:
+            return ""
+        if isinstance(self.make, type):
+            return self.make.__name__
+        if isinstance(self.make, Template):
+            return type(self.make).__name__
+        said = inspect.get_annotations(self.make).get("return", "port")
+        text = said if isinstance(said, str) else re.sub(r"[\w.<>]+\.", "", inspect.formatannotation(said))
+        return text.replace(" | None", ", optional")
 
-@dataclass(eq=False)
+
+@dataclass(eq=False, repr=False)
 class Family(Part):
     """Ports whose names are known only in an instance, where these are fields in its place."""
 
@@ -208,14 +233,14 @@ class Family(Part):
         return {name: vars(owner)[name] for name, field in ports.items() if field.family == self.name}
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Outer(Field):
     """The one component of a class in the whole model."""
 
     cls: type = object
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Observed(Field):
     """A quantity computed from results on request; no variable and no equation."""
 

@@ -39,12 +39,12 @@ class JointUPS(TwoFrames):
     frame_ib: Frame = port(Frame, "fixed to the strut at frame_b")
 
     @port
-    def axis(self):
+    def axis(self) -> TranslationalFlange | None:
         """Drive rod."""
         return TranslationalFlange() if self.use_axis_flange else None
 
     @port
-    def support(self):
+    def support(self) -> TranslationalFlange | None:
         """Housing of the drive."""
         return TranslationalFlange() if self.use_axis_flange else None
 

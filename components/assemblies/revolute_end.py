@@ -29,12 +29,12 @@ class RevoluteEnd(TwoFrames):
     frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
 
     @port
-    def axis(self):
+    def axis(self) -> Flange | None:
         """Drive shaft."""
         return Flange() if self.use_axis_flange else None
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing of the drive."""
         return Flange() if self.use_axis_flange else None
 

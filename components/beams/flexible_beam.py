@@ -73,7 +73,7 @@ class FlexibleBeam(Beam):
     )
 
     @port
-    def chord(self):
+    def chord(self) -> Frame | None:
         """Reference frame on the chord."""
         return Frame() if self.reference == "pinned" else None
 

@@ -148,12 +148,12 @@ class FEBody(MovingBody):
     )
 
     @port
-    def ref(self):
+    def ref(self) -> Frame | None:
         """Reference frame, where no interface is it."""
         return None if self._held else self.free_frame()
 
     @ports
-    def frames(self):
+    def frames(self) -> dict[str, Frame]:
         """Frames of the interfaces, by their names."""
         return {i.name: self.free_frame() if i is self._held else Frame() for i in self._body.interfaces}
 

@@ -16,7 +16,7 @@ class OneFlange(Component):
     w: Scalar = variable("der(phi)", unit="rad/s")
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing."""
         return Flange() if self.use_support else None
 

@@ -14,7 +14,7 @@ class TwoFlangesAndSupport(TwoFlanges):
     phi_b: Scalar = variable("angle of flange_b relative to the support", unit="rad")
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing."""
         return Flange() if self.use_support else None
 

@@ -19,7 +19,7 @@ class OneFrameSensor(Component):
     frame_a: Frame = port(Frame, "measured frame")
 
     @port
-    def frame_resolve(self):
+    def frame_resolve(self) -> Frame | None:
         """Frame in which the vectors are resolved."""
         return Frame() if self.resolve_in_frame == "frame_resolve" else None
 

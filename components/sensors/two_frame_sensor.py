@@ -16,7 +16,7 @@ class TwoFrameSensor(TwoFrames):
     )
 
     @port
-    def frame_resolve(self):
+    def frame_resolve(self) -> Frame | None:
         """Frame in which the vectors are resolved."""
         return Frame() if self.resolve_in_frame == "frame_resolve" else None
 

@@ -20,7 +20,7 @@ class HeatLoss(Component):
     loss_power: Scalar = variable("power that turns into heat", unit="W")
 
     @port
-    def heat_port(self):
+    def heat_port(self) -> HeatPort | None:
         """Where the losses leave."""
         return HeatPort() if self.use_heat_port else None
 

@@ -16,7 +16,7 @@ class OneFlange(Component):
     v: Scalar = variable("der(s)", unit="m/s")
 
     @port
-    def support(self):
+    def support(self) -> TranslationalFlange | None:
         """Housing."""
         return TranslationalFlange() if self.use_support else None
 

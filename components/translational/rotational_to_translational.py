@@ -23,12 +23,12 @@ class RotationalToTranslational(Component):
     s: Scalar = variable("position of flange_t relative to its support", unit="m")
 
     @port
-    def support_r(self):
+    def support_r(self) -> Flange | None:
         """Housing of the shaft."""
         return Flange() if self.use_support_r else None
 
     @port
-    def support_t(self):
+    def support_t(self) -> TranslationalFlange | None:
         """Housing of the rod."""
         return TranslationalFlange() if self.use_support_t else None
 

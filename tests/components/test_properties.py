@@ -376,28 +376,51 @@ def test_turned_round(name):
     same(run(TURNED[name]), run(TURNED[name], turned=True))
 
 
+def is_argument(field: Any) -> bool:
+    """Whether the Parameters section of the class lists the field."""
+    return isinstance(field, f.Structural | f.Parameter) or getattr(field, "causality", "") == "input"
+
+
 @every(EXPORTED)
 def test_documented(name):
-    """The docstring of the class names every field of the constructor, with its unit and what it is."""
+    """The docstring names what the constructor takes, ports and variables, each with its kind, unit and what it is."""
     cls = EXPORTED[name]
     text = inspect.getdoc(cls) or ""
     assert text.strip()
-    section = "".join(re.findall(r"Parameters\n\s*-+\n(.*?)(?:\n\s*\n|\Z)", text, re.S))
-    given = {n for n, d in cls.fields.items() if isinstance(d, f.Structural | f.Parameter)}
-    given |= {n for n, d in cls.fields.items() if isinstance(d, f.Variable) and d.causality == "input"}
-    missing = [n for n in given if not re.search(rf"(?<!\w){re.escape(n)}(?!\w)", section)]
-    assert missing == [], text
-    for n in given:
-        d = cls.fields[n]
-        head, said = re.search(rf"^{n} : (.*)\n((?:    .*\n?)+)", section, re.M).groups()
-        assert isinstance(d.unit, str) is False or d.unit == "1" or f"in {d.unit}" in head
-        assert d.description.lower() in " ".join(said.split()).lower()
-    for n, d in cls.fields.items():
-        assert (
-            isinstance(d, f.Outer)
-            or (getattr(d, "description", "") or "").strip()
-            or isinstance(d, f.Part | f.Observed)
-        ), n
+    given = {n for n, d in cls.fields.items() if is_argument(d)}
+    read = {n for n, d in cls.fields.items() if isinstance(d, f.Variable | f.Observed)} - given
+    ports = {n for n, d in cls.fields.items() if isinstance(d, f.Part) and d.is_port and d.make is not None}
+    for title, names in (("Parameters", given), ("Ports", ports), ("Variables", read)):
+        section = "".join(re.findall(rf"{title}\n-+\n(.*?)(?:\n\n|\Z)", text, re.S))
+        entries = {n: (head, said) for n, head, said in re.findall(r"^(\w+) : (.+)\n((?:    .*\n?)+)", section, re.M)}
+        assert set(entries) == names, title
+        for n, (head, said) in entries.items():
+            d = cls.fields[n]
+            assert isinstance(d.unit, str) is False or d.unit == "1" or f"in {d.unit}" in head
+            assert d.description.strip()
+            assert d.description.lower() in " ".join(said.split()).lower()
+    for n in ports:
+        connector = cls.fields[n].connector
+        assert connector[0].isupper() or n == "frames", f"{n}: annotate the method with the class of its port"
+        assert re.search(rf"^{n} : {re.escape(connector)}$", text, re.M)
+
+
+@every(EXPORTED)
+def test_signature(name):
+    """inspect.signature shows all that the constructor takes by name, with type, unit and default."""
+    cls = EXPORTED[name]
+    shown = inspect.signature(cls).parameters
+    assert set(shown) == {n for n, d in cls.fields.items() if is_argument(d) or isinstance(d, f.Variable)}
+    for n, argument in shown.items():
+        d, said = cls.fields[n], str(argument.annotation)
+        assert argument.kind is argument.KEYWORD_ONLY
+        assert argument.annotation is not argument.empty
+        assert isinstance(d.unit, str) is False or d.unit == "1" or f"in {d.unit}" in said
+        assert is_argument(d) or said.endswith("fixed() or guess()")
+        value = cls._class_values.get(n, d.default)
+        if isinstance(d, f.Structural | f.Parameter) and (value is f.MISSING or np.isscalar(value)):
+            assert argument.default is argument.empty if value is f.MISSING else argument.default == value
+    cls(**{n: a.default for n, a in shown.items() if not (a.default is a.empty or repr(a.default) == "...")})
 
 
 DRY = {"BearingFriction", "Brake", "Clutch", "Friction", "LossyGear", "MassWithStopAndFriction", "OneWayClutch"}

@@ -1,8 +1,28 @@
-"""The docstring of a component tells what its constructor takes, from its fields."""
+"""Docstring and signature of a component tell its fields."""
 
 import inspect
 
-from acausal import Component, Model, Scalar, Vector3, effect, input, output, parameter, structural
+from acausal import (
+    Component,
+    Connector,
+    Model,
+    Scalar,
+    Vector3,
+    effect,
+    fixed,
+    flow,
+    input,
+    output,
+    parameter,
+    port,
+    structural,
+    variable,
+)
+
+
+class Clamp(Connector):
+    s: Scalar = variable("position", unit="m")
+    f: Scalar = flow("force", unit="N")
 
 
 class Rod(Component):
@@ -22,6 +42,15 @@ class Rod(Component):
     n: int = structural("number of parts", default=1, minimum=1)
     bends: bool = effect("bending", default=False)
     f: Scalar = input("force", unit="N")
+    left = port(Clamp, "left end")
+    v: Scalar = variable("der(s)", unit="m/s", start=2, fixed=True)
+    s: Scalar = variable("position of the right end", unit="m")
+    y: Scalar = output("signal")
+
+    @port
+    def right(self) -> Clamp | None:
+        """Right end."""
+        return Clamp() if self.bends else None
 
 
 TEXT = """Rod.
@@ -44,6 +73,22 @@ bends : bool, default False
     Bending.
 f : float or expression of time, in N
     Force.
+
+Ports
+-----
+left : Clamp
+    Left end.
+right : Clamp, optional
+    Right end.
+
+Variables
+---------
+v : float, in m/s
+    der(s).
+s : float, in m
+    Position of the right end.
+y : float, output
+    Signal.
 
 Notes
 -----
@@ -86,4 +131,37 @@ def test_what_a_class_says_itself_is_kept():
 
     assert (inspect.getdoc(Written) or "").endswith("m : float\n    Mass.")
     assert Silent.__doc__ is None
-    assert inspect.getdoc(Bare) == "Model without parameters."
+    assert (
+        inspect.getdoc(Bare)
+        == "Model without parameters.\n\nVariables\n---------\ny : float, output, in m\n    Output."
+    )
+
+
+def test_the_signature_has_types_units_and_defaults():
+    assert str(inspect.signature(Rod)) == (
+        "(*, m: 'float, in kg, at least 0', r: 'array, shape (3,), in m' = (0, 0, 1), J: 'float, in kg.m2, positive' = ..., "
+        "kind: '\"thin\" or \"thick\"' = 'thin', n: 'int, at least 1' = 1, bends: bool = False, "
+        "f: 'float or expression of time, in N' = ..., v: 'float, in m/s; fixed() or guess()' = fixed(2), "
+        "s: 'float, in m; fixed() or guess()' = guess(0.0), y: 'float, output; fixed() or guess()' = guess(0.0))"
+    )
+
+
+def test_the_signature_follows_the_class_body():
+    class Heavy(Rod):
+        m = 7.5
+        s = fixed(3)
+
+    class Own(Heavy):
+        def __init__(self, length, **values):
+            super().__init__(r=(0, 0, length), **values)
+
+    shown = inspect.signature(Heavy).parameters
+    assert shown["m"].default == 7.5
+    assert repr(shown["s"].default) == "fixed(3)"
+    assert str(inspect.signature(Own)) == "(length, **values)"
+
+
+def test_fields_are_shown_by_what_they_are():
+    assert repr(Rod.m) == "<parameter in kg: mass>"
+    assert repr(Rod.v) == "<variable in m/s: der(s)>"
+    assert repr(Rod.right) == "<port: Right end.>"
