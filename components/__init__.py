@@ -50,6 +50,7 @@ from components.spherical_spherical import SphericalSpherical
 from components.spring import Spring
 from components.spring_damper_parallel import SpringDamperParallel
 from components.spring_damper_series import SpringDamperSeries
+from components.table import table
 from components.torque import Torque
 from components.translational.flange import TranslationalFlange
 from components.two_frame_body import TwoFrameBody
@@ -124,6 +125,7 @@ __all__ = [
     "resolve2",
     "rotational",
     "sensors",
+    "table",
     "thermal",
     "translational",
 ]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, Connector, Scalar, flow, port, variable
 
 
 class Flange(Connector):
     """Shaft end of one-dimensional rotation."""
 
+    domain: ClassVar[str] = "rotational"
     phi: Scalar = variable("absolute angle", unit="rad")
     tau: Scalar = flow("cut torque", unit="N.m")
 

@@ -37,6 +37,7 @@ class Frame(Connector):
     Velocities and accelerations are those of the origin relative to the world, resolved in this frame.
     """
 
+    domain: ClassVar[str] = "multibody"
     start_words: ClassVar[dict[str, str]] = {
         "r_0": "r_0=fixed(...)",
         "v": "v_0=fixed(...)",

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, Connector, Scalar, flow, port, variable
 
 
 class TranslationalFlange(Connector):
     """End of a rod in one-dimensional translation."""
 
+    domain: ClassVar[str] = "translational"
     s: Scalar = variable("absolute position", unit="m")
     f: Scalar = flow("cut force", unit="N")
 
