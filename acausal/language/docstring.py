@@ -33,7 +33,9 @@ def with_fields(cls: Any) -> str | None:
     made = [
         *_section("Parameters", (_entry(n, d, [_kind(cls, n, d), _default(cls, n, d)]) for n, d in _parameters(cls))),
         *_section("Ports", (_entry(n, d, [d.connector]) for n, d in fields if d.connector)),
-        *_section("Variables", (_entry(n, d, [_kind(cls, n, d)]) for n, d in fields if _is_variable(d))),
+        *_section(
+            "Variables", [*_starts(cls), *(_entry(n, d, [_kind(cls, n, d)]) for n, d in fields if _is_variable(d))]
+        ),
     ]
     if not written or not made or re.search(r"^\s*Parameters\n\s*-{3,}$", written, re.MULTILINE):
         return written
@@ -90,6 +92,12 @@ def _section(title: str, entries: Iterable[str]) -> list[str]:
     """Return a section of a docstring; none where there are no entries."""
     lines = [*entries]
     return ["\n".join([title, "-" * len(title), *lines])] if lines else []
+
+
+def _starts(cls: Any) -> list[str]:
+    """Return a line that says how variables get start values; none where there are only outputs."""
+    names = [n for n, d in cls.fields.items() if isinstance(d, f.Variable) and not (d.causality or d.flow)]
+    return [f"Start values: {n}=fixed(...) holds, {n}=guess(...) helps to find one.\n" for n in names[:1]]
 
 
 def _entry(name: str, field: f.Field, kind: Iterable[str]) -> str:

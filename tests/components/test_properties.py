@@ -391,7 +391,7 @@ def test_documented(name):
     read = {n for n, d in cls.fields.items() if isinstance(d, f.Variable | f.Observed)} - given
     ports = {n for n, d in cls.fields.items() if isinstance(d, f.Part) and d.is_port and d.make is not None}
     for title, names in (("Parameters", given), ("Ports", ports), ("Variables", read)):
-        section = "".join(re.findall(rf"{title}\n-+\n(.*?)(?:\n\n|\Z)", text, re.S))
+        section = "".join(re.findall(rf"{title}\n-+\n(?:Start values.*?\n\n)?(.*?)(?:\n\n|\Z)", text, re.S))
         entries = {n: (head, said) for n, head, said in re.findall(r"^(\w+) : (.+)\n((?:    .*\n?)+)", section, re.M)}
         assert set(entries) == names, title
         for n, (head, said) in entries.items():

@@ -83,6 +83,8 @@ right : Clamp, optional
 
 Variables
 ---------
+Start values: v=fixed(...) holds, v=guess(...) helps to find one.
+
 v : float, in m/s
     der(s).
 s : float, in m
