@@ -1,0 +1,150 @@
+"""Struts as line forces and as joints, and forces that are differentiated: ModelicaTest.MultiBody.Forces."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from acausal import Model, Scalar, Vector3, chain, connect, der, fixed, parameter, piecewise, sine, variable
+from components import (
+    Body,
+    BodyBox,
+    FixedTranslation,
+    LineForceWithMass,
+    LineForceWithTwoMasses,
+    Revolute,
+    World,
+    WorldForceAndTorque,
+)
+from components.assemblies import JointUPS
+from components.sensors import CutForce
+from components.translational import Compliant, Damper, Fixed, Mass, Position
+from tests.reference.msl.published import compare
+
+FORCES = "ModelicaTest.MultiBody.Forces."
+AXIS = np.array([0.7, 1.2, 0])
+
+
+def hinge():
+    return Revolute(phi=fixed(0), w=fixed(0))
+
+
+class Struts(Model):
+    """Two doors with equal struts, one a chain of joints, the other a line force, each with a damper."""
+
+    world = World()
+    rod1, rod2 = FixedTranslation(r=(0, -0.9, 0)), FixedTranslation(r=(0, 0.3, 0))
+    rod3, rod4 = FixedTranslation(r=(0, -0.9, 0.3)), FixedTranslation(r=(0, 0.3, 0.3))
+    revolute1, revolute2 = hinge(), hinge()
+    bodyBox1, bodyBox2 = BodyBox(r=(0.7, 0, 0)), BodyBox(r=(0.7, 0, 0))
+    jointUPS = JointUPS(n_axis_ia=AXIS, use_axis_flange=True)
+    damper1, damper2 = Damper(d=3), Damper(d=3)
+    line = LineForceWithMass()
+
+    def connections(self):
+        yield chain(self.world, self.rod2, self.revolute1, self.bodyBox1, self.jointUPS.frame_b)
+        yield chain(self.world, self.rod1, self.jointUPS.frame_a)
+        yield chain(self.jointUPS.support, self.damper1, self.jointUPS.axis)
+        yield chain(self.world, self.rod4, self.revolute2, self.bodyBox2, self.line.frame_b)
+        yield chain(self.rod4.frame_a, self.rod3, self.line.frame_a)
+        yield chain(self.line.flange_a, self.damper2, self.line.flange_b)
+
+
+def test_line_force_with_mass():
+    compare(FORCES + "LineForceWithMass", Struts())
+
+
+class HeavyStruts(Struts):
+    """The struts carry two masses."""
+
+    line = LineForceWithTwoMasses(m_a=1, m_b=1, L_a=0.2, L_b=0.2)
+    body1 = Body(m=1, r_CM=0.2 * AXIS / np.linalg.norm(AXIS))
+    body2 = Body(m=1, r_CM=-0.2 * AXIS / np.linalg.norm(AXIS))
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.jointUPS.frame_ia, self.body1.frame_a)
+        yield connect(self.jointUPS.frame_ib, self.body2.frame_a)
+
+
+def test_line_force_with_two_masses():
+    compare(FORCES + "LineForceWithTwoMasses", HeavyStruts())
+
+
+class Differentiated(Model):
+    """The cut force in a loaded pendulum is differentiated twice."""
+
+    world, rev, body = World(), hinge(), BodyBox(r=(1, 0, 0))
+    cutForce = CutForce()
+    load = WorldForceAndTorque(force=(sine(f=1),) * 3, torque=(sine(f=1),) * 3, resolve_in_frame="frame_b")
+    rate: Vector3 = variable("der(force)", unit="N/s")
+    rate2: Vector3 = variable("der(rate)", unit="N/s2")
+
+    def connections(self):
+        yield chain(self.world, self.rev, self.body)
+        yield connect(self.body.frame_b, self.cutForce.frame_b)
+        yield connect(self.cutForce.frame_a, self.load.frame_b)
+
+    def equations(self):
+        yield self.rate == der(self.cutForce.force)
+        yield self.rate2 == der(self.rate)
+
+
+def test_differentiation_of_forces():
+    compare(FORCES + "DifferentiationOfForces", Differentiated())
+
+
+def polynomial(x, *coefficients):
+    """Value by Horner's rule, the coefficient of the highest power first."""
+    value = 0
+    for c in coefficients:
+        value = value * x + c
+    return value
+
+
+class GasForce(Compliant):
+    """Gas in a cylinder of an engine: the pressure follows one curve at compression and another one at expansion."""
+
+    L: Scalar = parameter("length of the cylinder", unit="m")
+    d: Scalar = parameter("diameter", unit="m")
+    k0: Scalar = parameter("volume at the top", unit="m3", default=0.01)
+    k1: Scalar = parameter("swept volume", unit="m3", default=1)
+    k: Scalar = parameter("pressure times volume over temperature", unit="J/K", default=1)
+    press: Scalar = variable("pressure", unit="Pa")
+    V: Scalar = variable("volume", unit="m3")
+    T: Scalar = variable("temperature", unit="K")
+
+    def law(self):
+        x = 1 - self.s_rel / self.L
+        compression = piecewise(
+            (polynomial(x, 177.4132, -287.2189, 151.8252, -24.9973, 2.4), x < 0.986061),
+            polynomial(x, 2836360, -10569296, 14761814, -9158505, 2129670),
+        )
+        expansion = piecewise(
+            (polynomial(x, -3929704, 14748765, -20747000, 12964477, -3036495), x > 0.933),
+            polynomial(x, 145.930, -131.707, 17.3438, 17.9272, 2.4),
+        )
+        yield self.press == 1e5 * piecewise((compression, self.v_rel < 0), expansion)
+        yield self.f == -self.press * pi * self.d**2 / 4
+        yield self.V - self.k0 == self.k1 * (1 - x)
+        yield self.press * self.V == self.k * self.T
+
+
+class Cylinder(Model):
+    """The piston follows a sine."""
+
+    fixed, mass = Fixed(), Mass(m=1)
+    gasForce = GasForce(L=0.2, d=0.1, k0=0.01, k1=1.1, k=1.08)
+    position = Position(s_ref=sine(amplitude=0.0999999, f=1, offset=0.1))
+
+    def connections(self):
+        yield chain(self.fixed.flange, self.gasForce, self.mass, self.position.flange)
+
+
+AIR = 287.051  # gas constant of the published density, J/(kg.K)
+
+
+def test_engine_gas_force():
+    names = {"gasForce.dens": lambda r: r["gasForce.press"] / (AIR * r["gasForce.T"])}
+    compare(FORCES + "EngineGasForce", Cylinder(), names)
