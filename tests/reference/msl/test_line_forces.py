@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from math import pi
-
 import numpy as np
 
-from acausal import Model, Scalar, Vector3, chain, connect, der, fixed, parameter, piecewise, sine, variable
+from acausal import Model, Vector3, chain, connect, der, fixed, sine, variable
 from components import (
     Body,
     BodyBox,
@@ -19,7 +17,8 @@ from components import (
 )
 from components.assemblies import JointUPS
 from components.sensors import CutForce
-from components.translational import Compliant, Damper, Fixed, Mass, Position
+from components.translational import Damper, Fixed, Mass, Position
+from tests.reference.msl.gas_force import GasForce
 from tests.reference.msl.published import compare
 
 FORCES = "ModelicaTest.MultiBody.Forces."
@@ -93,42 +92,6 @@ class Differentiated(Model):
 
 def test_differentiation_of_forces():
     compare(FORCES + "DifferentiationOfForces", Differentiated())
-
-
-def polynomial(x, *coefficients):
-    """Value by Horner's rule, the coefficient of the highest power first."""
-    value = 0
-    for c in coefficients:
-        value = value * x + c
-    return value
-
-
-class GasForce(Compliant):
-    """Gas in a cylinder of an engine: the pressure follows one curve at compression and another one at expansion."""
-
-    L: Scalar = parameter("length of the cylinder", unit="m")
-    d: Scalar = parameter("diameter", unit="m")
-    k0: Scalar = parameter("volume at the top", unit="m3", default=0.01)
-    k1: Scalar = parameter("swept volume", unit="m3", default=1)
-    k: Scalar = parameter("pressure times volume over temperature", unit="J/K", default=1)
-    press: Scalar = variable("pressure", unit="Pa")
-    V: Scalar = variable("volume", unit="m3")
-    T: Scalar = variable("temperature", unit="K")
-
-    def law(self):
-        x = 1 - self.s_rel / self.L
-        compression = piecewise(
-            (polynomial(x, 177.4132, -287.2189, 151.8252, -24.9973, 2.4), x < 0.986061),
-            polynomial(x, 2836360, -10569296, 14761814, -9158505, 2129670),
-        )
-        expansion = piecewise(
-            (polynomial(x, -3929704, 14748765, -20747000, 12964477, -3036495), x > 0.933),
-            polynomial(x, 145.930, -131.707, 17.3438, 17.9272, 2.4),
-        )
-        yield self.press == 1e5 * piecewise((compression, self.v_rel < 0), expansion)
-        yield self.f == -self.press * pi * self.d**2 / 4
-        yield self.V - self.k0 == self.k1 * (1 - x)
-        yield self.press * self.V == self.k * self.T
 
 
 class Cylinder(Model):
