@@ -12,11 +12,16 @@ from components import (
     LineForceWithMass,
     LineForceWithTwoMasses,
     Revolute,
+    Spring,
+    SpringDamperParallel,
+    SpringDamperSeries,
     World,
     WorldForceAndTorque,
 )
+from components import Damper as LineDamper
 from components.assemblies import JointUPS
 from components.sensors import CutForce
+from components.thermal import Convection, FixedTemperature
 from components.translational import Damper, Fixed, Mass, Position
 from tests.reference.msl.gas_force import GasForce
 from tests.reference.msl.published import compare
@@ -111,3 +116,44 @@ AIR = 287.051  # gas constant of the published density, J/(kg.K)
 def test_engine_gas_force():
     names = {"gasForce.dens": lambda r: r["gasForce.press"] / (AIR * r["gasForce.T"])}
     compare(FORCES + "EngineGasForce", Cylinder(), names)
+
+
+def hanging(x):
+    return Body(
+        m=1,
+        r_CM=(0, -0.2, 0),
+        I=0.1 * np.eye(3),
+        r_0=fixed((x, -0.2, 0)),
+        v_0=fixed((0, 0, 0)),
+        angles_fixed=True,
+        w_a=fixed((0, 0, 0.034906585039887)),
+    )
+
+
+class HeatLosses(Model):
+    """Bodies on springs and dampers, whose losses leave by convection."""
+
+    world, bar1, bar2, bar3 = World(), *(FixedTranslation(r=(0.3, 0, 0)) for _ in range(3))
+    body1, body2, body3 = hanging(0.3), hanging(0.6), hanging(0.9)
+    spring1, damper1 = Spring(c=30, s_unstretched=0.1), LineDamper(d=2, use_heat_port=True)
+    springDamper = SpringDamperParallel(c=30, d=2, s_unstretched=0.1, use_heat_port=True)
+    springDamperSeries = SpringDamperSeries(c=30, d=2, s_unstretched=0.1, use_heat_port=True, s_damper=fixed(0))
+    spring, convection, ambient = Spring(c=30, s_unstretched=0.2), Convection(Gc=20), FixedTemperature(T=298.15)
+
+    def connections(self):
+        yield chain(self.world, self.bar1, self.bar2, self.bar3)
+        for bar, force, body in (
+            (self.bar1, self.spring1, self.body1),
+            (self.bar1, self.damper1, self.body1),
+            (self.bar2, self.springDamper, self.body2),
+            (self.bar3, self.springDamperSeries, self.body3),
+            (self.bar3, self.spring, self.body3),
+        ):
+            yield chain(bar, force, body)
+        for part in (self.damper1, self.springDamper, self.springDamperSeries):
+            yield connect(part.heat_port, self.convection.solid)
+        yield connect(self.convection.fluid, self.ambient.port)
+
+
+def test_heat_losses():
+    compare("Modelica.Mechanics.MultiBody.Examples.Elementary.HeatLosses", HeatLosses())
