@@ -6,7 +6,7 @@ import inspect
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast, dataclass_transform
 
 from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
@@ -19,6 +19,16 @@ from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.signal import CONNECTING, Signal
 from acausal.language.slips import SETTINGS
 from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
+
+
+class _Docstring:
+    """The `__doc__` of a component class, with sections for its fields that are made where it is read."""
+
+    def __init__(self, written: str) -> None:
+        self.written = written
+
+    def __get__(self, owner: Any, cls: Any) -> str:
+        return with_fields(cls, self.written)
 
 
 class _Signature:
@@ -79,7 +89,8 @@ class Component(f.Template):
             name, value = next(iter(kwargs.items()))
             raise DeclarationError(values_of_class(cls, name, value)) from None
         read_body(cls)
-        cls.__doc__ = with_fields(cls)
+        if cls.__doc__:
+            cls.__doc__ = cast(Any, _Docstring(cls.__doc__))
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
         """Refuse classes whose constructor a decorator has written: it would not know the fields."""

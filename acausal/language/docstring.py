@@ -21,15 +21,17 @@ PLAIN = {"bool": bool, "float": float, "int": int, "str": str}
 COMPUTED: Any = type("Computed", (), {"__repr__": lambda self: "..."})()  # a default that follows from other values
 
 
-def with_fields(cls: Any) -> str | None:
+def with_fields(cls: Any, written: str) -> str:
     """Return the docstring of a component class with what its constructor takes, its ports and variables.
 
     Parameters
     ----------
     cls : Component class
-        Whose fields were read; without a docstring, or with a Parameters section of its own, it keeps what it has.
+        Whose fields were read.
+    written : str
+        Its docstring, which stays as it is if it has a Parameters section of its own.
     """
-    written, fields = vars(cls).get("__doc__"), cls.fields.items()
+    fields = cls.fields.items()
     made = [
         *_section("Parameters", (_entry(n, d, [_kind(cls, n, d), _default(cls, n, d)]) for n, d in _parameters(cls))),
         *_section("Ports", (_entry(n, d, [d.connector]) for n, d in fields if d.connector)),
@@ -37,7 +39,7 @@ def with_fields(cls: Any) -> str | None:
             "Variables", [*_starts(cls), *(_entry(n, d, [_kind(cls, n, d)]) for n, d in fields if _is_variable(d))]
         ),
     ]
-    if not written or not made or re.search(r"^\s*Parameters\n\s*-{3,}$", written, re.MULTILINE):
+    if not made or re.search(r"^\s*Parameters\n\s*-{3,}$", written, re.MULTILINE):
         return written
     summary, *sections = SECTION.split(inspect.cleandoc(written))
     return "\n\n".join([summary, *made, *sections])
