@@ -29,10 +29,10 @@ class MovingBody(Component):
     """Base of bodies: the motion of their reference frame, and where a freely moving one starts."""
 
     angles_start: Any = structural(
-        "angles at the start",
+        "angles at the start, in rad",
         default=(0, 0, 0),
         shape=(3,),
-        doc="In rad; the orientation of a freely moving body, a guess unless angles_fixed. Joints that hold the "
+        doc="The orientation of a freely moving body, a guess unless angles_fixed. Joints that hold the "
         "body have start values of their own.",
     )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))

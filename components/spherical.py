@@ -26,10 +26,10 @@ class Spherical(TwoFrames):
 
     start_words: ClassVar[dict[str, str]] = {"Q": "angles_fixed=True"}
     angles_start: Any = structural(
-        "angles at the start",
+        "angles at the start, in rad",
         default=(0, 0, 0),
         shape=(3,),
-        doc="In rad; the orientation of frame_b relative to frame_a.",
+        doc="The orientation of frame_b relative to frame_a.",
     )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))

@@ -152,7 +152,10 @@ class Field(Deferrable):
     def __repr__(self) -> str:
         """Show what help() lists: `<parameter in kg: mass>`."""
         unit = f" in {self.unit}" if isinstance(self.unit, str) and self.unit != "1" else ""
-        return f"<{'port' if self.connector else type(self).__name__.lower()}{unit}: {self.description}>"
+        return f"<{self._kind()}{unit}: {self.description}>"
+
+    def _kind(self) -> str:
+        return "port" if self.connector else type(self).__name__.lower()
 
     @property
     def connector(self) -> str:
@@ -175,6 +178,9 @@ class Structural(Field):
     effect: bool = False
     tries: tuple[Any, ...] | None = None
     refine: Callable[[Any], bool] | None = None
+
+    def _kind(self) -> str:
+        return "effect" if self.effect else "structural parameter"
 
 
 @dataclass(eq=False, repr=False)

@@ -166,4 +166,6 @@ def test_the_signature_follows_the_class_body():
 def test_fields_are_shown_by_what_they_are():
     assert repr(Rod.m) == "<parameter in kg: mass>"
     assert repr(Rod.v) == "<variable in m/s: der(s)>"
+    assert repr(Rod.n) == "<structural parameter: number of parts>"
+    assert repr(Rod.bends) == "<effect: bending>"
     assert repr(Rod.right) == "<port: Right end.>"
