@@ -16,7 +16,7 @@ from acausal.language.quantities import is_quantity
 
 WIDTH = 100
 SECTION = re.compile(r"\n\n(?=[A-Z][\w ]*\n-{3,}$)", re.MULTILINE)
-WORD = re.compile(r"^(a|[a-z]{2,})(?= |\.?$)")  # the first word of a sentence, not a symbol such as der(phi)
+WORD = re.compile(r"^(a|[a-z]{2,})(?=[ ,-]|\.?$)")  # the first word of a sentence, not a symbol such as der(phi)
 PLAIN = {"bool": bool, "float": float, "int": int, "str": str}
 COMPUTED: Any = type("Computed", (), {"__repr__": lambda self: "..."})()  # a default that follows from other values
 
@@ -99,7 +99,7 @@ def _section(title: str, entries: Iterable[str]) -> list[str]:
 def _starts(cls: Any) -> list[str]:
     """Return a line that says how variables get start values; none where there are only outputs."""
     names = [n for n, d in cls.fields.items() if isinstance(d, f.Variable) and not (d.causality or d.flow)]
-    return [f"Start values: {n}=fixed(...) holds, {n}=guess(...) helps to find one.\n" for n in names[:1]]
+    return [f"Start values: {n}=fixed(...) holds, {n}=guess(...) is a first guess.\n" for n in names[:1]]
 
 
 def _entry(name: str, field: f.Field, kind: Iterable[str]) -> str:

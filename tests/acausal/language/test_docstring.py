@@ -83,7 +83,7 @@ right : Clamp, optional
 
 Variables
 ---------
-Start values: v=fixed(...) holds, v=guess(...) helps to find one.
+Start values: v=fixed(...) holds, v=guess(...) is a first guess.
 
 v : float, in m/s
     der(s).
