@@ -25,12 +25,12 @@ class Gearbox(TwoFlanges):
     b: Scalar = parameter("total backlash, at flange_b", unit="rad", default=0, minimum=0)
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing."""
         return Flange() if self.use_support else None
 
     @port
-    def heat_port(self):
+    def heat_port(self) -> HeatPort | None:
         """Where the losses leave."""
         return HeatPort() if self.use_heat_port else None
 

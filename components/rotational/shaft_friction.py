@@ -20,7 +20,7 @@ class ShaftFriction(DryFriction, TwoFlanges):
     w_slip: Scalar = discrete("change of w at which it no longer rests where others keep it at rest", unit="rad/s")
 
     @port
-    def support(self):
+    def support(self) -> Flange | None:
         """Housing."""
         return Flange() if self.use_support else None
 

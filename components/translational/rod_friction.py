@@ -20,7 +20,7 @@ class RodFriction(DryFriction, TwoFlanges):
     v_slip: Scalar = discrete("change of v at which it no longer rests where others keep it at rest", unit="m/s")
 
     @port
-    def support(self):
+    def support(self) -> TranslationalFlange | None:
         """Housing."""
         return TranslationalFlange() if self.use_support else None
 
