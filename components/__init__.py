@@ -44,6 +44,10 @@ from components.point_mass import PointMass
 from components.prismatic import Prismatic
 from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
+from components.rolling_wheel import RollingWheel
+from components.rolling_wheel_joint import RollingWheelJoint
+from components.rolling_wheel_set import RollingWheelSet
+from components.rolling_wheel_set_joint import RollingWheelSetJoint
 from components.rotor_1d import Rotor1D
 from components.spherical import Spherical
 from components.spherical_spherical import SphericalSpherical
@@ -95,6 +99,10 @@ __all__ = [
     "RelativeOrientation",
     "Revolute",
     "RevolutePlanarLoopConstraint",
+    "RollingWheel",
+    "RollingWheelJoint",
+    "RollingWheelSet",
+    "RollingWheelSetJoint",
     "Rotor1D",
     "Spherical",
     "SphericalSpherical",

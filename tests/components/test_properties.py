@@ -28,7 +28,7 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods
+from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods, wheels
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
     OnBeam,
@@ -83,6 +83,10 @@ SCENES: dict[str, type[Scene]] = {
     "Cylindrical": joints.OnCylindrical,
     "Planar": joints.OnPlanar,
     "FreeMotion": joints.OnFreeMotion,
+    "RollingWheel": wheels.OnRollingWheel,
+    "RollingWheelJoint": wheels.OnRollingWheelJoint,
+    "RollingWheelSet": wheels.OnRollingWheelSet,
+    "RollingWheelSetJoint": wheels.OnRollingWheelSetJoint,
     "GearConstraint": drives.OnGearConstraint,
     "Rotor1D": drives.OnRotor,
     "Mounting1D": drives.OnMounting,

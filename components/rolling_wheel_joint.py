@@ -1,0 +1,126 @@
+"""RollingWheelJoint: a wheel without mass that rolls on the road without slip."""
+
+from __future__ import annotations
+
+from acausal import (
+    NEVER,
+    Component,
+    Expr,
+    Scalar,
+    Vector3,
+    apart,
+    as_expr,
+    atan2,
+    cross,
+    der,
+    dot,
+    expect,
+    geometry,
+    parameter,
+    port,
+    require,
+    sqrt,
+    structural,
+    variable,
+)
+from components.frame import Frame, pose
+
+# Force that holds the wheel down, relative to the largest one that carries it: less is error of the integration.
+HELD_DOWN = 1e-3
+
+
+class RollingWheelJoint(Component):
+    """Wheel without mass that rolls on the plane z = 0 of the world without slip.
+
+    Notes
+    -----
+    With the normal u of the road and the axis e of the wheel, l = u x e / |u x e| lies in both planes. The point that is
+    radius (e x l) below the centre touches the road; it moves neither along l nor along s = l x u, which are two
+    constraints of velocities. No branch: the body of the wheel moves freely, or joints guide it. The road also holds the
+    wheel down: a wheel that would lift off gives a warning.
+    """
+
+    ends = ("frame_a", "frame_a")
+    radius: Scalar = parameter("radius of the wheel", unit="m", positive=True)
+    carries: bool = structural(
+        "whether the road carries the wheel",
+        default=True,
+        choices=(True, False),
+        doc="False where the wheel is held upright, with its centre at the height of its radius.",
+    )
+    guides: bool = structural(
+        "whether the road guides the wheel sideways",
+        default=True,
+        choices=(True, False),
+        doc="False for the second wheel of an axle.",
+    )
+    frame_a: Frame = port(Frame, "centre of the wheel, with y along its axis")
+    x: Scalar = variable("x-coordinate of the centre, resolved in the world", unit="m")
+    y: Scalar = variable("y-coordinate of the centre, resolved in the world", unit="m")
+    angles: Vector3 = variable(
+        "angles from the world to frame_a about z, y and x, each about the turned axis; that about y is within 90 degrees",
+        unit="rad",
+        select=NEVER,
+    )
+    der_angles: Vector3 = variable("der(angles)", unit="rad/s", select=NEVER)
+    f_n: Scalar = variable("force of the road on the wheel, upwards", unit="N")
+    f_lat: Scalar = variable("force of the road on the wheel along s, to the left", unit="N")
+    f_long: Scalar = variable("force of the road on the wheel along l, backwards", unit="N")
+
+    def equations(self):
+        a, T = self.frame_a, self.frame_a.R.T
+        u, l, s, r = self.contact()
+        slip, force = a.v + cross(a.R.w, r), u * self.f_n + s * self.f_lat + l * self.f_long
+        yield self.x == a.r_0[0]
+        yield self.y == a.r_0[1]
+        yield self.angles == (
+            atan2(T[0, 1], T[0, 0]),
+            atan2(-T[0, 2], sqrt(T[0, 0] * T[0, 0] + T[0, 1] * T[0, 1])),
+            atan2(T[1, 2], T[2, 2]),
+        )
+        yield self.der_angles == der(self.angles)
+        yield dot(l, slip) == 0
+        yield dot(s, slip) == 0 if self.guides else self.f_lat == 0
+        yield a.r_0[2] + dot(u, r) == 0 if self.carries else self.f_n == 0
+        yield a.f == -force
+        yield a.t == -cross(r, force)
+
+    def contact(self) -> tuple[Expr, Expr, Expr, Expr]:
+        """Directions u, l and s, and the position of the point of contact from the centre, resolved in frame_a."""
+        u, upright = self.frame_a.R.T[:, 2], self._upright()
+        l = as_expr((-u[2], 0, u[0])) / upright
+        return u, l, cross(l, u), as_expr((-u[0], 0, -u[2])) / upright * self.radius
+
+    def requirements(self):
+        name = self._path or type(self).__name__
+        yield require(
+            self._upright() > 0.02,
+            f"{name} lies flat at the start, where no point of its rim is the lowest; start it upright, for instance "
+            "angles=fixed((0, 0, 0)), with y of its frame along the axis of the wheel, and z of the world upwards",
+        )
+
+    def validity(self):
+        u, w = self.frame_a.R.T[:, 2], self.frame_a.R.w
+        yield apart(
+            as_expr((u[0], u[2])),
+            u[1] * (w[2] * u[0] - w[0] * u[2]) / self._upright(),
+            self.f_n,
+            "it falls flat, where no point of its rim is the lowest. End the run before that, stop_time=..., or let it "
+            "roll faster",
+        )
+        yield expect(
+            (abs(self.f_n) - self.f_n) / 2,
+            self.f_n,
+            HELD_DOWN,
+            "it would lift off, and the road holds it down. Take a tyre, or a contact that opens",
+        )
+
+    def shapes(self):
+        """The wheel, of a tenth of its radius in width."""
+        half = self.radius / 20
+        yield geometry.Cylinder(pose(self.frame_a), (0, -half, 0), (0, half, 0), 2 * self.radius)
+
+    def _upright(self) -> Expr:
+        """|u x e|, the cosine of the lean."""
+        u = self.frame_a.R.T[:, 2]
+        return sqrt(u[0] * u[0] + u[2] * u[2])
