@@ -1,6 +1,6 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
-from components import rotational, sensors, thermal, translational
+from components import constraints, rotational, sensors, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
@@ -123,6 +123,7 @@ __all__ = [
     "WorldLoad",
     "WorldTorque",
     "absolute_rotation",
+    "constraints",
     "fixed_rotation",
     "from_quaternion",
     "inverse_rotation",

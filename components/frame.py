@@ -62,11 +62,9 @@ class Frame(Connector):
         yield self.R.w, self.z
 
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
-        """Equal position, and a rotation vector n tan(angle / 2) of one frame from the other, which only no turn has as 0."""
+        """Equal position, and no turn of one frame from the other."""
         yield self.r_0 == other.r_0, resolve1(self.R, self.f)
-        T = other.R.T @ self.R.T.T
-        turn = as_expr((T[1, 2] - T[2, 1], T[2, 0] - T[0, 2], T[0, 1] - T[1, 0])) / (1 + T[0, 0] + T[1, 1] + T[2, 2])
-        yield turn == as_expr(np.zeros(3)), self.t
+        yield turn_between(self, other) == as_expr(np.zeros(3)), self.t
 
     def power(self) -> Iterator[tuple[Any, Any]]:
         """Force times velocity and torque times angular velocity."""
@@ -101,6 +99,12 @@ class TwoFrames(Component):
         yield from parts
         if not any(isinstance(end, Frame) for part in parts for end in part._ports):
             yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0)
+
+
+def turn_between(frame_a: Any, frame_b: Any) -> Any:
+    """Rotation vector n tan(angle / 2) of frame_b from frame_a, the same in both, which is 0 where they are parallel alone."""
+    T = frame_b.R.T @ frame_a.R.T.T
+    return as_expr((T[1, 2] - T[2, 1], T[2, 0] - T[0, 2], T[0, 1] - T[1, 0])) / (1 + T[0, 0] + T[1, 1] + T[2, 2])
 
 
 def pose(frame: Any) -> geometry.Pose:

@@ -42,6 +42,12 @@ def unit_vector(n: Any) -> np.ndarray:
     return n / np.linalg.norm(n)
 
 
+def across(n: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two directions of numbers across n of length 1, at right angles to each other."""
+    e_y = unit_vector(np.cross(n, np.eye(3)[np.argmin(np.abs(n))]))
+    return np.cross(e_y, n), e_y
+
+
 def norm(v: Any) -> Any:
     """Length of a vector."""
     return sqrt(dot(v, v))

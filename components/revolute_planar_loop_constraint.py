@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from acausal import as_expr, dot, geometry, structural, variable
 from components.frame import TwoFrames, pose
-from components.orientation import resolve1, resolve2, unit_vector
+from components.orientation import across, resolve1, resolve2, unit_vector
 from components.world import require_direction
 
 
@@ -24,21 +22,15 @@ class RevolutePlanarLoopConstraint(TwoFrames):
     n: Any = structural(
         "axis of rotation, the same in frame_a and frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
     )
-    f_c: Any = variable("constraint forces across n, along the two directions of across()", unit="N", shape=(2,))
+    f_c: Any = variable("constraint forces across n, along two directions at right angles", unit="N", shape=(2,))
 
     def check(self) -> None:
         """Refuse an axis of length 0."""
         require_direction(self, self.n, "n")
 
-    def across(self) -> tuple[np.ndarray, np.ndarray]:
-        """Two directions across n and across each other, resolved in frame_a."""
-        n = unit_vector(self.n)
-        e_y = unit_vector(np.cross(n, np.eye(3)[np.argmin(np.abs(n))]))
-        return np.cross(e_y, n), e_y
-
     def equations(self):
         a, b = self.frame_a, self.frame_b
-        e_x, e_y = self.across()
+        e_x, e_y = across(unit_vector(self.n))
         r_rel_a = resolve2(a.R, b.r_0 - a.r_0)
         yield dot(e_x, r_rel_a) == 0
         yield dot(e_y, r_rel_a) == 0

@@ -20,6 +20,7 @@ from components import (
     TwoFrames,
     World,
     assemblies,
+    constraints,
     fe,
     rotational,
     sensors,
@@ -29,6 +30,8 @@ from components import (
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
 from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods, wheels
+from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods, wheels
+from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
     OnBeam,
@@ -104,6 +107,10 @@ SCENES: dict[str, type[Scene]] = {
     "assemblies.JointSSR": scenes_of_assemblies.OnJointSSR,
     "assemblies.JointUPS": scenes_of_assemblies.OnJointUPS,
     "assemblies.JointUSR": scenes_of_assemblies.OnJointUSR,
+    "constraints.Prismatic": constraint_scenes.OnPrismaticConstraint,
+    "constraints.Revolute": constraint_scenes.OnRevoluteConstraint,
+    "constraints.Spherical": constraint_scenes.OnSphericalConstraint,
+    "constraints.Universal": constraint_scenes.OnUniversalConstraint,
     "Spring": OnSpring,
     "Damper": OnDamper,
     "SpringDamperParallel": OnSpringDamper,
@@ -228,7 +235,7 @@ BASES = {
     "rotational.OneFlange",
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
-BASES |= {"assemblies.RevoluteEnd"}
+BASES |= {"assemblies.RevoluteEnd", "constraints.PositionConstraint"}
 BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
@@ -246,7 +253,7 @@ BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "transl
 def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
-    for package in (assemblies, rotational, translational, thermal, sensors, fe):
+    for package in (assemblies, constraints, rotational, translational, thermal, sensors, fe):
         short = package.__name__.rpartition(".")[2]
         found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}

@@ -1,0 +1,9 @@
+"""Joints as constraints between bodies that move on their own."""
+
+from components.constraints.position_constraint import PositionConstraint
+from components.constraints.prismatic import Prismatic
+from components.constraints.revolute import Revolute
+from components.constraints.spherical import Spherical
+from components.constraints.universal import Universal
+
+__all__ = ["PositionConstraint", "Prismatic", "Revolute", "Spherical", "Universal"]

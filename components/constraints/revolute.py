@@ -1,0 +1,33 @@
+"""Revolute joint as a constraint."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import dot, geometry, structural
+from components.constraints.position_constraint import PositionConstraint
+from components.frame import pose
+from components.orientation import across, unit_vector
+from components.world import require_direction
+
+
+class Revolute(PositionConstraint):
+    """Holds the origins of two frames together, and an axis of theirs; frame_b turns about it."""
+
+    n: Any = structural(
+        "axis of rotation, the same in frame_a and frame_b", default=(0, 1, 0), shape=(3,), doc="Any length but 0."
+    )
+
+    def check(self) -> None:
+        """Refuse an axis of length 0."""
+        require_direction(self, self.n, "n")
+
+    def turning(self, t_b_a):
+        n = unit_vector(self.n)
+        for e in across(n):
+            yield dot(e, self.seen(n)) == 0
+        yield dot(n, self.frame_b.t) == 0
+
+    def shapes(self):
+        """A pin."""
+        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))

@@ -1,0 +1,18 @@
+"""Spherical joint as a constraint."""
+
+from __future__ import annotations
+
+from acausal import geometry
+from components.constraints.position_constraint import PositionConstraint
+from components.frame import pose
+
+
+class Spherical(PositionConstraint):
+    """Holds the origins of two frames together; they turn freely."""
+
+    def turning(self, t_b_a):
+        yield self.frame_b.t == (0, 0, 0)
+
+    def shapes(self):
+        """A ball."""
+        yield geometry.Sphere(pose(self.frame_b))
