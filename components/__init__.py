@@ -8,6 +8,7 @@ from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
 from components.body_rod import BodyRod
 from components.body_shape import BodyShape
+from components.constant_velocity_joint import ConstantVelocityJoint
 from components.cylindrical import Cylindrical
 from components.damper import Damper
 from components.driven_joint import DrivenJoint
@@ -41,7 +42,9 @@ from components.orientation import (
 )
 from components.planar import Planar
 from components.point_mass import PointMass
+from components.point_on_curve import PointOnCurve
 from components.prismatic import Prismatic
+from components.rack_and_pinion import RackAndPinion
 from components.revolute import Revolute
 from components.revolute_planar_loop_constraint import RevolutePlanarLoopConstraint
 from components.rolling_wheel import RollingWheel
@@ -49,6 +52,7 @@ from components.rolling_wheel_joint import RollingWheelJoint
 from components.rolling_wheel_set import RollingWheelSet
 from components.rolling_wheel_set_joint import RollingWheelSetJoint
 from components.rotor_1d import Rotor1D
+from components.screw_joint import ScrewJoint
 from components.spherical import Spherical
 from components.spherical_spherical import SphericalSpherical
 from components.spring import Spring
@@ -72,6 +76,7 @@ __all__ = [
     "BodyCylinder",
     "BodyRod",
     "BodyShape",
+    "ConstantVelocityJoint",
     "Cylindrical",
     "Damper",
     "DrivenJoint",
@@ -95,7 +100,9 @@ __all__ = [
     "Orientation",
     "Planar",
     "PointMass",
+    "PointOnCurve",
     "Prismatic",
+    "RackAndPinion",
     "RelativeOrientation",
     "Revolute",
     "RevolutePlanarLoopConstraint",
@@ -104,6 +111,7 @@ __all__ = [
     "RollingWheelSet",
     "RollingWheelSetJoint",
     "Rotor1D",
+    "ScrewJoint",
     "Spherical",
     "SphericalSpherical",
     "Spring",

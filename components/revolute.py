@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from acausal import PREFER, Scalar, der, dot, geometry, parameter, port, structural, variable
@@ -58,6 +59,10 @@ class Revolute(DrivenJoint):
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == -resolve1(R, self.frame_b.t)
         yield self.tau - self._drag() == -dot(n, self.frame_b.t)
+        yield from self.drive()
+
+    def drive(self) -> Iterator[Any]:
+        """Yield the equations of the drive, or tau = 0 without one."""
         if self.use_axis_flange:
             yield self.axis.phi == self.phi + self.give(self.tau)
             yield self.axis.tau == self.tau
@@ -67,10 +72,14 @@ class Revolute(DrivenJoint):
 
     def shapes(self):
         """A pin, and the torque of a drive."""
-        a, n = self.frame_a, unit_vector(self.n)
-        yield geometry.Axle(pose(a), n)
+        yield geometry.Axle(pose(self.frame_a), unit_vector(self.n))
+        yield from self.drive_arrow()
+
+    def drive_arrow(self) -> Iterator[geometry.Arrow]:
+        """Yield the torque of a drive."""
         if self.use_axis_flange:
-            yield geometry.Arrow(a.r_0, resolve1(a.R, n * self.tau), "torque")
+            a = self.frame_a
+            yield geometry.Arrow(a.r_0, resolve1(a.R, unit_vector(self.n) * self.tau), "torque")
 
     def stored_energy(self):
         """Elastic energy of the drive."""

@@ -31,6 +31,7 @@ from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
 from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods, wheels
 from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods, wheels
+from tests.components.scenes import bodies, drives, forces, gears, guides, heat, joints, rods, wheels
 from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
@@ -86,6 +87,10 @@ SCENES: dict[str, type[Scene]] = {
     "Cylindrical": joints.OnCylindrical,
     "Planar": joints.OnPlanar,
     "FreeMotion": joints.OnFreeMotion,
+    "ConstantVelocityJoint": guides.OnConstantVelocityJoint,
+    "PointOnCurve": guides.OnPointOnCurve,
+    "RackAndPinion": guides.OnRackAndPinion,
+    "ScrewJoint": guides.OnScrewJoint,
     "RollingWheel": wheels.OnRollingWheel,
     "RollingWheelJoint": wheels.OnRollingWheelJoint,
     "RollingWheelSet": wheels.OnRollingWheelSet,
@@ -265,7 +270,15 @@ SIDED = [
     for name in SCENES
     if issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody"
 ]
-DISSIPATING = {"Damper", "SpringDamperParallel", "Revolute", "Prismatic", "FlexibleBeam", "SubstructuredBeam"}
+DISSIPATING = {
+    "Damper",
+    "SpringDamperParallel",
+    "Revolute",
+    "ScrewJoint",
+    "Prismatic",
+    "FlexibleBeam",
+    "SubstructuredBeam",
+}
 DISSIPATING |= {"fe.FEBody", "SpringDamperSeries", "LineForceWithMass", "LineForceWithTwoMasses"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 DISSIPATING |= {f"rotational.{name}" for name in ("OneWayClutch", "BearingFriction", "Brake", "LossyGear", "Gearbox")}
@@ -459,6 +472,7 @@ DIMENSIONLESS = {
     ("BevelGear1D", "ratio"),
     ("GearConstraint", "ratio"),
     ("IdealPlanetary", "ratio"),
+    *[("PointOnCurve", name) for name in ("u", "der_u", "der2_u")],
 }
 
 

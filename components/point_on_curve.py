@@ -1,0 +1,91 @@
+"""PointOnCurve: a point that is guided along a curve."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from acausal import (
+    PREFER,
+    DeclarationError,
+    Expr,
+    Scalar,
+    as_expr,
+    cross,
+    der,
+    dot,
+    geometry,
+    require,
+    structural,
+    variable,
+)
+from components.frame import TwoFrames, pose
+from components.orientation import resolve1, resolve2
+
+
+class PointOnCurve(TwoFrames):
+    """Guides the origin of frame_b along a curve that is fixed to frame_a, without friction; frame_b turns freely.
+
+    Notes
+    -----
+    r_rel = c(u), f . dc/du = 0. No branch: the rest of the machine holds both frames, or they belong to bodies that move
+    freely. The curve holds the point on both sides. u=guess(...) selects the place where the point starts, on a curve that
+    passes it more than once. The curve has two derivatives, and dc/du is 0 nowhere.
+
+    Examples
+    --------
+    >>> PointOnCurve(curve=lambda u: (0.3 * cos(u), 0.2 * sin(u), 0))  # doctest: +SKIP
+    """
+
+    curve: Any = structural(
+        "function of u that returns the three coordinates of the point, resolved in frame_a",
+        cls=object,
+        doc="In m; of any parameter u, an angle or a length.",
+    )
+    u: Scalar = variable("parameter of the curve where the point is", select=PREFER)
+    der_u: Scalar = variable("der(u)", select=PREFER)
+    der2_u: Scalar = variable("der(der_u)")
+    f: Any = variable("force of the curve on the point, resolved in frame_a", unit="N", shape=(3,))
+
+    def check(self) -> None:
+        """Refuse what is no function."""
+        if not callable(self.curve):
+            raise DeclarationError(
+                "`curve` is no function; give one of u, for instance curve=lambda u: (0.3 * cos(u), 0.2 * sin(u), 0)."
+            )
+
+    def equations(self):
+        a, b = self.frame_a, self.frame_b
+        c = self._point()
+        yield self.der_u == der(self.u)
+        yield self.der2_u == der(self.der_u)
+        yield resolve2(a.R, b.r_0 - a.r_0) == c
+        yield dot(self.f, self._tangent(c)) == 0
+        yield a.f == self.f
+        yield a.t == cross(c, self.f)
+        yield b.f == -resolve2(b.R, resolve1(a.R, self.f))
+        yield b.t == (0, 0, 0)
+
+    def requirements(self):
+        tangent = self._tangent(self._point())
+        yield require(
+            dot(tangent, tangent) > 0,
+            "the curve has no tangent at the start, dc/du = 0; give it another parameter u, or start elsewhere: u=guess(...)",
+        )
+
+    def shapes(self):
+        """The point."""
+        yield geometry.Sphere(pose(self.frame_b))
+
+    def _point(self) -> Expr:
+        c = as_expr(self.curve(self.u))
+        if c.shape != (3,):
+            raise DeclarationError(
+                "`curve` does not return three coordinates; for instance curve=lambda u: (u, 0.1 * u**2, 0)."
+            )
+        return c
+
+    def _tangent(self, c: Expr) -> Expr:
+        """dc/du."""
+        return Expr(ca.jacobian(c.sx, self.u.sx), shape=(3,))

@@ -1,0 +1,44 @@
+"""Screw joint."""
+
+from __future__ import annotations
+
+from math import pi
+
+from acausal import Scalar, cross, der, dot, geometry, parameter, variable
+from components.frame import move, pose
+from components.orientation import planar_rotation, resolve1, unit_vector
+from components.revolute import Revolute
+
+
+class ScrewJoint(Revolute):
+    """Screw joint: frame_b turns about the axis n and advances along it by `pitch` each turn.
+
+    Notes
+    -----
+    s = pitch phi / (2 pi). A pitch greater than 0 is a right-handed thread; there is no backlash. The drive turns frame_b.
+    """
+
+    pitch: Scalar = parameter("way along n in one turn", unit="m")
+    s: Scalar = variable("distance from frame_a to frame_b along n", unit="m")
+    v: Scalar = variable("der(s)", unit="m/s")
+
+    def equations(self):
+        a, b, n = self.frame_a, self.frame_b, unit_vector(self.n)
+        lead = self.pitch / (2 * pi)
+        r, R = n * (lead * self.phi), planar_rotation(n, self.phi)
+        f_b = resolve1(R, b.f)
+        yield self.w == der(self.phi)
+        yield self.a == der(self.w)
+        yield self.s == lead * self.phi
+        yield self.v == lead * self.w
+        yield from move(a, b, r, R)
+        yield a.f == -f_b
+        yield a.t == -resolve1(R, b.t) - cross(r, f_b)
+        yield self.tau - self._drag() == -dot(n, b.t) - lead * dot(n, b.f)
+        yield from self.drive()
+
+    def shapes(self):
+        """A rail, a pin, and the torque of a drive."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "rail")
+        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n))
+        yield from self.drive_arrow()
