@@ -108,6 +108,9 @@ SCENES: dict[str, type[Scene]] = {
     "Spherical": OnSphericalJoint,
     "SphericalSpherical": joints.OnSphericalSpherical,
     "UniversalSpherical": joints.OnUniversalSpherical,
+    "assemblies.JointRRP": scenes_of_assemblies.OnSprungRRP,
+    "assemblies.JointSSP": scenes_of_assemblies.OnSprungSSP,
+    "assemblies.JointUSP": scenes_of_assemblies.Sprung,
     "assemblies.JointRRR": scenes_of_assemblies.OnJointRRR,
     "assemblies.JointSSR": scenes_of_assemblies.OnJointSSR,
     "assemblies.JointUPS": scenes_of_assemblies.OnJointUPS,
@@ -229,6 +232,7 @@ SCENES: dict[str, type[Scene]] = {
     "thermal.PrescribedTemperature": heat.OnPrescribedTemperature,
 }
 TURNED = SCENES | {"Prismatic": OnPrismatic}
+TURNED |= {f"assemblies.Joint{kind}": getattr(scenes_of_assemblies, f"OnJoint{kind}") for kind in ("RRP", "SSP", "USP")}
 BASES = {
     "DrivenJoint",
     "LineForce",
@@ -240,7 +244,7 @@ BASES = {
     "rotational.OneFlange",
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
-BASES |= {"assemblies.RevoluteEnd", "constraints.PositionConstraint"}
+BASES |= {"assemblies.PrismaticEnd", "assemblies.RevoluteEnd", "constraints.PositionConstraint"}
 BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
-from acausal import chain, connect, fixed, part
+from acausal import chain, connect, fixed, part, structural
 from components import FixedTranslation, Revolute, Spring, translational
-from components.assemblies import JointRRR, JointSSR, JointUPS, JointUSR
+from components.assemblies import JointRRP, JointRRR, JointSSP, JointSSR, JointUPS, JointUSP, JointUSR
 from tests.components.scenes.scene import Scene
 
 
@@ -67,3 +67,51 @@ class OnJointSSR(OnJointUSR):
     @part
     def it(self):
         return JointSSR(rod1_length=0.8, **self.rod2())
+
+
+class OnJointUSP(OnCrank):
+    """Without a load, as turned round, the slide is on the crank."""
+
+    use_axis_flange = structural("whether a spring loads the slide", default=False)
+    kind: ClassVar[type] = JointUSP
+
+    @part
+    def it(self):
+        return self.kind(use_axis_flange=self.use_axis_flange, r_rod2_ib=(0, 0.2, 0), **self.rod1())
+
+    def rod1(self):
+        return {"r_rod1_ia": (1.5, 0, 0)}
+
+
+class OnJointRRP(OnJointUSP):
+    kind: ClassVar[type] = JointRRP
+
+
+class OnJointSSP(OnJointUSP):
+    kind: ClassVar[type] = JointSSP
+
+    def rod1(self):
+        return {"rod1_length": 1.5, "n_b": (-1, 0, 0)}
+
+
+class Sprung(OnJointUSP):
+    """A spring loads the slide."""
+
+    use_axis_flange = structural("whether a spring loads the slide", default=True)
+    spring = translational.Spring(c=60.0, s_rel0=0.4)
+
+    def graph(self):
+        yield from super().graph()
+        yield connect(self.spring.flange_a, self.it.support)
+        yield connect(self.spring.flange_b, self.it.axis)
+
+
+class OnSprungRRP(Sprung):
+    kind: ClassVar[type] = JointRRP
+
+
+class OnSprungSSP(Sprung, OnJointSSP):
+    """The rod has a mass."""
+
+    def rod1(self):
+        return super().rod1() | {"rod1_mass": 0.5}

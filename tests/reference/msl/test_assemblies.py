@@ -11,13 +11,16 @@ from components import (
     Body,
     BodyBox,
     BodyCylinder,
+    Fixed,
     FixedTranslation,
+    Prismatic,
     Revolute,
     RevolutePlanarLoopConstraint,
     Universal,
     World,
 )
-from components.assemblies import JointRRR, JointSSR, JointUPS, JointUSR
+from components.assemblies import JointRRP, JointRRR, JointSSP, JointSSR, JointUPS, JointUSP, JointUSR
+from components.sensors import RelativePosition
 from components.translational import Spring
 from tests.reference.msl.published import compare
 
@@ -102,6 +105,70 @@ def test_assembly_moves_as_its_joints(kind, start, offset):
     assert found["j1.phi"] == pytest.approx(plain["j1.phi"], abs=1e-5)
     assert found["joint.revolute.phi"] + offset == pytest.approx(plain["j4.phi"], abs=1e-5)
     assert found["mass.frame_a.f"] == pytest.approx(plain["mass.frame_a.f"], abs=1e-3)
+
+
+class Slider(Plain):
+    """The loop of joints with a slide, whose axis is 0.1 m above the ground."""
+
+    rod2 = FixedTranslation(r=(-0.2, 0.1, 0))
+
+    @part
+    def j2(self):
+        return Revolute(phi=guess(-1.6 if self.start < 0 else -4.6))
+
+    @part
+    def j4(self):
+        return Prismatic(n=(-1, 0, 0), s=guess(self.start))
+
+
+@pytest.mark.parametrize(("start", "offset"), [(-0.1, 0.2), (1.8, 0.0)])
+@pytest.mark.parametrize("kind", [JointUSP, JointRRP, JointSSP])
+def test_assembly_with_a_slide_moves_as_its_joints(kind, start, offset):
+    """In both positions of the loop, whatever the zero of the slide."""
+    rod1 = {"rod1_length": 1} if kind is JointSSP else {"r_rod1_ia": (1, 0, 0)}
+    settings = {"n_b": (-1, 0, 0), "r_rod2_ib": (-0.2, 0.1, 0), "s_guess": start - offset, "s_offset": offset, **rod1}
+    run = {"stop_time": 2.0, "tolerance": 1e-8, "intervals": 40}
+    found = ac.simulate(Assembled(kind=kind, settings=settings), **run)
+    plain = ac.simulate(Slider(start=start), **run)
+    assert np.sign(plain["j4.s"][0] - 0.8) == np.sign(start - 0.8)
+    assert found["j1.phi"] == pytest.approx(plain["j1.phi"], abs=1e-5)
+    assert found["joint.prismatic.s"] + offset == pytest.approx(plain["j4.s"], abs=1e-5)
+    assert found["mass.frame_a.f"] == pytest.approx(plain["mass.frame_a.f"], abs=1e-3)
+
+
+class Held(Model):
+    """Between two fixed points."""
+
+    guessed = structural("guess of the slide", default=0.0)
+    world, Fixed1, relativePosition = World(), Fixed(r=(1.7, 0.1, 0)), RelativePosition()
+
+    @part
+    def jointUSP(self):
+        return JointUSP(r_rod1_ia=(1, 0.3, 0), r_rod2_ib=(-0.5, 0.2, 0), s_guess=self.guessed)
+
+    def connections(self):
+        yield connect(self.world.frame_b, self.jointUSP.frame_a)
+        yield connect(self.Fixed1.frame_b, self.jointUSP.frame_b)
+        yield chain(self.Fixed1, self.relativePosition, self.jointUSP.frame_a)
+
+
+@pytest.mark.parametrize("guessed", [-3, 1.1, 1.3, 20])
+def test_guess_of_the_slide_selects_the_nearer_position(guessed):
+    """(1.2 - s)^2 + 0.3^2 = 1 + 0.3^2: s is 0.2 or 2.2."""
+    result = ac.simulate(Held(guessed=guessed), stop_time=0.1)
+    assert result["jointUSP.prismatic.s"] == pytest.approx(0.2 if guessed < 1.2 else 2.2, abs=1e-9)
+
+
+def test_usp():
+    """All forces and torques are 0."""
+    names = {}
+    for place in ("jointUSP.relativePosition.", "jointUSP.relativePosition.relativePosition."):
+        ends = [f"frame_b.{v}[{k}]" for v in ("r_0", "f", "t") for k in (1, 2, 3)]
+        names |= {place + end: "relativePosition." + end for end in ends}
+    for k, (one, two) in enumerate(zip((1, 0.3, 0), (-0.5, 0.2, 0), strict=True), 1):
+        names[f"rRod1_ia[{k}]"] = lambda r, x=one: np.full(len(r.time), x)
+        names[f"rRod2_ib[{k}]"] = names[f"jointUSP.position_b[{k}].y"] = lambda r, x=two: np.full(len(r.time), x)
+    compare("ModelicaTest.MultiBody.Joints.JointUSP", Held(), names, tolerance=1e-6)
 
 
 def test_strut_of_negative_length_is_refused():

@@ -1,0 +1,65 @@
+"""PrismaticEnd: base of assemblies with a prismatic joint at frame_b."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import Scalar, chain, connect, guess, parameter, part, port, structural
+from components.fixed_translation import FixedTranslation
+from components.frame import Frame, TwoFrames
+from components.orientation import unit_vector
+from components.prismatic import Prismatic
+from components.translational.flange import TranslationalFlange
+from components.world import require_direction
+
+
+class PrismaticEnd(TwoFrames):
+    """Base: a prismatic joint at frame_b and rod 2 from it to the joint in the middle; a subclass joins frame_a to rod 2."""
+
+    n_b: Any = structural("axis of the prismatic joint, resolved in frame_b", default=(-1, 0, 0), shape=(3,))
+    r_rod2_ib: Any = structural(
+        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(-1, 0, 0), shape=(3,)
+    )
+    s_offset: Scalar = parameter("distance of the frames of the prismatic joint where s is 0", unit="m", default=0)
+    s_guess: Scalar = parameter(
+        "guess of s", unit="m", default=0, doc="Selects the nearer one of the two positions in which the loop closes."
+    )
+    use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
+    frame_ib: Frame = port(Frame, "fixed to rod 2 at the prismatic joint")
+    frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
+
+    @port
+    def axis(self):
+        """Drive rod."""
+        return TranslationalFlange() if self.use_axis_flange else None
+
+    @port
+    def support(self):
+        """Housing of the drive."""
+        return TranslationalFlange() if self.use_axis_flange else None
+
+    @part
+    def offset(self):
+        """Shifts the zero of s."""
+        return FixedTranslation(r=unit_vector(self.n_b) * self.s_offset)
+
+    @part
+    def prismatic(self):
+        """Prismatic joint at frame_b."""
+        return Prismatic(n=self.n_b, s=guess(self.s_guess), use_axis_flange=self.use_axis_flange)
+
+    @part
+    def rod2(self):
+        """Rod from frame_ib to the joint in the middle."""
+        return FixedTranslation(r=self.r_rod2_ib)
+
+    def check(self) -> None:
+        """Refuse an axis of length 0."""
+        require_direction(self, self.n_b, "n_b")
+
+    def connections(self):
+        yield chain(self.frame_b, self.offset, self.prismatic, self.rod2, self.frame_im)
+        yield connect(self.prismatic.frame_b, self.frame_ib)
+        if self.use_axis_flange:
+            yield connect(self.axis, self.prismatic.axis)
+            yield connect(self.support, self.prismatic.support)
