@@ -27,7 +27,7 @@ class RollingWheel(Component):
     x: Scalar = variable("x-coordinate of the centre, resolved in the world", unit="m", start=0, fixed=True)
     y: Scalar = variable("y-coordinate of the centre, resolved in the world", unit="m", start=0, fixed=True)
     angles: Vector3 = variable(
-        "angles from the world to frame_a about z, y and x, each about the turned axis; that about y is within 90 degrees",
+        "angles from the world to frame_a about z, y and x, each about the turned axis; that about x is within 90 degrees",
         unit="rad",
         start=(0, 0, 0),
         fixed=True,

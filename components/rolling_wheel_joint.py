@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from acausal import (
     NEVER,
     Component,
@@ -11,6 +13,7 @@ from acausal import (
     apart,
     as_expr,
     atan2,
+    cos,
     cross,
     der,
     dot,
@@ -19,6 +22,7 @@ from acausal import (
     parameter,
     port,
     require,
+    sin,
     sqrt,
     structural,
     variable,
@@ -27,6 +31,19 @@ from components.frame import Frame, pose
 
 # Force that holds the wheel down, relative to the largest one that carries it: less is error of the integration.
 HELD_DOWN = 1e-3
+
+
+def wheel_angles(T: Any) -> Expr:
+    """Angles of three turns about z, y and x, each about the turned axis.
+
+    Of both solutions the one with the third angle within 90 degrees is taken: of an upright wheel, the first is the
+    heading, the second the angle that the wheel has rolled by, and the third is 0.
+    """
+    about_x = atan2(T[1, 2] * T[2, 2], T[2, 2] * T[2, 2])
+    s, c = sin(about_x), cos(about_x)
+    e_y = c * T[1] - s * T[2]  # the axes y and z before the third turn, resolved in the world
+    e_z = s * T[1] + c * T[2]
+    return as_expr((atan2(-e_y[0], e_y[1]), atan2(-T[0, 2], e_z[2]), about_x))
 
 
 class RollingWheelJoint(Component):
@@ -58,7 +75,7 @@ class RollingWheelJoint(Component):
     x: Scalar = variable("x-coordinate of the centre, resolved in the world", unit="m")
     y: Scalar = variable("y-coordinate of the centre, resolved in the world", unit="m")
     angles: Vector3 = variable(
-        "angles from the world to frame_a about z, y and x, each about the turned axis; that about y is within 90 degrees",
+        "angles from the world to frame_a about z, y and x, each about the turned axis; that about x is within 90 degrees",
         unit="rad",
         select=NEVER,
     )
@@ -68,16 +85,12 @@ class RollingWheelJoint(Component):
     f_long: Scalar = variable("force of the road on the wheel along l, backwards", unit="N")
 
     def equations(self):
-        a, T = self.frame_a, self.frame_a.R.T
+        a = self.frame_a
         u, l, s, r = self.contact()
         slip, force = a.v + cross(a.R.w, r), u * self.f_n + s * self.f_lat + l * self.f_long
         yield self.x == a.r_0[0]
         yield self.y == a.r_0[1]
-        yield self.angles == (
-            atan2(T[0, 1], T[0, 0]),
-            atan2(-T[0, 2], sqrt(T[0, 0] * T[0, 0] + T[0, 1] * T[0, 1])),
-            atan2(T[1, 2], T[2, 2]),
-        )
+        yield self.angles == wheel_angles(a.R.T)
         yield self.der_angles == der(self.angles)
         yield dot(l, slip) == 0
         yield dot(s, slip) == 0 if self.guides else self.f_lat == 0
