@@ -11,6 +11,7 @@ from models.free_vibration import FreeVibration
 from models.governor import Governor
 from models.n_four_bar import NFourBar
 from models.pendulum import FlexiblePendulum
+from models.rolling_wheel_set_driving import RollingWheelSetDriving
 from models.simple_pendulum import SimplePendulum
 from models.slider_crank import SliderCrank
 from models.spin_up import SpinUp
@@ -31,6 +32,7 @@ SCENES: dict[str, type[Model]] = {
     "four-bar-spatial": FourBarSpatial,
     "fe-pendulum": FEPendulum,
     "fe-plate": FEPlate,
+    "rolling-wheel-set-driving": RollingWheelSetDriving,
 }
 
 __all__ = [
@@ -45,6 +47,7 @@ __all__ = [
     "FreeVibration",
     "Governor",
     "NFourBar",
+    "RollingWheelSetDriving",
     "SimplePendulum",
     "SliderCrank",
     "SpinUp",

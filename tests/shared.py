@@ -31,6 +31,7 @@ CONTRACT: dict[str, tuple[tuple[str, ...], float]] = {
     "four-bar-spatial": (("j1_phi", "j1_w"), 5.0),
     "fe-pendulum": (("tip_z", "tip_vz"), 0.6),
     "fe-plate": (("P1_x", "P1_y", "P1_z", "w_x", "w_y", "w_z"), 0.3),
+    "rolling-wheel-set-driving": (("x", "y", "phi"), 3.0),
 }
 
 

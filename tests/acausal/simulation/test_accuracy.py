@@ -79,6 +79,7 @@ CASES = {
     "fe-pendulum": Case(SCENES["fe-pendulum"], tight(tolerance=1e-11)),
     "fe-plate": Case(SCENES["fe-plate"], tight(tolerance=1e-11)),
     "car-axis": Case(SCENES["car-axis"], lambda _, t: axles.simulate(t)[:, :4]),
+    "rolling-wheel-set-driving": Case(SCENES["rolling-wheel-set-driving"], tight(tolerance=1e-11)),
     "spin-up": Case(SpinUp, tight(tolerance=1e-11)),
     "free-vibration": Case(FreeVibration, lambda _, t: released(t, 10)[:, None]),
     "pendulum": Case(FlexiblePendulum, tight(tolerance=1e-9, **RESOLVED), (1e-2,), (1e-3, 1e-4)),

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import asin, exp, piecewise, sin, time
+from acausal import asin, exp, piecewise, sin, sine, time
 from acausal.flatten import attributes, given, variables
 from acausal.language import fields as f
 from acausal.language.expression import Expr
 from acausal.units import parse
 from components.fe import ReducedBody
-from components.rotational import Torque
-from models import SCENES, CarAxis, FEPlate, SliderCrank
+from components.rotational import Torque, Torque2
+from models import SCENES, CarAxis, FEPlate, RollingWheelSetDriving, SliderCrank
 
 MUCH = 2.0**10  # a power of 2 changes no digit
 COUNTS = ("steps", "factorisations", "residual_evaluations")
@@ -130,7 +130,13 @@ def scene(name: str, units: tuple[float, ...]) -> Any:
             yield self.body.P1.r_0 == (self.P1_x, self.P1_y, self.P1_z)
             yield self.body.w_a == (self.w_x, self.w_y, self.w_z)
 
-    return {"slider-crank": Crank, "car-axis": Axis, "fe-plate": Plate}.get(name, SCENES[name])()
+    class Wheels(RollingWheelSetDriving):
+        most = 2 * mass * length**2 / second**2
+        left = Torque2(tau=sine(amplitude=most, f=1 / second))
+        right = Torque2(tau=sine(amplitude=most, f=1 / second, phase=np.pi / 2))
+
+    special = {"slider-crank": Crank, "car-axis": Axis, "fe-plate": Plate, "rolling-wheel-set-driving": Wheels}
+    return special.get(name, SCENES[name])()
 
 
 @cache
