@@ -29,9 +29,7 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, drives, forces, friction, gears, heat, joints, rods, wheels
-from tests.components.scenes import bodies, drives, forces, gears, heat, joints, rods, wheels
-from tests.components.scenes import bodies, drives, forces, gears, guides, heat, joints, rods, wheels
+from tests.components.scenes import bodies, drives, forces, friction, gears, guides, heat, joints, rods, wheels
 from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
