@@ -9,6 +9,7 @@ from components.body_cylinder import BodyCylinder
 from components.body_rod import BodyRod
 from components.body_shape import BodyShape
 from components.constant_velocity_joint import ConstantVelocityJoint
+from components.bushing import Bushing
 from components.cylindrical import Cylindrical
 from components.damper import Damper
 from components.driven_joint import DrivenJoint
@@ -77,6 +78,7 @@ __all__ = [
     "BodyRod",
     "BodyShape",
     "ConstantVelocityJoint",
+    "Bushing",
     "Cylindrical",
     "Damper",
     "DrivenJoint",

@@ -12,7 +12,7 @@ from acausal import DeclarationError, as_expr, cross
 from components.fe.arrays import Array
 from components.fe.free_modes import FreeModes
 from components.fe.node_frames import ON_A_LINE
-from components.fe.rotation_vector import attitude, rate
+from components.rotation_vector import attitude, rate
 
 STAGES = (0.0, 0.5, 0.5, 1.0)
 WEIGHTS = (1 / 6, 1 / 3, 1 / 3, 1 / 6)

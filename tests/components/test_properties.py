@@ -29,7 +29,7 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, drives, forces, friction, gears, guides, heat, joints, rods, wheels
+from tests.components.scenes import bodies, drives, forces, friction, gears, guides, heat, joints, mountings, rods, wheels
 from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
@@ -100,6 +100,7 @@ SCENES: dict[str, type[Scene]] = {
     "SpringDamperSeries": forces.OnSpringDamperSeries,
     "LineForceWithMass": forces.OnLineForceWithMass,
     "LineForceWithTwoMasses": forces.OnLineForceWithTwoMasses,
+    "Bushing": mountings.OnBushing,
     "PointMass": bodies.OnPointMass,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
@@ -295,6 +296,7 @@ SUPPLYING |= {
     "thermal.PrescribedTemperature",
 }
 SUPPLYING |= {"translational.MassWithStopAndFriction"}
+DISSIPATING |= {"Bushing"}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}
@@ -475,6 +477,7 @@ DIMENSIONLESS = {
     ("GearConstraint", "ratio"),
     ("IdealPlanetary", "ratio"),
     *[("PointOnCurve", name) for name in ("u", "der_u", "der2_u")],
+    *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
 }
 
 

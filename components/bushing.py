@@ -1,0 +1,148 @@
+"""Bushing: an elastic mounting between two frames."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import Vector3, apart, as_expr, cross, dot, expect, geometry, parameter, quantity, require, sqrt, variable
+from components.frame import TwoFrames
+from components.orientation import norm, resolve1, resolve2
+from components.rotation_vector import NOTHING, rate, rotation_vector, sine_axis
+from components.thermal.heat_loss import HeatLoss
+
+LARGE = 2.5  # rad: from there to pi, the torque changes ever faster with the axis of the rotation
+ASYMMETRIC = 1e-9  # of the largest entry: rounding of a matrix that was computed
+
+
+class Bushing(HeatLoss, TwoFrames):
+    """Linear springs and dampers along and about the three axes of frame_a, as in an elastic mounting.
+
+    Notes
+    -----
+    With r = r_rel - r_rel0, the rotation vector theta and the stiffness matrix K = diag(c, c_phi) + stiffness, the
+    elastic energy is V = (r, theta)' K (r, theta) / 2 + f_0' r + t_0' theta. Its gradient (f, g) gives the force f at
+    frame_b and the torque J(theta)' g there, where der(theta) = J(theta) w_rel: it has a potential in large rotations,
+    too. At frame_a the opposite acts, with the moment r_rel x f. The damping matrix diag(d, d_phi) + damping acts on v_rel and
+    w_rel.
+
+    No branch: the component relates no orientations, each end must be held by something else. The rotation must stay below half
+    a turn, where theta jumps; beyond 2.5 rad a warning is given.
+    """
+
+    c: Vector3 = parameter("stiffness along the axes of frame_a", unit="N/m", default=(0, 0, 0), minimum=0)
+    c_phi: Vector3 = parameter(
+        "rotational stiffness about the axes of frame_a", unit="N.m/rad", default=(0, 0, 0), minimum=0
+    )
+    d: Vector3 = parameter("damping along the axes of frame_a", unit="N.s/m", default=(0, 0, 0), minimum=0)
+    d_phi: Vector3 = parameter(
+        "rotational damping about the axes of frame_a", unit="N.m.s/rad", default=(0, 0, 0), minimum=0
+    )
+    stiffness: Any = parameter(
+        "further stiffness matrix of (r_rel, theta), resolved in frame_a",
+        shape=(6, 6),
+        default=np.zeros((6, 6)),
+        doc="Entries in N/m, N and N.m/rad. Symmetric; added to the diagonal of c and c_phi.",
+    )
+    damping: Any = parameter(
+        "further damping matrix of (v_rel, w_rel), resolved in frame_a",
+        shape=(6, 6),
+        default=np.zeros((6, 6)),
+        doc="Entries in N.s/m, N.s and N.m.s/rad. Without negative eigenvalues; added to the diagonal of d and d_phi.",
+    )
+    r_rel0: Vector3 = parameter(
+        "position of frame_b from frame_a without elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
+    )
+    f_0: Vector3 = parameter("preload: force f at r_rel0, resolved in frame_a", unit="N", default=(0, 0, 0))
+    t_0: Vector3 = parameter("preload: torque t without rotation, resolved in frame_a", unit="N.m", default=(0, 0, 0))
+    r_rel: Vector3 = variable("position of frame_b from frame_a, resolved in frame_a", unit="m")
+    v_rel: Vector3 = variable("der(r_rel)", unit="m/s")
+    theta: Vector3 = variable("rotation vector from frame_a to frame_b, the same in both", unit="rad")
+    w_rel: Vector3 = variable("angular velocity of frame_b from frame_a, resolved in frame_a", unit="rad/s")
+    f: Vector3 = variable("force, positive if it pulls frame_b back to frame_a, resolved in frame_a", unit="N")
+    t: Vector3 = variable("torque, positive if it turns frame_b back, resolved in frame_a", unit="N.m")
+
+    def equations(self):
+        yield from super().equations()
+        a, b, T = self.frame_a, self.frame_b, self._turn()
+        f, g = self._gradient()
+        f_d, t_d = self._damped()
+        yield self.r_rel == resolve2(a.R, b.r_0 - a.r_0)
+        yield self.v_rel == resolve2(a.R, resolve1(b.R, b.v)) - a.v - cross(a.R.w, self.r_rel)
+        yield self.theta == rotation_vector(T)
+        yield self.w_rel == T.T @ b.R.w - a.R.w
+        yield self.f == f + f_d
+        yield self.t == rate(self.theta, g) + t_d
+        yield b.f == T @ self.f
+        yield b.t == T @ self.t
+        yield a.f == -self.f
+        yield a.t == -self.t - cross(self.r_rel, self.f)
+
+    def requirements(self):
+        yield require(self.stiffness, _asymmetric)
+        yield require(self.damping, _generates)
+
+    def validity(self):
+        T = self._turn()
+        angle, torque = norm(self.theta), norm(self.t)
+        yield expect(
+            angle,
+            quantity(LARGE, "rad"),
+            1.0,
+            f"it turns by more than {LARGE} rad, near half a turn, where the direction of its torque is undetermined. "
+            "Restrict the rotation, or hold the parts by a joint with a rotational spring on its axis",
+        )
+        yield apart(  # (sin(phi) n, 1 + cos(phi)), of length 2 cos(phi / 2), passes through 0 at half a turn alone
+            as_expr([*sine_axis(T), (1 + T[0, 0] + T[1, 1] + T[2, 2]) / 2]),
+            -dot(sine_axis(T), T @ self.w_rel) / sqrt(1 + T[0, 0] + T[1, 1] + T[2, 2] + NOTHING),
+            torque,
+            "it has turned by half a turn, where its torque jumps to the opposite direction. Restrict the rotation, or hold "
+            "the parts by a joint with a rotational spring on its axis: Revolute(use_axis_flange=True)",
+        )
+
+    def shapes(self):
+        """A coil."""
+        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
+
+    def stored_energy(self):
+        """Elastic energy and work of the preload."""
+        (f, g), r = self._gradient(), self.r_rel - self.r_rel0
+        return (dot(f + self.f_0, r) + dot(g + self.t_0, self.theta)) / 2
+
+    def loss(self):
+        """Power of the dampers."""
+        f_d, t_d = self._damped()
+        return dot(f_d, self.v_rel) + dot(t_d, self.w_rel)
+
+    def _turn(self) -> Any:
+        """Rotation matrix from frame_a to frame_b."""
+        return self.frame_b.R.T @ self.frame_a.R.T.T
+
+    def _gradient(self) -> tuple[Any, Any]:
+        """Derivatives of the elastic energy by r_rel and theta."""
+        K, r, theta = self.stiffness, self.r_rel - self.r_rel0, self.theta
+        f = self.f_0 + self.c * r + K[:3, :3] @ r + K[:3, 3:] @ theta
+        g = self.t_0 + self.c_phi * theta + K[3:, :3] @ r + K[3:, 3:] @ theta
+        return f, g
+
+    def _damped(self) -> tuple[Any, Any]:
+        """Force and torque of the dampers at frame_b, resolved in frame_a."""
+        D, v, w = self.damping, self.v_rel, self.w_rel
+        return self.d * v + D[:3, :3] @ v + D[:3, 3:] @ w, self.d_phi * w + D[3:, :3] @ v + D[3:, 3:] @ w
+
+
+def _asymmetric(K: np.ndarray) -> str:
+    """Return what is wrong with a stiffness matrix."""
+    if np.max(np.abs(K - K.T)) <= ASYMMETRIC * np.max(np.abs(K)):
+        return ""
+    i, j = np.unravel_index(np.argmax(np.abs(K - K.T)), K.shape)
+    return f"is not symmetric: entry [{i},{j}] is {K[i, j]:g} and [{j},{i}] is {K[j, i]:g}; give every coupling twice"
+
+
+def _generates(D: np.ndarray) -> str:
+    """Return what is wrong with a damping matrix: it may have an antisymmetric part, which has no power."""
+    least = np.linalg.eigvalsh(D + D.T)[0] / 2
+    if least >= -ASYMMETRIC * np.max(np.abs(D)):
+        return ""
+    return f"has the negative eigenvalue {least:g}, so that it generates power; check the signs of its entries"
