@@ -1,6 +1,7 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
 from components import constraints, rotational, sensors, thermal, translational
+from components import contact, rotational, sensors, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
@@ -134,6 +135,7 @@ __all__ = [
     "WorldTorque",
     "absolute_rotation",
     "constraints",
+    "contact",
     "fixed_rotation",
     "from_quaternion",
     "inverse_rotation",

@@ -21,6 +21,7 @@ from components import (
     World,
     assemblies,
     constraints,
+    contact,
     fe,
     rotational,
     sensors,
@@ -29,7 +30,7 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, drives, forces, friction, gears, guides, heat, joints, mountings, rods, wheels
+from tests.components.scenes import bodies, contacts, drives, forces, friction, gears, guides, heat, joints, mountings, rods, wheels
 from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
@@ -101,6 +102,11 @@ SCENES: dict[str, type[Scene]] = {
     "LineForceWithMass": forces.OnLineForceWithMass,
     "LineForceWithTwoMasses": forces.OnLineForceWithTwoMasses,
     "Bushing": mountings.OnBushing,
+    "contact.PointOnPlane": contacts.OnPointOnPlane,
+    "contact.SphereOnPlane": contacts.OnSphereOnPlane,
+    "contact.RimOnPlane": contacts.OnRimOnPlane,
+    "contact.SphereOnSphere": contacts.OnSphereOnSphere,
+    "contact.PointOnProfile": contacts.OnPointOnProfile,
     "PointMass": bodies.OnPointMass,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
@@ -244,6 +250,7 @@ BASES = {
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
 BASES |= {"assemblies.PrismaticEnd", "assemblies.RevoluteEnd", "constraints.PositionConstraint"}
+BASES |= {"assemblies.RevoluteEnd", "contact.Contact"}
 BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
@@ -262,16 +269,20 @@ def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
     for package in (assemblies, constraints, rotational, translational, thermal, sensors, fe):
+    for package in (assemblies, contact, rotational, translational, thermal, sensors, fe):
         short = package.__name__.rpartition(".")[2]
         found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}
 
 
 EXPORTED = exported()
+# Frame_a is fixed to a plane or profile, frame_b to what touches it.
+ONE_WAY = {f"contact.{name}" for name in ("PointOnPlane", "SphereOnPlane", "RimOnPlane", "PointOnProfile")}
 SIDED = [
     name
     for name in SCENES
-    if issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody"
+    if (issubclass(EXPORTED[name], TwoFrames | TwoFlanges | translational.TwoFlanges) or name == "fe.FEBody")
+    and name not in ONE_WAY
 ]
 DISSIPATING = {
     "Damper",
@@ -297,6 +308,7 @@ SUPPLYING |= {
 }
 SUPPLYING |= {"translational.MassWithStopAndFriction"}
 DISSIPATING |= {"Bushing"}
+DISSIPATING |= {"Bushing"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}
@@ -477,6 +489,8 @@ DIMENSIONLESS = {
     ("GearConstraint", "ratio"),
     ("IdealPlanetary", "ratio"),
     *[("PointOnCurve", name) for name in ("u", "der_u", "der2_u")],
+    *[(name, coefficient) for name in contact.__all__ for coefficient in ("e", "mu")],
+    ("PointOnProfile", "slope"),
     *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
 }
 

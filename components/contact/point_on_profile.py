@@ -1,0 +1,77 @@
+"""PointOnProfile: a point that touches ground of varying height."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from acausal import Expr, Scalar, Vector3, as_expr, dot, expect, parameter, sqrt, structural, variable
+from components.contact.contact import Contact
+from components.gradient import gradient
+from components.orientation import resolve1, resolve2, unit_vector
+from components.world import require_direction
+
+SHARE = 0.1  # of the radius of curvature: deeper, the height where the point stands is not that of the ground around it
+
+
+class PointOnProfile(Contact):
+    """Contact of the origin of frame_b with ground whose height over a plane fixed to frame_a is a function of the place.
+
+    Notes
+    -----
+    x is measured along n_a, and f acts along n_a - grad(height), the normal of the ground, so that the elastic force has the
+    potential k x^2 / 2. On a slope of angle alpha the normal force is f / cos(alpha), and the stiffness along the normal
+    k / cos(alpha)^2.
+    """
+
+    n_a: Any = structural(
+        "direction of the height, resolved in frame_a", default=(0, 1, 0), shape=(3,), doc="Any length but 0."
+    )
+    height: Any = structural(
+        "height of the ground in m, as a function of the place",
+        choices=(callable,),
+        doc="Of a vector normal to n_a, resolved in frame_a, in m, for instance lambda r: 0.1 * sin(r[0]). Its first "
+        "derivative must be continuous.",
+    )
+    k: Scalar = parameter("stiffness along n_a", unit="N/m", positive=True)
+    r_a: Vector3 = variable("place of the point in the plane normal to n_a, resolved in frame_a", unit="m")
+    ground: Scalar = variable("height of the ground", unit="m")
+    slope: Vector3 = variable("gradient of the height, resolved in frame_a", unit="1")
+    curvature: Scalar = variable("size of the second derivatives of the height", unit="1/m")
+
+    def check(self) -> None:
+        """Refuse a direction of length 0."""
+        require_direction(self, self.n_a, "n_a")
+
+    def equations(self):
+        yield from super().equations()
+        n = unit_vector(self.n_a)
+        across = np.eye(3) - np.outer(n, n)
+        r_a = Expr(self.r_a.sx, shape=(3,))  # the user's function has numbers, whatever their units
+        ground = as_expr(self.height(r_a))
+        slope = as_expr(across @ gradient(ground, r_a))
+        bends = gradient(slope, r_a)
+        yield self.r_a == across @ resolve2(self.frame_a.R, self.frame_b.r_0 - self.frame_a.r_0)
+        yield self.ground == ground
+        yield self.slope == slope
+        yield self.curvature == sqrt(dot(bends[0], bends[0]) + dot(bends[1], bends[1]) + dot(bends[2], bends[2]))
+
+    def place(self):
+        """The point itself."""
+        a, b, n = self.frame_a, self.frame_b, unit_vector(self.n_a)
+        up = dot(n, resolve2(a.R, b.r_0 - a.r_0))
+        return resolve1(a.R, n - self.slope), self.ground - up, b.r_0
+
+    def steepness(self):
+        """Length of the normal, 1 / cos(alpha)."""
+        return sqrt(1 + dot(self.slope, self.slope))
+
+    def validity(self):
+        yield expect(
+            (self.x + abs(self.x)) / 2 * self.curvature,
+            1.0,
+            SHARE,
+            "its profile is too tight for its penetration, more than a tenth of the radius of curvature; smooth the profile, or "
+            "take a greater `k`",
+        )

@@ -1,0 +1,85 @@
+"""RimOnPlane: the rim of a wheel that touches a plane."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from acausal import Scalar, apart, cross, dot, geometry, parameter, piecewise, require, sqrt, structural
+from components.contact.contact import Contact
+from components.frame import pose
+from components.orientation import resolve1, unit_vector
+from components.world import require_direction
+
+FLAT = 1e-6  # rad: at smaller angles between the rim and the plane its lowest point has no direction
+
+
+class RimOnPlane(Contact):
+    """Contact of a circle about the origin of frame_b with the plane through the origin of frame_a.
+
+    Notes
+    -----
+    The lowest point of the circle touches; where its radius is turned from the plane by the angle alpha, the penetration is
+    x = radius sin(alpha) - height. Flat on the plane, alpha = 0, no point is the lowest, and a run that passes that in contact
+    ends with an error: a disc that falls over needs contacts at several points.
+    """
+
+    n_a: Any = structural(
+        "normal of the plane towards the wheel, resolved in frame_a",
+        default=(0, 1, 0),
+        shape=(3,),
+        doc="Any length but 0.",
+    )
+    n_b: Any = structural(
+        "axis of the wheel, resolved in frame_b", default=(0, 0, 1), shape=(3,), doc="Any length but 0."
+    )
+    radius: Scalar = parameter("radius of the rim", unit="m", positive=True)
+    k: Scalar = parameter("stiffness", unit="N/m", positive=True)
+
+    def check(self) -> None:
+        """Refuse directions of length 0."""
+        require_direction(self, self.n_a, "n_a")
+        require_direction(self, self.n_b, "n_b")
+
+    def place(self):
+        """The lowest point of the rim."""
+        n, axis = self._directions()
+        up, sine = self._up(n, axis)
+        lowest = self.frame_b.r_0 - up * (self.radius / sine)
+        return n, -dot(n, lowest - self.frame_a.r_0), lowest
+
+    def requirements(self):
+        yield from super().requirements()
+        up, _ = self._up(*self._directions())
+        name = self._path or type(self).__name__
+        yield require(
+            sqrt(dot(up, up)) > 2 * FLAT,
+            f"the rim of {name} is parallel to the plane at the start, so that it has no lowest point; turn it, or its "
+            "axis: n_b=(0, 0, 1)",
+        )
+
+    def validity(self):
+        n, axis = self._directions()
+        up, sine = self._up(n, axis)
+        w = resolve1(self.frame_b.R, self.frame_b.R.w) - resolve1(self.frame_a.R, self.frame_a.R.w)
+        yield apart(
+            up,
+            -dot(n, axis) * dot(n, cross(w, axis)) / sine,
+            self.f,
+            "its rim is parallel to the plane, where it has no lowest point. Let it not fall over, or use contacts at "
+            "several points of it",
+        )
+
+    def shapes(self):
+        """The rim, and the force."""
+        yield geometry.Axle(pose(self.frame_b), unit_vector(self.n_b), diameter=2 * self.radius)
+        yield from super().shapes()
+
+    def _directions(self) -> tuple[Any, Any]:
+        """Normal of the plane and axis of the wheel, resolved in the world."""
+        return resolve1(self.frame_a.R, unit_vector(self.n_a)), resolve1(self.frame_b.R, unit_vector(self.n_b))
+
+    def _up(self, n: Any, axis: Any) -> tuple[Any, Any]:
+        """Part of the normal in the plane of the rim, and its length, the sine of the angle between both planes."""
+        up = n - dot(n, axis) * axis
+        square = dot(up, up)
+        return up, sqrt(piecewise((square, square > FLAT**2), FLAT**2, smooth=True))
