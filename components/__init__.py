@@ -13,6 +13,7 @@ from components.constant_velocity_joint import ConstantVelocityJoint
 from components.bushing import Bushing
 from components.cylindrical import Cylindrical
 from components.damper import Damper
+from components.drag import Drag
 from components.driven_joint import DrivenJoint
 from components.fixed import Fixed
 from components.fixed_rotation import FixedRotation
@@ -24,6 +25,7 @@ from components.frame import Frame, TwoFrames, move
 from components.free_motion import FreeMotion
 from components.gear_constraint import GearConstraint
 from components.line_force import LineForce
+from components.line_force_law import LineForceLaw
 from components.line_force_with_mass import LineForceWithMass
 from components.line_force_with_two_masses import LineForceWithTwoMasses
 from components.load import FrameLoad, WorldLoad
@@ -63,6 +65,7 @@ from components.spring_damper_series import SpringDamperSeries
 from components.table import table
 from components.torque import Torque
 from components.translational.flange import TranslationalFlange
+from components.triaxial_spring import TriaxialSpring
 from components.two_frame_body import TwoFrameBody
 from components.universal import Universal
 from components.universal_spherical import UniversalSpherical
@@ -82,6 +85,7 @@ __all__ = [
     "Bushing",
     "Cylindrical",
     "Damper",
+    "Drag",
     "DrivenJoint",
     "Fixed",
     "FixedRotation",
@@ -95,6 +99,7 @@ __all__ = [
     "FreeMotion",
     "GearConstraint",
     "LineForce",
+    "LineForceLaw",
     "LineForceWithMass",
     "LineForceWithTwoMasses",
     "MassOnLine",
@@ -123,6 +128,7 @@ __all__ = [
     "SubstructuredBeam",
     "Torque",
     "TranslationalFlange",
+    "TriaxialSpring",
     "TwoFlanges",
     "TwoFrameBody",
     "TwoFrames",

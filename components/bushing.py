@@ -6,17 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Vector3, apart, as_expr, cross, dot, expect, geometry, parameter, quantity, require, sqrt, variable
-from components.frame import TwoFrames
-from components.orientation import norm, resolve1, resolve2
+from acausal import Vector3, apart, as_expr, dot, expect, parameter, quantity, require, sqrt, variable
+from components.orientation import norm
 from components.rotation_vector import NOTHING, rate, rotation_vector, sine_axis
-from components.thermal.heat_loss import HeatLoss
+from components.triaxial_spring import TriaxialSpring
 
 LARGE = 2.5  # rad: from there to pi, the torque changes ever faster with the axis of the rotation
 ASYMMETRIC = 1e-9  # of the largest entry: rounding of a matrix that was computed
 
 
-class Bushing(HeatLoss, TwoFrames):
+class Bushing(TriaxialSpring):
     """Linear springs and dampers along and about the three axes of frame_a, as in an elastic mounting.
 
     Notes
@@ -35,7 +34,6 @@ class Bushing(HeatLoss, TwoFrames):
     c_phi: Vector3 = parameter(
         "rotational stiffness about the axes of frame_a", unit="N.m/rad", default=(0, 0, 0), minimum=0
     )
-    d: Vector3 = parameter("damping along the axes of frame_a", unit="N.s/m", default=(0, 0, 0), minimum=0)
     d_phi: Vector3 = parameter(
         "rotational damping about the axes of frame_a", unit="N.m.s/rad", default=(0, 0, 0), minimum=0
     )
@@ -51,40 +49,28 @@ class Bushing(HeatLoss, TwoFrames):
         default=np.zeros((6, 6)),
         doc="Entries in N.s/m, N.s and N.m.s/rad. Without negative eigenvalues; added to the diagonal of d and d_phi.",
     )
-    r_rel0: Vector3 = parameter(
-        "position of frame_b from frame_a without elastic force, resolved in frame_a", unit="m", default=(0, 0, 0)
-    )
-    f_0: Vector3 = parameter("preload: force f at r_rel0, resolved in frame_a", unit="N", default=(0, 0, 0))
     t_0: Vector3 = parameter("preload: torque t without rotation, resolved in frame_a", unit="N.m", default=(0, 0, 0))
-    r_rel: Vector3 = variable("position of frame_b from frame_a, resolved in frame_a", unit="m")
-    v_rel: Vector3 = variable("der(r_rel)", unit="m/s")
     theta: Vector3 = variable("rotation vector from frame_a to frame_b, the same in both", unit="rad")
     w_rel: Vector3 = variable("angular velocity of frame_b from frame_a, resolved in frame_a", unit="rad/s")
-    f: Vector3 = variable("force, positive if it pulls frame_b back to frame_a, resolved in frame_a", unit="N")
     t: Vector3 = variable("torque, positive if it turns frame_b back, resolved in frame_a", unit="N.m")
 
     def equations(self):
         yield from super().equations()
-        a, b, T = self.frame_a, self.frame_b, self._turn()
-        f, g = self._gradient()
-        f_d, t_d = self._damped()
-        yield self.r_rel == resolve2(a.R, b.r_0 - a.r_0)
-        yield self.v_rel == resolve2(a.R, resolve1(b.R, b.v)) - a.v - cross(a.R.w, self.r_rel)
+        T, (_, g), (_, t_d) = self.turn(), self._gradient(), self._damped()
         yield self.theta == rotation_vector(T)
-        yield self.w_rel == T.T @ b.R.w - a.R.w
-        yield self.f == f + f_d
+        yield self.w_rel == T.T @ self.frame_b.R.w - self.frame_a.R.w
         yield self.t == rate(self.theta, g) + t_d
-        yield b.f == T @ self.f
-        yield b.t == T @ self.t
-        yield a.f == -self.f
-        yield a.t == -self.t - cross(self.r_rel, self.f)
+
+    def load(self):
+        """Force and torque of springs and dampers."""
+        return self._gradient()[0] + self._damped()[0], self.t
 
     def requirements(self):
         yield require(self.stiffness, _asymmetric)
         yield require(self.damping, _generates)
 
     def validity(self):
-        T = self._turn()
+        T = self.turn()
         angle, torque = norm(self.theta), norm(self.t)
         yield expect(
             angle,
@@ -101,10 +87,6 @@ class Bushing(HeatLoss, TwoFrames):
             "the parts by a joint with a rotational spring on its axis: Revolute(use_axis_flange=True)",
         )
 
-    def shapes(self):
-        """A coil."""
-        yield geometry.Span(self.frame_a.r_0, self.frame_b.r_0, "coil")
-
     def stored_energy(self):
         """Elastic energy and work of the preload."""
         (f, g), r = self._gradient(), self.r_rel - self.r_rel0
@@ -114,10 +96,6 @@ class Bushing(HeatLoss, TwoFrames):
         """Power of the dampers."""
         f_d, t_d = self._damped()
         return dot(f_d, self.v_rel) + dot(t_d, self.w_rel)
-
-    def _turn(self) -> Any:
-        """Rotation matrix from frame_a to frame_b."""
-        return self.frame_b.R.T @ self.frame_a.R.T.T
 
     def _gradient(self) -> tuple[Any, Any]:
         """Derivatives of the elastic energy by r_rel and theta."""

@@ -102,6 +102,9 @@ SCENES: dict[str, type[Scene]] = {
     "LineForceWithMass": forces.OnLineForceWithMass,
     "LineForceWithTwoMasses": forces.OnLineForceWithTwoMasses,
     "Bushing": mountings.OnBushing,
+    "TriaxialSpring": mountings.OnTriaxialSpring,
+    "LineForceLaw": mountings.OnLineForceLaw,
+    "Drag": mountings.OnDrag,
     "contact.PointOnPlane": contacts.OnPointOnPlane,
     "contact.SphereOnPlane": contacts.OnSphereOnPlane,
     "contact.RimOnPlane": contacts.OnRimOnPlane,
@@ -309,6 +312,8 @@ SUPPLYING |= {
 SUPPLYING |= {"translational.MassWithStopAndFriction"}
 DISSIPATING |= {"Bushing"}
 DISSIPATING |= {"Bushing"} | {name for name in SCENES if name.startswith("contact.")}
+SUPPLYING |= {"Drag"}
+DISSIPATING |= {"Bushing", "LineForceLaw", "Drag"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}
@@ -491,6 +496,7 @@ DIMENSIONLESS = {
     *[("PointOnCurve", name) for name in ("u", "der_u", "der2_u")],
     *[(name, coefficient) for name in contact.__all__ for coefficient in ("e", "mu")],
     ("PointOnProfile", "slope"),
+    ("Drag", "c_d"),
     *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
 }
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from acausal import part
-from components import Bushing
+from acausal import connect, part
+from components import Bushing, Drag, FixedTranslation, LineForceLaw, TriaxialSpring
 from tests.components.scenes.forces import Line
+from tests.components.scenes.scene import Plain
 
 
 class OnBushing(Line):
@@ -25,3 +26,33 @@ class OnBushing(Line):
             damping=damping,
             t_0=(0.3 * sign, 0, 0.1 * sign),
         )
+
+
+class OnTriaxialSpring(Line):
+    it = TriaxialSpring(c=(70, 70, 70))
+
+
+class OnLineForceLaw(Line):
+    """A spring that stiffens, with its energy, a damper with the square of the speed and a preload."""
+
+    @part
+    def it(self):
+        return LineForceLaw(
+            force=lambda s, v: 60 * (s - 0.4) + 300 * (s - 0.4) ** 3 + 3 * v * abs(v),
+            energy=lambda s: 30 * (s - 0.4) ** 2 + 75 * (s - 0.4) ** 4,
+            f_0=2.0,
+        )
+
+
+class OnDrag(Plain):
+    """A wind across the tip, which turns with the place."""
+
+    arm = FixedTranslation(r=(0.3, 0.2, 0.1))
+
+    @part
+    def it(self):
+        return Drag(c_d=1.1, A=0.5, v_wind=tuple(self.turn.apply((4.0, 1.0, -2.0))))
+
+    def graph(self):
+        yield from self.path(self.joint, self.arm)
+        yield connect(self.it.frame_b, self.tip.frame_a)
