@@ -55,6 +55,7 @@ from components.rolling_wheel import RollingWheel
 from components.rolling_wheel_joint import RollingWheelJoint
 from components.rolling_wheel_set import RollingWheelSet
 from components.rolling_wheel_set_joint import RollingWheelSetJoint
+from components.rope import Rope
 from components.rotor_1d import Rotor1D
 from components.screw_joint import ScrewJoint
 from components.spherical import Spherical
@@ -118,6 +119,7 @@ __all__ = [
     "RollingWheelJoint",
     "RollingWheelSet",
     "RollingWheelSetJoint",
+    "Rope",
     "Rotor1D",
     "ScrewJoint",
     "Spherical",

@@ -105,6 +105,7 @@ SCENES: dict[str, type[Scene]] = {
     "TriaxialSpring": mountings.OnTriaxialSpring,
     "LineForceLaw": mountings.OnLineForceLaw,
     "Drag": mountings.OnDrag,
+    "Rope": mountings.OnRope,
     "contact.PointOnPlane": contacts.OnPointOnPlane,
     "contact.SphereOnPlane": contacts.OnSphereOnPlane,
     "contact.RimOnPlane": contacts.OnRimOnPlane,
@@ -313,7 +314,7 @@ SUPPLYING |= {"translational.MassWithStopAndFriction"}
 DISSIPATING |= {"Bushing"}
 DISSIPATING |= {"Bushing"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Drag"}
-DISSIPATING |= {"Bushing", "LineForceLaw", "Drag"} | {name for name in SCENES if name.startswith("contact.")}
+DISSIPATING |= {"Bushing", "LineForceLaw", "Drag", "Rope"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
 SUPPLYING |= {"thermal.ThermalConductor", "thermal.Convection"}
 DISSIPATING |= {"rotational.ElastoBacklash", "rotational.ElastoBacklash2", "rotational.EddyCurrentTorque"}

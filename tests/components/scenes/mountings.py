@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from acausal import connect, part
-from components import Bushing, Drag, FixedTranslation, LineForceLaw, TriaxialSpring
+from components import Bushing, Drag, FixedTranslation, LineForceLaw, Rope, TriaxialSpring
 from tests.components.scenes.forces import Line
 from tests.components.scenes.scene import Plain
 
@@ -42,6 +42,21 @@ class OnLineForceLaw(Line):
             energy=lambda s: 30 * (s - 0.4) ** 2 + 75 * (s - 0.4) ** 4,
             f_0=2.0,
         )
+
+
+class OnRope(Line):
+    """Over a point of the place and one of the tip, slack at first."""
+
+    above, beside = FixedTranslation(r=(0.2, 0.8, 0.1)), FixedTranslation(r=(0.1, 0.1, -0.1))
+    it = Rope(points=2, c=60.0, d=2.0, length=2.48)
+
+    def graph(self):
+        yield from super().graph()
+        near, far = ("frame_2", "frame_1") if self.turned else ("frame_1", "frame_2")
+        yield connect(self.place.frame_b, self.above.frame_a)
+        yield connect(self.above.frame_b, getattr(self.it, near))
+        yield connect(self.joint.frame_b, self.beside.frame_a)
+        yield connect(self.beside.frame_b, getattr(self.it, far))
 
 
 class OnDrag(Plain):

@@ -1,0 +1,140 @@
+"""Rope: an elastic rope over points without friction."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from acausal import (
+    Expr,
+    Scalar,
+    apart,
+    discrete,
+    dot,
+    geometry,
+    parameter,
+    piecewise,
+    ports,
+    require,
+    sqrt,
+    structural,
+    variable,
+)
+from components.frame import Frame, TwoFrames
+from components.orientation import norm, resolve1, resolve2
+from components.thermal.heat_loss import HeatLoss
+
+
+class Rope(HeatLoss, TwoFrames):
+    """Massless elastic rope from frame_a over the origins of frame_1, frame_2, ... to frame_b, which only pulls.
+
+    Notes
+    -----
+    Where the rope is taut, s > length, its tension is f = max(0, c (s - length) + d der(s)). It is the same everywhere, as the
+    points are massless and without friction: pulleys whose radius is 0. At each point it acts along both parts of the rope,
+    which have no direction where neighbouring points meet: a run in which they meet with tension ends with an error.
+
+    No branch: the rope relates no orientations, each frame must be held by something else.
+    """
+
+    points: int = structural(
+        "number of points between the ends", default=0, cls=int, minimum=0, doc="Their ports are frame_1, frame_2, ..."
+    )
+    c: Scalar = parameter("spring constant of the whole rope", unit="N/m", positive=True, doc="E A / length.")
+    d: Scalar = parameter("damping constant of the whole rope", unit="N.s/m", default=0, minimum=0)
+    length: Scalar = parameter(
+        "unstretched length",
+        unit="m",
+        default=0,
+        minimum=0,
+        doc="0: the length of the way over all points at the start.",
+    )
+    s_small: Scalar = parameter(
+        "smallest distance of points used as a divisor",
+        unit="m",
+        default=1e-10,
+        positive=True,
+        doc="Shorter distances are replaced by it where the directions of the rope are computed.",
+    )
+    s: Scalar = variable("length of the way over all points", unit="m")
+    v: Scalar = variable("der(s)", unit="m/s")
+    f: Scalar = variable("tension, not negative", unit="N")
+    length_0: Scalar = discrete("unstretched length that counts", unit="m", start=piecewise((length, length > 0), s))
+
+    @ports
+    def over(self):
+        """Frames whose origins the rope passes."""
+        return {f"frame_{k + 1}": Frame() for k in range(self.points)}
+
+    def equations(self):
+        yield from super().equations()
+        e, none = self._directions(), 0 * self._directions()[0]
+        yield self.s == _total(self._lengths())
+        yield self.v == _total(self._rates())
+        yield self.f == piecewise((self._pull(), (self.s > self.length_0) & (self._pull() > 0)), 0)
+        for frame, before, after in zip(self._frames(), [none, *e], [*e, none], strict=True):
+            yield frame.f == resolve2(frame.R, self.f * (before - after))
+            yield frame.t == (0, 0, 0)
+
+    def requirements(self):
+        name = self._path or type(self).__name__
+        for part, (one, other) in zip(self._offsets(), pairwise(self._names()), strict=True):
+            yield require(
+                norm(part) > 1.5 * self.s_small,
+                f"{one} and {other} of {name} coincide at the start, so that the rope has no direction there; place them apart, "
+                "or leave one of them out",
+            )
+
+    def validity(self):
+        for part, rate, (one, other) in zip(self._offsets(), self._rates(), pairwise(self._names()), strict=True):
+            yield apart(
+                part,
+                rate,
+                self.f,
+                f"{one} and {other} meet, where the rope has no direction. Let them pass beside each other, for instance by "
+                "FixedTranslation(r=...), or hold them apart by a stop that acts before",
+            )
+
+    def shapes(self):
+        """Its straight parts."""
+        for one, other in pairwise(self._frames()):
+            yield geometry.Span(one.r_0, other.r_0)
+
+    def stored_energy(self):
+        """Elastic energy."""
+        return piecewise((self.c * (self.s - self.length_0) ** 2 / 2, self.s > self.length_0), 0)
+
+    def loss(self):
+        """Power of the damper."""
+        spring = piecewise((self.c * (self.s - self.length_0), self.s > self.length_0), 0)
+        return (self.f - spring) * self.v
+
+    def _pull(self) -> Expr:
+        return self.c * (self.s - self.length_0) + self.d * self.v
+
+    def _names(self) -> list[str]:
+        return ["frame_a", *self.over, "frame_b"]
+
+    def _frames(self) -> list[Any]:
+        return [self.frame_a, *self.over.values(), self.frame_b]
+
+    def _offsets(self) -> list[Any]:
+        """Vectors along the parts of the rope, resolved in the world."""
+        return [other.r_0 - one.r_0 for one, other in pairwise(self._frames())]
+
+    def _lengths(self) -> list[Any]:
+        least = self.s_small**2
+        squares = [dot(part, part) for part in self._offsets()]
+        return [sqrt(piecewise((square, square > least), least, smooth=True)) for square in squares]
+
+    def _directions(self) -> list[Any]:
+        return [part / length for part, length in zip(self._offsets(), self._lengths(), strict=True)]
+
+    def _rates(self) -> list[Any]:
+        """Derivatives of the lengths."""
+        v = [resolve1(frame.R, frame.v) for frame in self._frames()]
+        return [dot(e, after - before) for e, (before, after) in zip(self._directions(), pairwise(v), strict=True)]
+
+
+def _total(values: list[Any]) -> Any:
+    return sum(values[1:], values[0])
