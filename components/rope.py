@@ -102,15 +102,19 @@ class Rope(HeatLoss, TwoFrames):
 
     def stored_energy(self):
         """Elastic energy."""
-        return piecewise((self.c * (self.s - self.length_0) ** 2 / 2, self.s > self.length_0), 0)
+        return self.c * self._stretch() ** 2 / 2
 
     def loss(self):
         """Power of the damper."""
-        spring = piecewise((self.c * (self.s - self.length_0), self.s > self.length_0), 0)
-        return (self.f - spring) * self.v
+        return (self.f - self.c * self._stretch()) * self.v
+
+    def _stretch(self) -> Expr:
+        """Elongation, 0 where the rope is slack."""
+        elongation = self.s - self.length_0
+        return (elongation + abs(elongation)) / 2
 
     def _pull(self) -> Expr:
-        return self.c * (self.s - self.length_0) + self.d * self.v
+        return self.c * self._stretch() + self.d * self.v
 
     def _names(self) -> list[str]:
         return ["frame_a", *self.over, "frame_b"]

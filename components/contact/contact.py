@@ -53,7 +53,7 @@ class Contact(HeatLoss, TwoFrames):
         default=1,
         positive=True,
         doc="Speed of separation over speed of approach, at most 1, in place of dissipation; exact where other forces are small "
-        "against f, and the approach is faster than v_e.",
+        "against f, and the approach is faster than v_e. Its dissipation lasts until the next touch.",
     )
     v_e: Scalar = parameter(
         "least speed of approach at which e holds",
@@ -68,7 +68,7 @@ class Contact(HeatLoss, TwoFrames):
         unit="m/s",
         default=1e-3,
         positive=True,
-        doc="At this speed 71 % of mu f act.",
+        doc="At this speed 71 % of mu f act; a load of q mu f, q < 1, does not stick but creeps at v_reg q / sqrt(1 - q^2).",
     )
     x: Scalar = variable("penetration, negative where there is a gap", unit="m")
     v: Scalar = variable("der(x)", unit="m/s")
@@ -119,16 +119,15 @@ class Contact(HeatLoss, TwoFrames):
 
     def stored_energy(self):
         """Elastic energy."""
-        return piecewise((self._spring() * self.x / (self.n + 1), self.x > 0), 0)
+        return self._spring() * self.x / (self.n + 1)
 
     def loss(self):
         """Power of dissipation and friction."""
-        spring = piecewise((self._spring(), self.x > 0), 0)
-        return (self.f - spring) * self.v + self._friction() * dot(self.v_slip, self.v_slip)
+        return (self.f - self._spring()) * self.v + self._friction() * dot(self.v_slip, self.v_slip)
 
     def _spring(self) -> Expr:
-        # Events are located to a tolerance, x may be slightly negative: no root of that.
-        return self.k * abs(self.x) ** self.n
+        """Elastic force, 0 where there is a gap."""
+        return self.k * ((self.x + abs(self.x)) / 2) ** self.n
 
     def _chi(self) -> Expr:
         slow = piecewise((self.v_touch, self.v_touch > self.v_e), self.v_e)
