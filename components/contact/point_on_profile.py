@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Expr, Scalar, Vector3, as_expr, dot, expect, parameter, sqrt, structural, variable
+from acausal import Expr, Matrix33, Scalar, Vector3, as_expr, dot, expect, parameter, sqrt, structural, variable
 from components.contact.contact import Contact
 from components.gradient import gradient
 from components.orientation import resolve1, resolve2, unit_vector
@@ -38,7 +38,7 @@ class PointOnProfile(Contact):
     r_a: Vector3 = variable("place of the point in the plane normal to n_a, resolved in frame_a", unit="m")
     ground: Scalar = variable("height of the ground", unit="m")
     slope: Vector3 = variable("gradient of the height, resolved in frame_a", unit="1")
-    curvature: Scalar = variable("size of the second derivatives of the height", unit="1/m")
+    curvature: Matrix33 = variable("curvature of the ground, positive in a valley, resolved in frame_a", unit="1/m")
 
     def check(self) -> None:
         """Refuse a direction of length 0."""
@@ -51,25 +51,33 @@ class PointOnProfile(Contact):
         r_a = Expr(self.r_a.sx, shape=(3,))  # the user's function has numbers, whatever their units
         ground = as_expr(self.height(r_a))
         slope = as_expr(across @ gradient(ground, r_a))
-        bends = gradient(slope, r_a)
-        yield self.r_a == across @ resolve2(self.frame_a.R, self.frame_b.r_0 - self.frame_a.r_0)
+        steep = sqrt(1 + dot(slope, slope))
+        r = resolve2(self.frame_a.R, self.frame_b.r_0 - self.frame_a.r_0)
+        yield self.r_a == across @ r + self.ball() / self.steepness() * self.slope
         yield self.ground == ground
         yield self.slope == slope
-        yield self.curvature == sqrt(dot(bends[0], bends[0]) + dot(bends[1], bends[1]) + dot(bends[2], bends[2]))
+        yield self.curvature == gradient(slope / steep, r_a) @ across
 
     def place(self):
-        """The point itself."""
+        """The point, or that of the sphere where the ground has its slope."""
         a, b, n = self.frame_a, self.frame_b, unit_vector(self.n_a)
         up = dot(n, resolve2(a.R, b.r_0 - a.r_0))
-        return resolve1(a.R, n - self.slope), self.ground - up, b.r_0
+        under = self.ball() / self.steepness()
+        normal = resolve1(a.R, n - self.slope)
+        return normal, self.ground + under - up, b.r_0 - normal * (under / self.steepness())
 
     def steepness(self):
         """Length of the normal, 1 / cos(alpha)."""
         return sqrt(1 + dot(self.slope, self.slope))
 
+    def ball(self) -> Any:
+        """Radius of a sphere in place of the point."""
+        return 0.0
+
     def validity(self):
+        rows = [self.curvature[k] for k in range(3)]
         yield expect(
-            (self.x + abs(self.x)) / 2 * self.curvature,
+            (self.x + abs(self.x)) / 2 * sqrt(sum((dot(row, row) for row in rows[1:]), dot(rows[0], rows[0]))),
             1.0,
             SHARE,
             "its profile is too tight for its penetration, more than a tenth of the radius of curvature; smooth the profile, or "

@@ -18,10 +18,11 @@ from acausal import (
     connect,
     fixed,
     part,
+    sin,
     structural,
 )
 from components import Body, Fixed, Revolute, World
-from components.contact import PointOnPlane, PointOnProfile, RimOnPlane, SphereOnPlane, SphereOnSphere
+from components.contact import PointOnPlane, PointOnProfile, RimOnPlane, SphereOnPlane, SphereOnProfile, SphereOnSphere
 from tests.shared import compiled
 
 MASS, RADIUS = 1.0, 0.05
@@ -31,6 +32,7 @@ IMPACTS: dict[str, Any] = {
     "sphere": (SphereOnPlane, {"k": 1e8, "radius": RADIUS}, RADIUS),
     "rim": (RimOnPlane, {"k": 1e6, "radius": RADIUS}, RADIUS),
     "two spheres": (SphereOnSphere, {"k": 1e8, "radius_a": 0.1, "radius_b": RADIUS}, 0.1 + RADIUS),
+    "sphere on a profile": (SphereOnProfile, {"k": 1e8, "radius": RADIUS, "height": lambda r: 0.3 * r[0] ** 2}, RADIUS),
     "profile": (PointOnProfile, {"k": 1e6, "height": lambda r: 0.3 * r[0] ** 2}, 0.0),
 }
 
@@ -217,6 +219,31 @@ def test_a_place_on_a_profile_has_the_frequency_of_its_curvature():
     np.testing.assert_allclose(linear.frequencies_hz, expected, rtol=1e-5)
 
 
+def test_a_sphere_on_waves():
+    """The depth below the highest position at which the sphere touches some point of the ground; without losses."""
+    R, g, k = 0.1, 9.81, 1e6
+    it = SphereOnProfile(k=k, radius=R, height=lambda r: 0.04 * sin(5 * r[0]) + 0.1 * r[2])
+    result = ac.simulate(Ball(it=it, g=g, r=(0.1, 0.2, 0), v=(1, 0, 0.2)), stop_time=1.5, tolerance=1e-9)
+    x, y, z = result["body.r_0"].T
+    q = np.linspace(-R, R, 4001)[1:-1]
+    # Across a slope that is uniform along z, the section of the sphere's reach is widened by its inclination.
+    reach = np.sqrt(R**2 - q**2) * np.sqrt(1.01)
+    highest = [np.max(0.04 * np.sin(5 * (place + q)) + reach) for place in x]
+    np.testing.assert_allclose(result["it.x"], highest + 0.1 * z - y, atol=1e-6)
+    assert np.max(result["it.x"]) > 1e-4
+    assert np.ptp(x) > 1
+    energy = np.sum(result["body.v_0"] ** 2, axis=1) / 2 + g * y + k * np.maximum(result["it.x"], 0) ** 2.5 / 2.5
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-5)
+
+
+def test_a_sphere_in_a_valley_is_a_pendulum():
+    """Its length is the radius of curvature less that of the sphere."""
+    it = SphereOnProfile(k=1e10, radius=0.1, height=lambda r: 0.5 * r[0] ** 2 + r[2] ** 2)
+    linear = ac.linearize(Ball(it=it, g=9.81, r=(0, 0.1 - (9.81e-10) ** (2 / 3), 0)))
+    expected = np.sqrt([9.81 / 0.9, 9.81 / 0.4]) / (2 * np.pi)
+    np.testing.assert_allclose(linear.frequencies_hz[:2], expected, rtol=1e-5)
+
+
 class Rolling(Model):
     """A rim that is pressed flat on the ground, by an axis in its plane."""
 
@@ -246,6 +273,9 @@ def test_doubtful_penetrations():
     with pytest.warns(AcausalWarning, match="more than a tenth of its radius"):
         ac.simulate(Ball(it=SphereOnPlane(k=1e4, radius=RADIUS), r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
     it = PointOnProfile(k=1e4, height=lambda r: 20 * r[0] ** 2)
+    tight = SphereOnProfile(k=1e7, radius=RADIUS, height=lambda r: 11 * r[0] ** 2)
+    with pytest.warns(AcausalWarning, match="tighter than the radius of its sphere"):
+        ac.simulate(Ball(it=tight, r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
     with pytest.warns(AcausalWarning, match="profile is too tight"):
         ac.simulate(Ball(it=it, r=(0, 0.1, 0), v=(0, -2, 0)), stop_time=0.1)
 

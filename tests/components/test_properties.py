@@ -111,6 +111,7 @@ SCENES: dict[str, type[Scene]] = {
     "contact.RimOnPlane": contacts.OnRimOnPlane,
     "contact.SphereOnSphere": contacts.OnSphereOnSphere,
     "contact.PointOnProfile": contacts.OnPointOnProfile,
+    "contact.SphereOnProfile": contacts.OnSphereOnProfile,
     "PointMass": bodies.OnPointMass,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
@@ -281,7 +282,9 @@ def exported() -> dict[str, type]:
 
 EXPORTED = exported()
 # Frame_a is fixed to a plane or profile, frame_b to what touches it.
-ONE_WAY = {f"contact.{name}" for name in ("PointOnPlane", "SphereOnPlane", "RimOnPlane", "PointOnProfile")}
+ONE_WAY = {
+    f"contact.{name}" for name in ("PointOnPlane", "SphereOnPlane", "RimOnPlane", "PointOnProfile", "SphereOnProfile")
+}
 SIDED = [
     name
     for name in SCENES
@@ -496,7 +499,7 @@ DIMENSIONLESS = {
     ("IdealPlanetary", "ratio"),
     *[("PointOnCurve", name) for name in ("u", "der_u", "der2_u")],
     *[(name, coefficient) for name in contact.__all__ for coefficient in ("e", "mu")],
-    ("PointOnProfile", "slope"),
+    *[(name, "slope") for name in ("PointOnProfile", "SphereOnProfile")],
     ("Drag", "c_d"),
     *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
 }

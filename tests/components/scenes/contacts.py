@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal import part, sin
 from components import FixedTranslation
-from components.contact import PointOnPlane, PointOnProfile, RimOnPlane, SphereOnPlane, SphereOnSphere
+from components.contact import PointOnPlane, PointOnProfile, RimOnPlane, SphereOnPlane, SphereOnProfile, SphereOnSphere
 from tests.components.scenes.forces import Line
 
 DAMPED = {"dissipation": 0.3, "mu": 0.3, "v_reg": 0.05}
@@ -28,6 +28,10 @@ class OnRimOnPlane(OnPlane):
 
 class OnPointOnProfile(OnPlane):
     it = PointOnProfile(k=3e3, height=lambda r: 0.03 * sin(8 * r[0]) + 0.1 * r[2] ** 2, **DAMPED)
+
+
+class OnSphereOnProfile(OnPlane):
+    it = SphereOnProfile(k=3e5, radius=0.1, height=lambda r: 0.03 * sin(8 * r[0]) + 0.1 * r[2] ** 2, **DAMPED)
 
 
 class OnSphereOnSphere(Line):
