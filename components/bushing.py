@@ -71,9 +71,10 @@ class Bushing(TriaxialSpring):
 
     def validity(self):
         T = self.turn()
-        angle, torque = norm(self.theta), norm(self.t)
+        elastic = self._gradient()[1]
+        square = dot(elastic, elastic)
         yield expect(
-            angle,
+            norm(self.theta) * sqrt(square / (square + NOTHING)),  # dampers alone may turn as far as they will
             quantity(LARGE, "rad"),
             1.0,
             f"it turns by more than {LARGE} rad, near half a turn, where the direction of its torque is undetermined. "
@@ -82,7 +83,7 @@ class Bushing(TriaxialSpring):
         yield apart(  # (sin(phi) n, 1 + cos(phi)), of length 2 cos(phi / 2), passes through 0 at half a turn alone
             as_expr([*sine_axis(T), (1 + T[0, 0] + T[1, 1] + T[2, 2]) / 2]),
             -dot(sine_axis(T), T @ self.w_rel) / sqrt(1 + T[0, 0] + T[1, 1] + T[2, 2] + NOTHING),
-            torque,
+            norm(rate(self.theta, elastic)),
             "it has turned by half a turn, where its torque jumps to the opposite direction. Restrict the rotation, or hold "
             "the parts by a joint with a rotational spring on its axis: Revolute(use_axis_flange=True)",
         )

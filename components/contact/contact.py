@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import Any, ClassVar
 
 from acausal import (
@@ -96,7 +95,6 @@ class Contact(HeatLoss, TwoFrames):
         yield a.f == resolve2(a.R, force)
         yield a.t == resolve2(a.R, cross(arm_a, force))
 
-    @abstractmethod
     def place(self) -> tuple[Any, Any, Any]:
         """Normal from frame_a's part to frame_b's, penetration and point of contact, both vectors resolved in the world."""
         raise NotImplementedError("returns its normal, penetration and point of contact", "return n, x, at")

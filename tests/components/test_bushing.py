@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -152,6 +154,13 @@ def test_limits_of_the_rotation():
         ac.simulate(spun(4.0 / np.sqrt(MOMENTS[0])), stop_time=5.0)
     # phi = 4 sin(t / sqrt(I)) reaches pi
     assert f"t = {np.sqrt(MOMENTS[0]) * np.arcsin(np.pi / 4):.4g}" in str(stopped.value)
+
+
+def test_dampers_alone_may_turn_round():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = ac.simulate(Mounted(it=Bushing(d_phi=(0.1, 0.1, 0.1)), w=(3, 0, 0)), stop_time=5.0, tolerance=1e-8)
+    np.testing.assert_allclose(result["body.w_a"][-1], (3 * np.exp(-0.1 * 5 / MOMENTS[0]), 0, 0), atol=1e-6)
 
 
 @pytest.mark.parametrize(
