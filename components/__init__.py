@@ -1,7 +1,6 @@
 """Components of machines: joints, bodies, forces and drives; `components.rotational` holds drive trains."""
 
-from components import constraints, rotational, sensors, thermal, translational
-from components import contact, rotational, sensors, thermal, translational
+from components import constraints, contact, rotational, sensors, thermal, translational
 from components.beams import FlexibleBeam, SubstructuredBeam
 from components.bevel_gear_1d import BevelGear1D
 from components.body import Body
@@ -9,8 +8,8 @@ from components.body_box import BodyBox
 from components.body_cylinder import BodyCylinder
 from components.body_rod import BodyRod
 from components.body_shape import BodyShape
-from components.constant_velocity_joint import ConstantVelocityJoint
 from components.bushing import Bushing
+from components.constant_velocity_joint import ConstantVelocityJoint
 from components.cylindrical import Cylindrical
 from components.damper import Damper
 from components.drag import Drag
@@ -82,8 +81,8 @@ __all__ = [
     "BodyCylinder",
     "BodyRod",
     "BodyShape",
-    "ConstantVelocityJoint",
     "Bushing",
+    "ConstantVelocityJoint",
     "Cylindrical",
     "Damper",
     "Drag",

@@ -30,7 +30,20 @@ from components import (
 )
 from components.flange import TwoFlanges
 from tests.components.scenes import assemblies as scenes_of_assemblies
-from tests.components.scenes import bodies, contacts, drives, forces, friction, gears, guides, heat, joints, mountings, rods, wheels
+from tests.components.scenes import (
+    bodies,
+    contacts,
+    drives,
+    forces,
+    friction,
+    gears,
+    guides,
+    heat,
+    joints,
+    mountings,
+    rods,
+    wheels,
+)
 from tests.components.scenes import constraints as constraint_scenes
 from tests.components.scenes import sensors as sensor_scenes
 from tests.components.scenes.bodies import (
@@ -254,8 +267,7 @@ BASES = {
     "rotational.OneFlange",
 }
 BASES |= {f"sensors.{name}" for name in ("OneFrameSensor", "TwoFrameSensor", "CutSensor", "HasAngles")}
-BASES |= {"assemblies.PrismaticEnd", "assemblies.RevoluteEnd", "constraints.PositionConstraint"}
-BASES |= {"assemblies.RevoluteEnd", "contact.Contact"}
+BASES |= {"assemblies.PrismaticEnd", "assemblies.RevoluteEnd", "constraints.PositionConstraint", "contact.Contact"}
 BASES |= {"MassOnLine", "FrameLoad", "WorldLoad", "rotational.TwoFlanges", "rotational.Slipping", "thermal.HeatLoss"}
 BASES |= {f"translational.{name}" for name in ("TwoFlanges", "Rigid", "Compliant", "OneFlange", "LoadingForce")}
 BASES |= {
@@ -273,8 +285,7 @@ BASES |= {"rotational.LoadingTorque", "rotational.TwoFlangesAndSupport", "transl
 def exported() -> dict[str, type]:
     """All component, connector and record classes that components and its packages export."""
     found = {name: getattr(components, name) for name in components.__all__}
-    for package in (assemblies, constraints, rotational, translational, thermal, sensors, fe):
-    for package in (assemblies, contact, rotational, translational, thermal, sensors, fe):
+    for package in (assemblies, constraints, contact, rotational, translational, thermal, sensors, fe):
         short = package.__name__.rpartition(".")[2]
         found |= {f"{short}.{name}": getattr(package, name) for name in package.__all__}
     return {name: c for name, c in found.items() if inspect.isclass(c) and issubclass(c, Component)}
@@ -314,8 +325,6 @@ SUPPLYING |= {
     "thermal.PrescribedTemperature",
 }
 SUPPLYING |= {"translational.MassWithStopAndFriction"}
-DISSIPATING |= {"Bushing"}
-DISSIPATING |= {"Bushing"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Drag"}
 DISSIPATING |= {"Bushing", "LineForceLaw", "Drag", "Rope"} | {name for name in SCENES if name.startswith("contact.")}
 SUPPLYING |= {"Rotor1D", "Mounting1D", "BevelGear1D"}
