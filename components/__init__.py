@@ -67,6 +67,7 @@ from components.torque import Torque
 from components.translational.flange import TranslationalFlange
 from components.triaxial_spring import TriaxialSpring
 from components.two_frame_body import TwoFrameBody
+from components.tyre import Tyre
 from components.universal import Universal
 from components.universal_spherical import UniversalSpherical
 from components.world import World
@@ -133,6 +134,7 @@ __all__ = [
     "TwoFlanges",
     "TwoFrameBody",
     "TwoFrames",
+    "Tyre",
     "Universal",
     "UniversalSpherical",
     "World",

@@ -42,6 +42,7 @@ from tests.components.scenes import (
     joints,
     mountings,
     rods,
+    tyres,
     wheels,
 )
 from tests.components.scenes import constraints as constraint_scenes
@@ -126,6 +127,7 @@ SCENES: dict[str, type[Scene]] = {
     "contact.PointOnProfile": contacts.OnPointOnProfile,
     "contact.SphereOnProfile": contacts.OnSphereOnProfile,
     "PointMass": bodies.OnPointMass,
+    "Tyre": tyres.OnTyre,
     "ForceAndTorque": forces.OnForceAndTorque,
     "WorldForceAndTorque": forces.OnWorldForceAndTorque,
     "Spherical": OnSphericalJoint,
@@ -311,7 +313,7 @@ DISSIPATING = {
     "FlexibleBeam",
     "SubstructuredBeam",
 }
-DISSIPATING |= {"fe.FEBody", "SpringDamperSeries", "LineForceWithMass", "LineForceWithTwoMasses"}
+DISSIPATING |= {"fe.FEBody", "Tyre", "SpringDamperSeries", "LineForceWithMass", "LineForceWithTwoMasses"}
 DISSIPATING |= {"rotational.Damper", "rotational.SpringDamper", "rotational.Friction", "rotational.Clutch"}
 DISSIPATING |= {f"rotational.{name}" for name in ("OneWayClutch", "BearingFriction", "Brake", "LossyGear", "Gearbox")}
 DISSIPATING |= {f"translational.{name}" for name in ("SupportFriction", "Brake", "MassWithStopAndFriction")}
@@ -511,6 +513,8 @@ DIMENSIONLESS = {
     *[(name, "slope") for name in ("PointOnProfile", "SphereOnProfile")],
     ("Drag", "c_d"),
     *[("Bushing", name) for name in ("stiffness", "damping")],  # entries of several units
+    ("Tyre", "mu"),
+    ("Tyre", "e_z"),
 }
 
 
