@@ -15,7 +15,6 @@ from acausal import (
     dot,
     geometry,
     parameter,
-    piecewise,
     port,
     quantity,
     require,
@@ -23,6 +22,7 @@ from acausal import (
     structural,
     variable,
 )
+from components.flange import Flange
 from components.frame import Frame, pose
 from components.orientation import parallel, resolve1, resolve2, two_axes_rotation, unit_vector
 from components.partial import partial
@@ -77,6 +77,13 @@ class Tyre(HeatLoss):
         shape=(3,),
         doc="Its part normal to up counts; y is along up x n_x.",
     )
+    use_axis_flange: bool = structural(
+        "whether the wheel turns relative to frame_a",
+        default=False,
+        choices=(True, False),
+        doc="True gives the tyre a shaft `axis`, by which it turns with a Rotor1D; frame_a is fixed to the upright, and motions "
+        "at constant speed have no quantities that oscillate with the wheel.",
+    )
     height: Any = structural(
         "height of the ground in m as a function of the place",
         default=None,
@@ -108,7 +115,7 @@ class Tyre(HeatLoss):
     v_low: Scalar = parameter(
         "speed of rolling below which slip fades into creep", unit="m/s", default=0.05, positive=True
     )
-    frame_a: Frame = port(Frame, "fixed to the wheel at its centre")
+    frame_a: Frame = port(Frame, "at the centre of the wheel, fixed to it or, with a shaft, to the upright")
     x: Scalar = variable("place of the contact point along n_x", unit="m")
     y: Scalar = variable("place of the contact point along up x n_x", unit="m")
     radius: Scalar = variable("distance of the contact point from the centre", unit="m")
@@ -126,6 +133,11 @@ class Tyre(HeatLoss):
     f_x: Scalar = variable("force on the wheel along e_x", unit="N")
     f_y: Scalar = variable("force on the wheel along e_y", unit="N")
     f_z: Scalar = variable("force on the wheel along e_z", unit="N")
+
+    @port
+    def axis(self):
+        """Shaft of the wheel, whose angle is relative to frame_a."""
+        return Flange() if self.use_axis_flange else None
 
     def check(self) -> None:
         """Refuse directions of length 0, and a horizontal direction along the vertical."""
@@ -147,27 +159,33 @@ class Tyre(HeatLoss):
         )
 
     def equations(self):
-        a, axis = self.frame_a, self._axis()
-        e_x, e_y, slope = *self._directions(), self._upright()
-        v = resolve1(a.R, a.v + cross(a.R.w, resolve2(a.R, self.arm)))
+        a, n, (e_x, e_y), slope = self.frame_a, unit_vector(self.n), self._directions(), self._upright()
+        w = a.R.w + n * der(self.axis.phi) if self.use_axis_flange else a.R.w
+        v = resolve1(a.R, a.v + cross(w, resolve2(a.R, self.arm)))
+        force = self.f_x * e_x + self.f_y * e_y + self.f_z * self.e_z
+        torque = resolve2(a.R, cross(self.arm, force))
         yield from super().equations()
-        yield from self._contact_point(axis)
+        yield from self._contact_point()
         yield self.v_x == dot(e_x, v)
         yield self.v_y == dot(e_y, v)
         yield self.v_z == dot(self.e_z, v) / slope
-        yield self.v_t == sqrt((self.radius * dot(unit_vector(self.n), a.R.w)) ** 2 + self.v_low**2)
+        yield self.v_t == sqrt((self.radius * dot(n, w)) ** 2 + self.v_low**2)
         yield self.f_z * slope == self._spring() + self._damper()
         yield from self._slip()
-        force = self.f_x * e_x + self.f_y * e_y + self.f_z * self.e_z
         yield a.f == -resolve2(a.R, force)
-        yield a.t == -resolve2(a.R, cross(self.arm, force))
+        if self.use_axis_flange:
+            yield a.t == n * dot(n, torque) - torque
+            yield self.axis.tau == -dot(n, torque)
+        else:
+            yield a.t == -torque
 
-    def _contact_point(self, axis: Any) -> Any:
+    def _contact_point(self) -> Any:
         """Foot of the centre on the ground in the plane of the wheel: on the tangent plane at (x, y), and above (x, y)."""
         up, e_1, e_2 = two_axes_rotation(self.up, self.n_x)
         ground, slopes = self._ground()
         point = self.x * e_1 + self.y * e_2 + ground * up
         normal = up - slopes[0] * e_1 - slopes[1] * e_2
+        axis = self._axis()
         down = axis * dot(self.e_z, axis) - self.e_z
         yield self.e_z == normal / sqrt(dot(normal, normal))
         yield self.radius == dot(self.e_z, self.frame_a.r_0 - point) / self._upright()
@@ -190,11 +208,14 @@ class Tyre(HeatLoss):
         yield self.f_y == -limit * pull_y / size
 
     def _spring(self) -> Expr:
-        return piecewise((self.c_z * self.deflection, self.deflection > 0), 0)
+        """Force of the spring, which only pushes."""
+        free = self.c_z * self.deflection
+        return (free + abs(free)) / 2
 
     def _damper(self) -> Expr:
-        spring, free = self._spring(), -self.d_z * self.v_z
-        return piecewise((-spring, free < -spring), (spring, free > spring), free)
+        """Force of the damper, between those of the spring and its opposite."""
+        most, free = self._spring(), -self.d_z * self.v_z
+        return (abs(free + most) - abs(free - most)) / 2
 
     def _c_x(self) -> Expr:
         return self.c_kappa / self.sigma_x

@@ -18,6 +18,7 @@ from components import (
     Planar,
     Prismatic,
     Revolute,
+    Rotor1D,
     Tyre,
     World,
 )
@@ -157,7 +158,7 @@ class Rolling(Model):
     world = World()
     wheel = Body(
         m=M,
-        I=np.diag([9.0, 9.0, 18.0]),
+        I=np.diag([12.0, 12.0, 18.0]),
         r_0=fixed((0, 0.3 - SAG, 0)),
         v_0=fixed((12, 0, 0)),
         w_a=fixed((0, 0, -12 / (0.3 - SAG))),
@@ -205,6 +206,50 @@ def test_contact_point_is_nearest_to_the_centre():
         assert result["tyre.radius"][k] == pytest.approx(np.sqrt(found.fun), abs=1e-9)
 
 
+class Inclined(Rolling):
+    """A wheel inclined and turning on waves."""
+
+    wheel = Body(
+        m=M,
+        I=np.diag([12.0, 12.0, 18.0]),
+        r_0=fixed((0, 0.29, 0)),
+        v_0=fixed((5, 0, 0.5)),
+        w_a=fixed((0.2, 0.5, -12)),
+        angles_start=(0.1, 0.2, 0),
+        angles_fixed=True,
+    )
+    tyre = Tyre(height=lambda x, y: 0.02 * sine(3 * x + 1 * y), **DATA)
+
+
+class OnShaft(Inclined):
+    """The same wheel as a rotor on a housing that does not turn with it."""
+
+    wheel = Body(
+        m=M,
+        I=np.diag([12.0, 12.0, 19.0]),
+        r_0=fixed((0, 0.29, 0)),
+        v_0=fixed((5, 0, 0.5)),
+        w_a=fixed((0.2, 0.5, 0)),
+        angles_start=(0.1, 0.2, 0),
+        angles_fixed=True,
+    )
+    rotor = Rotor1D(J=18, n=(0, 0, 1), phi=fixed(0), w=fixed(-12))
+    tyre = Tyre(use_axis_flange=True, height=lambda x, y: 0.02 * sine(3 * x + 1 * y), **DATA)
+
+    def connections(self):
+        yield from super().connections()
+        yield connect(self.wheel.frame_a, self.rotor.frame_a)
+        yield connect(self.rotor.flange_b, self.tyre.axis)
+
+
+def test_wheel_on_a_shaft_moves_like_one_that_turns_with_its_frame():
+    one, other = (ac.simulate(model(), stop_time=0.6, tolerance=1e-8, energy=True) for model in (Inclined, OnShaft))
+    np.testing.assert_allclose(other["wheel.r_0"], one["wheel.r_0"], atol=1e-6)
+    assert np.ptp(one["wheel.v_0"], axis=0).min() > 0.1
+    for result in (one, other):
+        assert abs(result.stats["energy_method"]) < 1e-5 * result.stats["energy_dissipated"]
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [
@@ -227,6 +272,6 @@ START = {"r_0": fixed((0, 0.3, 0)), "v_0": fixed((0, 0, 0)), "w_a": fixed((0, 0,
     [({"r_0": fixed((0, -0.1, 0))}, "below the ground"), ({"angles_start": (1.3, 0, 0)}, "more than 60 degrees")],
 )
 def test_wrong_start(start, message):
-    wheel = Body(m=M, I=np.diag([9.0, 9.0, 18.0]), **START | start)
+    wheel = Body(m=M, I=np.diag([12.0, 12.0, 18.0]), **START | start)
     with pytest.raises(InitializationError, match=message):
         ac.simulate(Rolling(wheel=wheel), stop_time=0.1)
