@@ -1,4 +1,4 @@
-"""Assemblies of vehicles, in axes x forward, y up, z to the right, and a car that is made of them."""
+"""Assemblies of vehicles, in axes x forward, y up, z to the right, a car that is made of them, and a gear box."""
 
 from models.vehicle.arm import Arm
 from models.vehicle.axle import Axle
@@ -6,7 +6,20 @@ from models.vehicle.ball_joint import BallJoint
 from models.vehicle.car import Car
 from models.vehicle.corner import Corner
 from models.vehicle.double_wishbone import DoubleWishbone
+from models.vehicle.planetary_gearbox import PlanetaryGearbox
+from models.vehicle.shifting import Shifting
 from models.vehicle.upright import Upright
 from models.vehicle.wheel import Wheel
 
-__all__ = ["Arm", "Axle", "BallJoint", "Car", "Corner", "DoubleWishbone", "Upright", "Wheel"]
+__all__ = [
+    "Arm",
+    "Axle",
+    "BallJoint",
+    "Car",
+    "Corner",
+    "DoubleWishbone",
+    "PlanetaryGearbox",
+    "Shifting",
+    "Upright",
+    "Wheel",
+]

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.optimize import fsolve
+from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 import acausal as ac
@@ -64,7 +64,7 @@ def test_corner_moves_as_its_linkage_does():
     names = ("upper.bearing.phi", "tilt.phi_a", "tilt.phi_b", "steer.phi")
     angles = np.stack([result[f"corner.suspension.{name}"] for name in names], axis=1)
     for lower, found in zip(result["corner.suspension.lower.bearing.phi"], angles, strict=True):
-        solved = fsolve(closures, np.full(4, 1e-3), args=(lower,), xtol=1e-9)
+        solved = least_squares(closures, np.zeros(4), args=(lower,), xtol=1e-15, ftol=None, gtol=None).x
         np.testing.assert_allclose(found, solved, atol=1e-6)
 
 
