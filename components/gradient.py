@@ -1,4 +1,4 @@
-"""Derivatives of functions that users give as expressions."""
+"""Derivative of an expression by a variable."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from acausal import Expr
 
 
 def gradient(value: Expr, of: Expr) -> Expr:
-    """Derivative of a scalar or vector by a vector, shape (*value.shape, len(of)).
+    """Derivative of a scalar or vector by a scalar or vector, shape (*value.shape, *of.shape).
 
     Parameters
     ----------
     value : Expr
         Made of the entries of `of`.
     of : Expr
-        Variable of a component, a vector.
+        Variable of a component.
     """
     slopes = ca.jacobian(value.sx, of.sx)
-    return Expr(slopes if value.shape else slopes.T, shape=(*value.shape, *of.shape))
+    if value.shape or of.shape:
+        return Expr(slopes if value.shape else slopes.T, shape=(*value.shape, *of.shape))
+    return Expr(slopes, (value / of).unit)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import casadi as ca
-
 from acausal import (
     PREFER,
     DeclarationError,
@@ -21,6 +19,7 @@ from acausal import (
     variable,
 )
 from components.frame import TwoFrames, pose
+from components.gradient import gradient
 from components.orientation import resolve1, resolve2
 
 
@@ -88,4 +87,4 @@ class PointOnCurve(TwoFrames):
 
     def _tangent(self, c: Expr) -> Expr:
         """dc/du."""
-        return Expr(ca.jacobian(c.sx, self.u.sx), shape=(3,))
+        return gradient(c, self.u)

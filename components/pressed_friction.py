@@ -22,7 +22,7 @@ class PressedFriction(HeatLoss):
         "ratio of the greatest load of sticking and that of sliding", unit="1", default=1, minimum=1
     )
     cgeo: Any
-    sliding_speed: Any  # method: sliding speed, not less than 0 while it slides
+    sliding_speed: ClassVar[Any]  # method: sliding speed, not less than 0 while it slides
     fn_max: Scalar = parameter("greatest normal force", unit="N", minimum=0)
     f_normalized: Scalar = input(
         "normal force as a fraction of its greatest value",

@@ -62,7 +62,7 @@ class Rope(HeatLoss, TwoFrames):
     length_0: Scalar = discrete("unstretched length that counts", unit="m", start=piecewise((length, length > 0), s))
 
     @ports
-    def over(self):
+    def over(self) -> dict[str, Frame]:
         """Frames whose origins the rope passes."""
         return {f"frame_{k + 1}": Frame() for k in range(self.points)}
 

@@ -24,8 +24,8 @@ from acausal import (
 )
 from components.flange import Flange
 from components.frame import Frame, pose
+from components.gradient import gradient
 from components.orientation import parallel, resolve1, resolve2, two_axes_rotation, unit_vector
-from components.partial import partial
 from components.thermal.heat_loss import HeatLoss
 from components.world import require_direction
 
@@ -135,7 +135,7 @@ class Tyre(HeatLoss):
     f_z: Scalar = variable("force on the wheel along e_z", unit="N")
 
     @port
-    def axis(self):
+    def axis(self) -> Flange | None:
         """Shaft of the wheel, whose angle is relative to frame_a."""
         return Flange() if self.use_axis_flange else None
 
@@ -228,7 +228,7 @@ class Tyre(HeatLoss):
         if self.height is None:
             return quantity(0.0, "m"), (0.0, 0.0)
         ground = as_expr(self.height(self.x, self.y))
-        return ground, (partial(ground, self.x), partial(ground, self.y))
+        return ground, (gradient(ground, self.x), gradient(ground, self.y))
 
     def _axis(self) -> Expr:
         return resolve1(self.frame_a.R, unit_vector(self.n))

@@ -29,12 +29,12 @@ class PrismaticEnd(TwoFrames):
     frame_im: Frame = port(Frame, "fixed to rod 2 at the joint in the middle")
 
     @port
-    def axis(self):
+    def axis(self) -> TranslationalFlange | None:
         """Drive rod."""
         return TranslationalFlange() if self.use_axis_flange else None
 
     @port
-    def support(self):
+    def support(self) -> TranslationalFlange | None:
         """Housing of the drive."""
         return TranslationalFlange() if self.use_axis_flange else None
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from acausal import DeclarationError, Expr, Scalar, parameter, require, structural
 from components.speed_table import SpeedTable
@@ -12,7 +12,7 @@ from components.thermal.heat_loss import HeatLoss
 class SlidingTorque(HeatLoss):
     """Base of friction whose torque is given, as a constant or over the speed; a subclass says what slides."""
 
-    sliding_speed: Any  # method: sliding speed, not less than 0 while it slides
+    sliding_speed: ClassVar[Any]  # method: sliding speed, not less than 0 while it slides
     tau_pos: Any = structural(
         "torque against sliding over the speed",
         default=None,

@@ -2,7 +2,6 @@
 
 from models.vehicle.arm import Arm
 from models.vehicle.axle import Axle
-from models.vehicle.ball_joint import BallJoint
 from models.vehicle.car import Car
 from models.vehicle.corner import Corner
 from models.vehicle.double_wishbone import DoubleWishbone
@@ -14,7 +13,6 @@ from models.vehicle.wheel import Wheel
 __all__ = [
     "Arm",
     "Axle",
-    "BallJoint",
     "Car",
     "Corner",
     "DoubleWishbone",

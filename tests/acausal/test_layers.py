@@ -65,9 +65,7 @@ SOLVE = (
 # Files that may import a package which is installed with an extra, and only there.
 EXTRAS = {
     "components/gradient.py": {"casadi"},
-    "components/partial.py": {"casadi"},
     "components/fe/elements/quadratic.py": {"skfem"},
-    "components/point_on_curve.py": {"casadi"},  # derivative with respect to a variable
     "components/fe/formats/ansys_process.py": {"ansys"},
     "components/fe/recover.py": {"meshio"},
     "components/fe/__main__.py": {"typer"},
