@@ -3,15 +3,8 @@
 from __future__ import annotations
 
 from acausal import Component, Scalar, chain, connect, parameter, part, port, structural
-from components import (
-    FixedTranslation,
-    Frame,
-    Revolute,
-    SphericalSpherical,
-    SpringDamperParallel,
-    Universal,
-    constraints,
-)
+from components import FixedTranslation, Frame, Revolute, SphericalSpherical, SpringDamperParallel, Universal
+from components.constraints import Spherical
 from models.vehicle.arm import Arm
 from models.vehicle.points import length, point, way
 from models.vehicle.upright import Upright
@@ -32,7 +25,7 @@ class DoubleWishbone(Component):
     preload: Scalar = parameter("force of the strut at the start", unit="N", default=3.6e3)
     frame_a, frame_b = port(Frame, "fixed to the chassis"), port(Frame, "fixed to the upright at the wheel")
     frame_tie = port(Frame, "inner end of the tie rod")
-    tilt, steer, ball = Universal(n_a=(1, 0, 0), n_b=(0, 0, 1)), Revolute(n=(0, 1, 0)), constraints.Spherical()
+    tilt, steer, ball = Universal(n_a=(1, 0, 0), n_b=(0, 0, 1)), Revolute(n=(0, 1, 0)), Spherical()
     lower = part(lambda s: Arm(at=s.to("lower_in"), r=s.to("lower_out", "lower_in"), m=6, starts=True))
     upper = part(lambda s: Arm(at=s.to("upper_in"), r=s.to("upper_out", "upper_in"), m=3))
     at_strut = part(lambda s: FixedTranslation(r=s.to("strut_in")))

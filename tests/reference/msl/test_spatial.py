@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import acausal as ac
-from acausal import Model, chain, connect, fixed
+from acausal import Model, chain, connect, fixed, guess
 from components import (
     Body,
     BodyBox,
@@ -186,7 +186,11 @@ class Rods(Model):
         FixedTranslation(r=(-1, 0, 0)),
         Spherical(angles_start=(0, pi, 0), angles_fixed=True, w_rel_a=fixed((0, 0, 0))),
     )
-    bodyBox, bodyBox1, bodyBox2 = (BodyBox(r=(0.5, 0, 0), width=0.1, height=0.1) for _ in range(3))
+    bodyBox1 = BodyBox(r=(0.5, 0, 0), width=0.1, height=0.1)
+    bodyBox, bodyBox2 = (
+        BodyBox(r=(0.5, 0, 0), width=0.1, height=0.1, r_0=guess((1, 0, 0)), angles_fixed=True, w_a=fixed((0, 0, 0)))
+        for _ in range(2)
+    )
 
     def connections(self):
         yield chain(self.world, self.universalSpherical, self.bodyBox)
@@ -194,9 +198,7 @@ class Rods(Model):
         yield chain(self.world, self.universalSpherical1, self.bodyBox2)
 
     def initial_equations(self):
-        for rod, body in ((self.universalSpherical, self.bodyBox), (self.universalSpherical1, self.bodyBox2)):
-            yield rod.spherical.Q == (0, 0, 0, 1)
-            yield rod.spherical.w_rel == (0, 0, 0)
+        for body in (self.bodyBox, self.bodyBox2):
             for k in (1, 2):
                 yield body.r_0[k] == 0
                 yield body.v_0[k] == 0
