@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 LONG = 200  # characters of a path
-MOST = 8  # names that are listed
+MOST = 12
 NEAR = 0.6  # similarity of two names that differ by a slip
 SLIP = 0.85  # similarity of two names of which one is the other misspelt
 PIECE, WORD = 3, 4  # letters of a name inside another one, and of a word that two names share: shorter ones are chance

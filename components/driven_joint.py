@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, ClassVar
 
-from acausal import DeclarationError, branch, effect, structural, tanh
+from acausal import (
+    DeclarationError,
+    Expr,
+    Scalar,
+    branch,
+    dot,
+    effect,
+    parameter,
+    sqrt,
+    structural,
+    tanh,
+)
 from components.frame import TwoFrames
+from components.orientation import unit_vector
 from components.world import require_direction
 
 
@@ -18,13 +31,42 @@ class DrivenJoint(TwoFrames):
         choices=(True, False),
         doc="True gives the joint a drive `axis` and the housing of the drive, `support`.",
     )
-    friction: bool = effect("friction in the joint", default=True, doc="False leaves out viscous and dry friction.")
+    friction: Any = effect(
+        "friction in the joint",
+        default=True,
+        choices=(True, "stiction", "reaction", False),
+        tries=(True, False),
+        doc="True: viscous, and dry friction that fades where the joint rests, and creeps. stiction: viscous, and dry friction "
+        "that sticks. reaction: viscous, and friction under the reaction force, of the coefficient mu, that sticks. False: none.",
+    )
+    mu: Scalar = parameter(
+        "coefficient of friction under the reaction force",
+        unit="1",
+        default=0,
+        minimum=0,
+        doc='With friction="reaction".',
+    )
+    peak: Scalar = parameter(
+        "ratio of the greatest loads of sticking and of sliding",
+        unit="1",
+        default=1,
+        minimum=1,
+        doc='With friction="stiction" or "reaction".',
+    )
+    f_small: Scalar = parameter(
+        "reaction force below which its friction fades",
+        unit="N",
+        default=1e-6,
+        positive=True,
+        doc='With friction="reaction": |f| is sqrt(f^2 + f_small^2) - f_small.',
+    )
     elasticity: bool = effect(
         "compliance of the drive", default=True, doc="False makes the drive rigid, whatever its compliance."
     )
     n: Any
     d: Any
     compliance: Any
+    stiction: ClassVar[Any]  # part of a subclass: friction that sticks, or None
 
     def check(self) -> None:
         """Refuse an axis of length 0, and compliance of a drive that is not there."""
@@ -40,8 +82,32 @@ class DrivenJoint(TwoFrames):
         yield branch(self.frame_a, self.frame_b)
 
     def drag(self, speed: Any, dry: Any, slow: Any) -> Any:
-        """Friction d speed + dry tanh(speed / slow) against the motion, or 0; a dry friction of 0 leaves no tanh."""
+        """Friction against the motion: d speed + dry tanh(speed / slow), d speed where `stiction` adds the rest, or 0.
+
+        A dry friction of 0 leaves no tanh.
+        """
+        if self.sticks():
+            return self.d * speed
         return self.d * speed + dry * tanh(speed / slow) if self.friction else 0.0
+
+    def sticks(self) -> bool:
+        """Whether it has dry friction that sticks."""
+        return self.friction in ("stiction", "reaction")
+
+    def held(self) -> Any:
+        """Load of the friction that sticks, or 0."""
+        return self.stiction.load if self.sticks() else 0.0
+
+    def sliding(self, speed: Expr, dry: Expr, arm: Expr) -> Iterator[Any]:
+        """Give the friction that sticks its speed and load: `dry`, or mu |f| arm, f the force on frame_b across the axis."""
+        if self.sticks():
+            yield self.stiction.speed == speed
+            yield self.stiction.sliding == (self.mu * self._across() * arm if self.friction == "reaction" else dry)
+
+    def _across(self) -> Expr:
+        """Size of the force on frame_b across the axis, smooth where that is 0."""
+        f, n, small = self.frame_b.f, unit_vector(self.n), self.f_small
+        return sqrt(dot(f, f) - dot(n, f) ** 2 + small**2) - small
 
     def give(self, load: Any) -> Any:
         """How far the drive is ahead of the joint under its load, or 0."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, port, structural, variable
+from acausal import PREFER, Scalar, cross, der, dot, geometry, parameter, part, port, quantity, structural, variable
 from components.driven_joint import DrivenJoint
 from components.frame import move
+from components.joint_friction import PrismaticFriction
 from components.orientation import null_rotation, resolve1, unit_vector
 from components.translational.flange import TranslationalFlange
 
@@ -23,7 +24,8 @@ class Prismatic(DrivenJoint):
         unit="N",
         default=0,
         minimum=0,
-        doc="d v + f_dry tanh(v / v_dry) acts against v. It creeps where it should stick.",
+        doc='d v + f_dry tanh(v / v_dry) acts against v, and creeps where it should stick; with friction="stiction" it sticks. '
+        'With friction="reaction" it is mu |f|, f across n.',
     )
     v_dry: Scalar = parameter("speed below which dry friction fades", unit="m/s", default=1e-3, positive=True)
     compliance: Scalar = parameter(
@@ -44,6 +46,11 @@ class Prismatic(DrivenJoint):
         """Housing of the drive."""
         return TranslationalFlange() if self.use_axis_flange else None
 
+    @part
+    def stiction(self) -> PrismaticFriction | None:
+        """Dry friction that sticks."""
+        return PrismaticFriction(peak=self.peak) if self.sticks() else None
+
     def equations(self):
         n = unit_vector(self.n)
         r = n * self.s
@@ -52,7 +59,8 @@ class Prismatic(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, r, null_rotation())
         yield self.frame_a.f == -self.frame_b.f
         yield self.frame_a.t == -self.frame_b.t - cross(r, self.frame_b.f)
-        yield self.f - self._drag() == -dot(n, self.frame_b.f)
+        yield self.f - self._drag() - self.held() == -dot(n, self.frame_b.f)
+        yield from self.sliding(self.v, self.f_dry, quantity(1.0, "1"))
         if self.use_axis_flange:
             yield self.axis.s == self.s + self.give(self.f)
             yield self.axis.f == self.f

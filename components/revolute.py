@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from acausal import PREFER, Scalar, der, dot, geometry, parameter, port, structural, variable
+from acausal import PREFER, Scalar, der, dot, geometry, parameter, part, port, structural, variable
 from components.driven_joint import DrivenJoint
 from components.flange import Flange
 from components.frame import move, pose
+from components.joint_friction import RevoluteFriction
 from components.orientation import planar_rotation, resolve1, unit_vector
 
 
@@ -24,10 +25,13 @@ class Revolute(DrivenJoint):
         unit="N.m",
         default=0,
         minimum=0,
-        doc="d w + tau_dry tanh(w / w_dry) acts against w. It creeps where it should stick; "
-        "components.rotational.Friction sticks.",
+        doc='d w + tau_dry tanh(w / w_dry) acts against w, and creeps where it should stick; with friction="stiction" it sticks, '
+        "up to peak tau_dry.",
     )
     w_dry: Scalar = parameter("speed below which dry friction fades", unit="rad/s", default=1e-2, positive=True)
+    r_pin: Scalar = parameter(
+        "radius of the pin", unit="m", default=0, minimum=0, doc='With friction="reaction": mu r_pin |f|, f across n.'
+    )
     compliance: Scalar = parameter(
         "compliance of the drive",
         unit="rad/(N.m)",
@@ -50,6 +54,11 @@ class Revolute(DrivenJoint):
         """Housing of the drive."""
         return Flange() if self.use_axis_flange else None
 
+    @part
+    def stiction(self) -> RevoluteFriction | None:
+        """Dry friction that sticks."""
+        return RevoluteFriction(peak=self.peak) if self.sticks() else None
+
     def equations(self):
         n = unit_vector(self.n)
         R = planar_rotation(n, self.phi)
@@ -58,7 +67,8 @@ class Revolute(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, (0, 0, 0), R)
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == -resolve1(R, self.frame_b.t)
-        yield self.tau - self._drag() == -dot(n, self.frame_b.t)
+        yield self.tau - self._drag() - self.held() == -dot(n, self.frame_b.t)
+        yield from self.sliding(self.w, self.tau_dry, self.r_pin)
         yield from self.drive()
 
     def drive(self) -> Iterator[Any]:

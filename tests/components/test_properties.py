@@ -494,6 +494,7 @@ DIMENSIONLESS = {
     ("FreeMotion", "Q"),
     *[(kind, name) for kind in DRY for name in ("mode", "shared", "share", "peak", "f_normalized", "stopped")],
     ("Brake", "cgeo"),
+    *[(joint, name) for joint in ("DrivenJoint", "Revolute", "Prismatic", "ScrewJoint") for name in ("mu", "peak")],
     ("LossyGear", "ratio"),
     ("Gearbox", "ratio"),
     ("ElastoGap", "n"),
