@@ -95,27 +95,36 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike, 
         _run(connector, "root_equations", found, most, alike)
     found.of_roots = range(first, len(found.sides))
     _close(graph, found)
+    stated = _alone(found, slice(0, 1))
     for balance in graph.balances:
-        _balance(balance, found)
+        _balance(balance, found, stated)
     return found
 
 
 def _take_defaults(found: Equations, defaults: list[Late]) -> None:
     """Give inputs their defaults where no equation of what contains them has the input alone on one side."""
-    if not defaults:
-        return
+    alone = _alone(found, slice(0, 2)) if defaults else {}
+    for component, name, value, origin in defaults:
+        own = getattr(component, name)
+        if not any(_contains(path, component) for s in scalars(own.sx) for path in alone.get(s.element_hash(), ())):
+            with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v()), o), origin)
+            PENDING.get().place(origin)
+
+
+def _alone(found: Equations, sides: slice) -> dict[int, list[str]]:
+    """Paths of the parts that have a symbol alone on a side of an equation, or in an entry of it; 0 is left, 1 right."""
     alone: dict[int, list[str]] = {}
     for component, rows in found.owned:
-        for side in (side for sides in found.sides[rows.start : rows.stop] for side in sides):
+        for side in (side for both in found.sides[rows.start : rows.stop] for side in both[sides]):
             for s in scalars(side):
                 if s.is_symbolic():
                     alone.setdefault(s.element_hash(), []).append(component._path)
-    for component, name, value, origin in defaults:
-        own = getattr(component, name)
-        stated = [path for s in scalars(own.sx) for path in alone.get(s.element_hash(), ())]
-        if not any(path == "" or component._path.startswith(f"{path}.") for path in stated):
-            with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v()), o), origin)
-            PENDING.get().place(origin)
+    return alone
+
+
+def _contains(path: str, component: Component) -> bool:
+    """Whether the part at a path contains a component."""
+    return path == "" or component._path.startswith(f"{path}.")
 
 
 def _given(component: Component, name: str, value: Any) -> Any:
@@ -195,7 +204,8 @@ def _side(
     return {id(c) for c in side}
 
 
-def _balance(balance: Balance, found: Equations) -> None:
+def _balance(balance: Balance, found: Equations, stated: dict[int, list[str]]) -> None:
+    """Let the flows of a set sum to zero, but for those of an unconnected connector that an equation outside states."""
     first, outside = balance[0]
     if len(balance) == 1 and (outside < 0 or first._owner is None):
         return  # nothing inside uses this port of a composite, or the component itself does
@@ -204,6 +214,11 @@ def _balance(balance: Balance, found: Equations) -> None:
         for name, declared in same[0].fields.items():
             if isinstance(declared, f.Variable) and declared.flow:
                 flows = [(getattr(c, name).sx, sign) for c, (_, sign) in zip(same, balance, strict=True)]
+                entries = scalars(flows[0][0]) if len(balance) == 1 else []
+                if entries and all(
+                    any(_contains(path, first._owner) for path in stated.get(s.element_hash(), ())) for s in entries
+                ):
+                    continue
                 total = reduce(lambda a, b: combined(a, "+", b), [sx if sign > 0 else -sx for sx, sign in flows])
                 zero = Expr(ca.SX.zeros(*total.shape))
                 origin = Origin(join(same[0]._path, name), type(same[0]).__name__, "flows of a connection", text)
