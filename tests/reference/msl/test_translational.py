@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from acausal import Model, chain, connect, fixed, sine
+from components.thermal import HeatCapacitor
 from components.translational import (
     Accelerate,
     AccSensor,
+    ConstantForce,
     Damper,
+    EddyCurrentForce,
     ElastoGap,
     Fixed,
     Force,
     ForceSensor,
+    InverseSpeedDependentForce,
+    LinearSpeedDependentForce,
     Mass,
     MultiSensor,
     PositionSensor,
+    QuadraticSpeedDependentForce,
     Rod,
+    SignForce,
     SpeedSensor,
     Spring,
     SpringDamper,
@@ -188,3 +195,28 @@ class PreLoad(Model):
 
 def test_preload():
     compare(EXAMPLES + "PreLoad", PreLoad())
+
+
+def braked(v=100):
+    return Mass(m=1, s=fixed(0), v=fixed(v))
+
+
+class Braking(Model):
+    """Masses slowed down by laws of their speed."""
+
+    mass1, mass2, mass3, mass4, mass5, mass6 = braked(), braked(), braked(), braked(), braked(20), braked()
+    force1 = LinearSpeedDependentForce(f_nominal=-100, v_nominal=100)
+    force2 = QuadraticSpeedDependentForce(f_nominal=-100, v_nominal=100)
+    force3, force4 = ConstantForce(f_constant=-100), SignForce(f_nominal=-100, v0=1)
+    force5 = EddyCurrentForce(f_nominal=100, v_nominal=10, use_heat_port=True, alpha20=3.920e-3)
+    force6 = InverseSpeedDependentForce(f_nominal=-100, v_nominal=100, v0=1)
+    heat = HeatCapacitor(C=1, T=fixed(293.15))
+
+    def connections(self):
+        for k in range(1, 7):
+            yield connect(getattr(self, f"mass{k}").flange_b, getattr(self, f"force{k}").flange)
+        yield connect(self.force5.heat_port, self.heat.port)
+
+
+def test_braking():
+    compare("ModelicaTest.Translational.TestBraking", Braking())
