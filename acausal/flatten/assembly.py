@@ -120,7 +120,7 @@ class Assembly:
         tape = Tape(self.symbols, given, self.residuals)
         present = set(tape.input) | self._asked()
         units = unknown_units(self.raw, self.lower)
-        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units).run()
+        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
         self._refuse_contradictions(done)
         values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         self.origins += [self.origins[source.row] for _, source in done.left]
@@ -242,20 +242,21 @@ class Assembly:
         """Residual that remains -> the declared unknown on its left-hand side, by its own name or by that of an alias."""
         own: dict[int, int] = {}
         alias: dict[int, int] = {}
-        rows, place = set(left.rows), left.place
+        rows, place, kept = set(left.rows), left.place, self.raw.kept
         row = 0
         for lhs, _ in self.raw.equations.sides:
             remain = [k for k in range(lhs.numel()) if row + k in rows]
             entries = scalars(lhs) if remain else []
             for k in remain:
                 index = self.raw.index.get(entries[k].element_hash(), -1)
-                if index not in self.declared:
+                if index < 0 or (index in place and index not in self.declared):
                     continue
                 if index in place:
                     own[row + k] = place[index]
                     continue
                 _, terms = left.values[index]
-                if terms and terms[0][0] in self.declared and terms[0][0] in place:
+                known = self.declared if index in self.declared else kept
+                if terms and terms[0][0] in known and terms[0][0] in place:
                     alias[row + k] = place[terms[0][0]]
             row += lhs.numel()
         taken = set(own.values())

@@ -63,7 +63,7 @@ def _declared(raw: Said) -> dict[int, ca.SX]:
     """Index of each variable with a declared derivative -> that derivative."""
     return {
         raw.index[s.element_hash()]: e
-        for variable, derivative in raw.declared
+        for variable, derivative in (*raw.declared, *raw.declared_by_parts)
         for s, e in zip(scalars(variable.sx), scalars(derivative.sx), strict=True)
     }
 

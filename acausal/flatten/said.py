@@ -45,12 +45,18 @@ class Said:
     equations: Equations
     initial: Equations
     declared: list[tuple[Expr, Expr]]
+    declared_by_parts: list[tuple[Expr, Expr]]
     energies: dict[str, Any]
     pending: Pending
     discretes: list[Discrete]
     discrete_starts: list[ca.SX]
     variables: ca.SX
     index: dict[int, int]
+
+    @property
+    def kept(self) -> set[int]:
+        """Variables whose derivative a part declares: an alias in place of one would be differentiated instead."""
+        return {self.index[s.element_hash()] for v, _ in self.declared_by_parts for s in scalars(v.sx)}
 
 
 def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> Said:
@@ -72,11 +78,12 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         # Far more statements than any component needs, few enough to count them quickly.
         most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
-        alike = Alike([*(c for c in components if not isinstance(c, Connector)), *leads])
+        parts = [c for c in components if not isinstance(c, Connector)]
+        alike = Alike([*parts, *leads])
         equations = collect(components, graph, most, alike, build.defaults)
         add_constraints(equations, index, variables, pending.derivatives)
         starts = collect_initial(components, most, alike)
-        declared = [p for c in leads for p, _ in alike.hear(c, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES))]
+        declared, by_parts = ([p for c in group for p in _derivatives(c, alike)] for group in (leads, parts))
         energies = {name: _total(name, components, alike) for name in ENERGIES}
         pending.place(Origin.of(build.root))
         _look_at_observed(components)
@@ -89,6 +96,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         equations,
         starts,
         declared,
+        by_parts,
         energies,
         pending,
         discretes,
@@ -96,6 +104,13 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         variables,
         index,
     )
+
+
+def _derivatives(component: Component, alike: Alike) -> Iterator[tuple[Expr, Expr]]:
+    """Yield the variables whose derivative a component declares, each with that."""
+    if getattr(type(component), DERIVATIVES) is not getattr(Component, DERIVATIVES):
+        for pair, _ in alike.hear(component, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES)):
+            yield pair
 
 
 def _total(name: str, components: list[Component], alike: Alike) -> ca.SX:

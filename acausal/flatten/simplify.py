@@ -7,7 +7,7 @@ unknown is the derivative of one other at most.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -66,6 +66,8 @@ class Simplifier:
         Residuals that remove no unknown, and the residual that takes the place of each if it is redundant.
     units : sequence of Dimension or None, optional
         Unit of each unknown, None where it is not known; default: all are alike.
+    stay : collection of int, optional
+        Unknowns that are not removed and take no place in a chain.
     """
 
     def __init__(
@@ -75,10 +77,12 @@ class Simplifier:
         rank: list[int],
         substitutes: dict[int, int] | None = None,
         units: Sequence[Dimension | None] = (),
+        stay: Collection[int] = (),
     ) -> None:
         self.tape = tape
         self.units = units or [None] * len(derivative)
         self.substitutes = substitutes or {}
+        self.stay = stay
         self.up = list(derivative)
         self.down = [-1] * len(derivative)
         for lower, upper in enumerate(derivative):
@@ -174,10 +178,13 @@ class Simplifier:
 
     def _may_replace(self, unknown: int, solution: Linear) -> bool:
         c0, terms = solution
+        if unknown in self.stay:
+            return False
         if not terms:
             return self.down[unknown] < 0
         (other, c) = terms[0]
-        if self._same_chain(unknown, other):
+        chained = self.up[unknown] >= 0 or self.down[unknown] >= 0
+        if self._same_chain(unknown, other) or (chained and other in self.stay):
             return False
         if self.down[unknown] >= 0:
             # The other one takes over as the derivative.

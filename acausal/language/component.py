@@ -155,6 +155,13 @@ class Component(f.Template):
         """Yield equations that hold at the start only."""
         yield from ()
 
+    def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
+        """Yield pairs (variable, expression of its time derivative), which stands for what differentiation would give.
+
+        An equation `variable == ...` then defines the variable, and is never differentiated.
+        """
+        yield from ()
+
     def check(self) -> None:
         """Raise DeclarationError where the structural parameters contradict each other."""
 
@@ -210,10 +217,6 @@ class Connector(Component):
     _owner: Any = None
     _parents: tuple[Any, ...] = ()
     _set: tuple[Any, ...] = ()  # what it is connected to, itself included
-
-    def declared_derivatives(self) -> Iterator[tuple[Any, Any]]:
-        """Yield pairs (variable, expression of its time derivative)."""
-        yield from ()
 
     def residual(self, other: Any) -> Iterator[tuple[Any, Any]]:
         """Yield pairs (independent equations that make this record equal to the other one, flows that work on them).

@@ -195,7 +195,7 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
 def input(
     description: str,
     *,
-    unit: str | None = None,
+    unit: str | Sequence[str] | None = None,
     shape: Shape = None,
     start: Any = 0.0,
     default: Any = MISSING,
@@ -209,7 +209,9 @@ def input(
 
 
 @told
-def output(description: str, *, unit: str | None = None, shape: Shape = None, nominal: Any = None) -> Any:
+def output(
+    description: str, *, unit: str | Sequence[str] | None = None, shape: Shape = None, nominal: Any = None
+) -> Any:
     """Declare an output; those of the model are the columns of its table of results."""
     return Variable(description, unit, shape, nominal=nominal, causality="output")
 

@@ -27,6 +27,13 @@ def test_alias_with_factor_and_offset() -> None:
     assert done.solved in ({1: (-2.0, ((0, 3.0),))}, {0: (2 / 3, ((1, 1 / 3),))})
 
 
+def test_what_has_to_stay_is_neither_removed_nor_chained() -> None:
+    tape = Tape(x, p, ca.vertcat(x[0] - x[1], x[2] - x[0], x[0] - 3))
+    done = Simplifier(tape, [-1, 3, -1, -1, -1, -1], [0] * 6, stay={0}).run()
+    assert done.solved == {2: (0.0, ((0, 1.0),))}, "the chained x[1] is no alias"
+    assert set(done.kept) == {2}
+
+
 def test_constant_reaches_what_became_an_alias_before() -> None:
     tape = Tape(x, p, ca.vertcat(x[0] - x[1], x[0] * p + x[2], x[1] - x[3], x[3]))
     done = Simplifier(tape, [-1] * 6, [0] * 6).run()
