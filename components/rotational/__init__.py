@@ -28,6 +28,7 @@ from components.rotational.inverse_speed_dependent_torque import InverseSpeedDep
 from components.rotational.linear_speed_dependent_torque import LinearSpeedDependentTorque
 from components.rotational.loading_torque import LoadingTorque
 from components.rotational.lossy_gear import LossyGear
+from components.rotational.move import Move
 from components.rotational.multi_sensor import MultiSensor
 from components.rotational.one_flange import OneFlange
 from components.rotational.one_way_clutch import OneWayClutch
@@ -87,6 +88,7 @@ __all__ = [
     "LinearSpeedDependentTorque",
     "LoadingTorque",
     "LossyGear",
+    "Move",
     "MultiSensor",
     "OneFlange",
     "OneWayClutch",

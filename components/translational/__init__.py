@@ -25,6 +25,7 @@ from components.translational.linear_speed_dependent_force import LinearSpeedDep
 from components.translational.loading_force import LoadingForce
 from components.translational.mass import Mass
 from components.translational.mass_with_stop_and_friction import MassWithStopAndFriction
+from components.translational.move import Move
 from components.translational.multi_sensor import MultiSensor
 from components.translational.one_flange import OneFlange
 from components.translational.position import Position
@@ -74,6 +75,7 @@ __all__ = [
     "LoadingForce",
     "Mass",
     "MassWithStopAndFriction",
+    "Move",
     "MultiSensor",
     "OneFlange",
     "Position",

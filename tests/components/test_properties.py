@@ -74,6 +74,7 @@ from tests.components.scenes.shafts import (
     OnShaftDamper,
     OnShaftFixed,
     OnShaftInertia,
+    OnShaftMove,
     OnShaftPosition,
     OnShaftSpeed,
     OnShaftSpring,
@@ -170,6 +171,7 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Fixed": OnShaftFixed,
     "rotational.Inertia": OnShaftInertia,
     "rotational.Torque": OnShaftTorque,
+    "rotational.Move": OnShaftMove,
     "rotational.Position": OnShaftPosition,
     "rotational.Speed": OnShaftSpeed,
     "rotational.IdealGear": gears.OnIdealGear,
@@ -221,6 +223,7 @@ SCENES: dict[str, type[Scene]] = {
     "translational.LinearSpeedDependentForce": rods.OnRodLinearForce,
     "translational.QuadraticSpeedDependentForce": rods.OnRodQuadraticForce,
     "translational.InverseSpeedDependentForce": rods.OnRodInverseForce,
+    "translational.Move": rods.OnRodMove,
     "translational.Position": rods.OnRodPosition,
     "translational.Speed": rods.OnRodSpeed,
     "translational.ConstantSpeed": rods.OnRodConstantSpeed,
@@ -321,6 +324,7 @@ SUPPLYING = {"Force", "Torque", "WorldForce", "WorldTorque", "Prismatic", "rotat
 SUPPLYING |= {
     "ForceAndTorque",
     "WorldForceAndTorque",
+    "rotational.Move",
     "rotational.Position",
     "rotational.Speed",
     "thermal.FixedTemperature",
@@ -342,7 +346,7 @@ SUPPLYING |= {
     f"translational.{name}" for name in ("Mass", "Force", "Force2", "ConstantForce", "ForceStep", "SignForce")
 }
 SUPPLYING |= {f"translational.{kind}SpeedDependentForce" for kind in ("Linear", "Quadratic", "Inverse")}
-SUPPLYING |= {f"translational.{name}" for name in ("Position", "Speed", "ConstantSpeed", "Accelerate")}
+SUPPLYING |= {f"translational.{name}" for name in ("Move", "Position", "Speed", "ConstantSpeed", "Accelerate")}
 
 
 @dataclass

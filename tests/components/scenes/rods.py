@@ -146,6 +146,10 @@ class OnRodPosition(Prescribed):
     it = t.Position(s_ref=0.3 + 0.1 * sin(3 * time))
 
 
+class OnRodMove(Prescribed):
+    it = t.Move(u=(0.3 + 0.1 * sin(3 * time), 0.3 * cos(3 * time), -0.9 * sin(3 * time)))
+
+
 class OnRodSpeed(Prescribed):
     it = t.Speed(v_ref=0.5 * cos(3 * time), s=fixed(0.3))
 

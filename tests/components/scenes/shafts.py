@@ -91,5 +91,9 @@ class OnShaftPosition(Prescribed):
     it = rotational.Position(phi_ref=0.4 + 0.5 * sin(3 * time))
 
 
+class OnShaftMove(Prescribed):
+    it = rotational.Move(u=(0.4 + 0.5 * sin(3 * time), 1.5 * cos(3 * time), -4.5 * sin(3 * time)))
+
+
 class OnShaftSpeed(Prescribed):
     it = rotational.Speed(w_ref=2 * cos(3 * time), phi=fixed(0.4))

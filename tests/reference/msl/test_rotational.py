@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
+
 from acausal import Model, chain, connect, fixed, guess, ramp, sine, step
-from components import translational
+from components import Body, Revolute, World, translational
 from components.rotational import (
     Damper,
     ElastoBacklash,
@@ -14,6 +16,7 @@ from components.rotational import (
     IdealGear,
     IdealRollingWheel,
     Inertia,
+    Move,
     MultiSensor,
     RelativeStates,
     Speed,
@@ -199,3 +202,26 @@ class Speeds(Model):
 
 def test_speed():
     compare("ModelicaTest.Rotational.TestSpeed", Speeds())
+
+
+class Moved(Model):
+    """A body and a mass, accelerated by signals whose angle and speed stay 0."""
+
+    world, ActuatedRevolute1, Body1 = (
+        World(gravity=None),
+        Revolute(use_axis_flange=True),
+        Body(m=1, I=np.diag([0, 0, 2])),
+    )
+    move, move1, slidingMass = Move(u=(0, 0, 1)), translational.Move(u=(0, 0, 1)), translational.Mass(m=2)
+
+    def connections(self):
+        yield chain(self.world, self.ActuatedRevolute1, self.Body1)
+        yield connect(self.move.flange, self.ActuatedRevolute1.axis)
+        yield connect(self.move1.flange, self.slidingMass.flange_a)
+
+
+def test_move():
+    names = {f"Multiplex3_1.y[{k}]": f"move.u[{k}]" for k in (1, 2, 3)}
+    names |= {"Constant1.y": "move.u[3]", "Constant2.y": "move.u[1]"}
+    result = compare("ModelicaTest.Rotational.TestMove", Moved(), names)
+    np.testing.assert_allclose(result["slidingMass.flange_a.f"], 2)
