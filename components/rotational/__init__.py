@@ -5,6 +5,7 @@ from components.rotational.absolute_sensor import AbsoluteSensor
 from components.rotational.acc_sensor import AccSensor
 from components.rotational.accelerate import Accelerate
 from components.rotational.angle_sensor import AngleSensor
+from components.rotational.angle_to_torque_adaptor import AngleToTorqueAdaptor
 from components.rotational.bearing_friction import BearingFriction
 from components.rotational.brake import Brake
 from components.rotational.clutch import Clutch
@@ -20,6 +21,8 @@ from components.rotational.elasto_backlash2 import ElastoBacklash2
 from components.rotational.fixed import Fixed
 from components.rotational.friction import Friction
 from components.rotational.gearbox import Gearbox
+from components.rotational.general_angle_to_torque_adaptor import GeneralAngleToTorqueAdaptor
+from components.rotational.general_torque_to_angle_adaptor import GeneralTorqueToAngleAdaptor
 from components.rotational.ideal_gear import IdealGear
 from components.rotational.ideal_planetary import IdealPlanetary
 from components.rotational.inertia import Inertia
@@ -53,6 +56,7 @@ from components.rotational.torque import Torque
 from components.rotational.torque2 import Torque2
 from components.rotational.torque_sensor import TorqueSensor
 from components.rotational.torque_step import TorqueStep
+from components.rotational.torque_to_angle_adaptor import TorqueToAngleAdaptor
 from components.rotational.two_flanges_and_support import TwoFlangesAndSupport
 from components.translational.ideal_gear_r2t import IdealGearR2T
 from components.translational.ideal_rolling_wheel import IdealRollingWheel
@@ -62,6 +66,7 @@ __all__ = [
     "AccSensor",
     "Accelerate",
     "AngleSensor",
+    "AngleToTorqueAdaptor",
     "BearingFriction",
     "Brake",
     "Clutch",
@@ -78,6 +83,8 @@ __all__ = [
     "Flange",
     "Friction",
     "Gearbox",
+    "GeneralAngleToTorqueAdaptor",
+    "GeneralTorqueToAngleAdaptor",
     "IdealGear",
     "IdealGearR2T",
     "IdealPlanetary",
@@ -113,6 +120,7 @@ __all__ = [
     "Torque2",
     "TorqueSensor",
     "TorqueStep",
+    "TorqueToAngleAdaptor",
     "TwoFlanges",
     "TwoFlangesAndSupport",
 ]

@@ -17,6 +17,8 @@ from components.translational.force import Force
 from components.translational.force2 import Force2
 from components.translational.force_sensor import ForceSensor
 from components.translational.force_step import ForceStep
+from components.translational.general_force_to_position_adaptor import GeneralForceToPositionAdaptor
+from components.translational.general_position_to_force_adaptor import GeneralPositionToForceAdaptor
 from components.translational.ideal_gear_r2t import IdealGearR2T
 from components.translational.ideal_rolling_wheel import IdealRollingWheel
 from components.translational.initialize_flange import InitializeFlange
@@ -67,6 +69,8 @@ __all__ = [
     "Force2",
     "ForceSensor",
     "ForceStep",
+    "GeneralForceToPositionAdaptor",
+    "GeneralPositionToForceAdaptor",
     "IdealGearR2T",
     "IdealRollingWheel",
     "InitializeFlange",

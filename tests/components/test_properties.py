@@ -71,8 +71,11 @@ from tests.components.scenes.forces import (
 from tests.components.scenes.joints import OnDrivenPrismatic, OnPlanarLoop, OnPrismatic, OnRevolute, OnSphericalJoint
 from tests.components.scenes.scene import INERTIA, SPIN, M, Plain, Scene
 from tests.components.scenes.shafts import (
+    OnShaftAngleToTorque,
     OnShaftDamper,
     OnShaftFixed,
+    OnShaftGeneralAngleToTorque,
+    OnShaftGeneralTorqueToAngle,
     OnShaftInertia,
     OnShaftMove,
     OnShaftPosition,
@@ -80,6 +83,7 @@ from tests.components.scenes.shafts import (
     OnShaftSpring,
     OnShaftSpringDamper,
     OnShaftTorque,
+    OnShaftTorqueToAngle,
     Shaft,
 )
 from tests.shared import compiled
@@ -172,6 +176,10 @@ SCENES: dict[str, type[Scene]] = {
     "rotational.Inertia": OnShaftInertia,
     "rotational.Torque": OnShaftTorque,
     "rotational.Move": OnShaftMove,
+    "rotational.AngleToTorqueAdaptor": OnShaftAngleToTorque,
+    "rotational.GeneralAngleToTorqueAdaptor": OnShaftGeneralAngleToTorque,
+    "rotational.TorqueToAngleAdaptor": OnShaftTorqueToAngle,
+    "rotational.GeneralTorqueToAngleAdaptor": OnShaftGeneralTorqueToAngle,
     "rotational.Position": OnShaftPosition,
     "rotational.Speed": OnShaftSpeed,
     "rotational.IdealGear": gears.OnIdealGear,
@@ -224,6 +232,8 @@ SCENES: dict[str, type[Scene]] = {
     "translational.QuadraticSpeedDependentForce": rods.OnRodQuadraticForce,
     "translational.InverseSpeedDependentForce": rods.OnRodInverseForce,
     "translational.Move": rods.OnRodMove,
+    "translational.GeneralPositionToForceAdaptor": rods.OnRodPositionToForce,
+    "translational.GeneralForceToPositionAdaptor": rods.OnRodForceToPosition,
     "translational.Position": rods.OnRodPosition,
     "translational.Speed": rods.OnRodSpeed,
     "translational.ConstantSpeed": rods.OnRodConstantSpeed,
@@ -346,6 +356,9 @@ SUPPLYING |= {
     f"translational.{name}" for name in ("Mass", "Force", "Force2", "ConstantForce", "ForceStep", "SignForce")
 }
 SUPPLYING |= {f"translational.{kind}SpeedDependentForce" for kind in ("Linear", "Quadratic", "Inverse")}
+SUPPLYING |= {f"rotational.{kind}Adaptor" for kind in ("AngleToTorque", "TorqueToAngle")}
+SUPPLYING |= {f"rotational.General{kind}Adaptor" for kind in ("AngleToTorque", "TorqueToAngle")}
+SUPPLYING |= {f"translational.General{kind}Adaptor" for kind in ("PositionToForce", "ForceToPosition")}
 SUPPLYING |= {f"translational.{name}" for name in ("Move", "Position", "Speed", "ConstantSpeed", "Accelerate")}
 
 

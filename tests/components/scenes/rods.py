@@ -150,6 +150,16 @@ class OnRodMove(Prescribed):
     it = t.Move(u=(0.3 + 0.1 * sin(3 * time), 0.3 * cos(3 * time), -0.9 * sin(3 * time)))
 
 
+class OnRodPositionToForce(Prescribed):
+    it = t.GeneralPositionToForceAdaptor(
+        p=0.3 + 0.1 * sin(3 * time), pder=0.3 * cos(3 * time), pder2=-0.9 * sin(3 * time)
+    )
+
+
+class OnRodForceToPosition(Rail):
+    it = t.GeneralForceToPositionAdaptor(f=20 * cos(3 * time))
+
+
 class OnRodSpeed(Prescribed):
     it = t.Speed(v_ref=0.5 * cos(3 * time), s=fixed(0.3))
 

@@ -95,5 +95,23 @@ class OnShaftMove(Prescribed):
     it = rotational.Move(u=(0.4 + 0.5 * sin(3 * time), 1.5 * cos(3 * time), -4.5 * sin(3 * time)))
 
 
+class OnShaftAngleToTorque(Prescribed):
+    it = rotational.AngleToTorqueAdaptor(phi=0.4 + 0.5 * sin(3 * time), w=1.5 * cos(3 * time), a=-4.5 * sin(3 * time))
+
+
+class OnShaftGeneralAngleToTorque(Prescribed):
+    it = rotational.GeneralAngleToTorqueAdaptor(
+        p=0.4 + 0.5 * sin(3 * time), pder=1.5 * cos(3 * time), pder2=-4.5 * sin(3 * time)
+    )
+
+
+class OnShaftTorqueToAngle(Shaft):
+    it = rotational.TorqueToAngleAdaptor(tau=2 * sin(3 * time))
+
+
+class OnShaftGeneralTorqueToAngle(Shaft):
+    it = rotational.GeneralTorqueToAngleAdaptor(f=2 * sin(3 * time))
+
+
 class OnShaftSpeed(Prescribed):
     it = rotational.Speed(w_ref=2 * cos(3 * time), phi=fixed(0.4))

@@ -1,0 +1,29 @@
+"""GeneralForceToPositionAdaptor: a signal of the force acts on a flange, whose motion is given as signals."""
+
+from __future__ import annotations
+
+from acausal import Component, Scalar, der, input, output, port, structural
+from components.translational.flange import TranslationalFlange
+
+
+class GeneralForceToPositionAdaptor(Component):
+    """A signal of the force acts on a flange, whose position, speed and acceleration are signals."""
+
+    ends = ("flange", "flange")
+    use_pder: bool = structural("whether the speed is put out", default=True, choices=(True, False))
+    use_pder2: bool = structural("whether the acceleration is put out", default=True, choices=(True, False))
+    flange: TranslationalFlange = port(TranslationalFlange, "rod end on which the force acts")
+    p: Scalar = output("position of the flange", unit="m")
+    pder: Scalar = output("speed of the flange, 0 without use_pder", unit="m/s")
+    pder2: Scalar = output("acceleration of the flange, 0 without use_pder or use_pder2", unit="m/s2")
+    f: Scalar = input("force that the flange exerts, flange.f", unit="N")
+
+    def equations(self):
+        yield self.p == self.flange.s
+        yield self.pder == (der(self.p) if self.use_pder else 0)
+        yield self.pder2 == (der(self.pder) if self.use_pder and self.use_pder2 else 0)
+        yield self.flange.f == self.f
+
+    def supplied_power(self):
+        """Power into the rod."""
+        return -self.f * der(self.flange.s)
