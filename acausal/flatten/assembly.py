@@ -29,7 +29,7 @@ from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Sourc
 from acausal.flatten.tape import Linear, Tape, expressions
 from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
-from acausal.symbols import dense, picked, scalars, stacked, vec
+from acausal.symbols import dense, picked, scalars, stacked
 
 
 @dataclass(frozen=True)
@@ -276,13 +276,13 @@ class Assembly:
 
     def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
         """Fixed start values, then the initial equations of components."""
-        fixed = [a for a in self.raw.arrays if a.fixed]
-        residuals = [vec(a.expr.sx - a.start.sx) for a in fixed] + [self.initial_residuals]
-        texts = [
-            (f"{name} = {entry}", replace(Origin.of(a.owner), where=a.said))
-            for a in fixed
-            for name, entry in zip(a.names, scalars(a.start.sx), strict=True)
+        fixed = [
+            (residual, (text, replace(Origin.of(a.owner), where=a.said)))
+            for a in self.raw.arrays
+            for residual, text in a.conditions()
         ]
+        residuals = [*(residual for residual, _ in fixed), self.initial_residuals]
+        texts = [text for _, text in fixed]
         soft = [False] * len(texts) + self.raw.initial.scalar_soft()
         texts += [("initial equation", o) for o in self.raw.initial.scalar_origins()]
         entries = ca.substitute([stacked([dense(r) for r in residuals])], [was], [becomes])[0]

@@ -99,9 +99,10 @@ def _rate(unit: Dimension | None) -> Dimension | None:
 
 def _declared(array: VariableArray) -> Iterator[Attributes]:
     """Yield what is declared of each entry of a variable, except for its nominal value."""
-    guessed = array.guessed or array.fixed
     starts = scalars(array.start.sx)
-    for name, unit, start in zip(array.names, array.units, starts, strict=True):
+    entries = zip(array.names, array.units, starts, array.fixed, array.guessed, strict=True)
+    for name, unit, start, fixed, given in entries:
+        guessed = given or fixed
         weight = 2 if guessed else int(not start.is_zero())
         yield Attributes(
             name, unit, array.declared.select, sized=array.sized, start=start, guessed=guessed, weight=weight

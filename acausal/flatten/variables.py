@@ -20,21 +20,24 @@ from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr, as_expr
 from acausal.language.quantities import plain
-from acausal.symbols import combined, scalars
+from acausal.symbols import combined, scalars, vec
 from acausal.units import Dimension
 
 
 @dataclass(frozen=True)
 class VariableArray:
-    """A declared variable with its symbols and attributes, entries in column-major order."""
+    """A declared variable with its symbols and attributes, entries in column-major order.
+
+    `fixed` and `guessed` tell of each entry whether its start value holds, and whether it is given with the component.
+    """
 
     path: str
     expr: Expr
     declared: f.Variable
     owner: Component
     start: Expr
-    fixed: bool
-    guessed: bool
+    fixed: tuple[bool, ...]
+    guessed: tuple[bool, ...]
     nominal: Expr
     sized: bool
 
@@ -49,6 +52,14 @@ class VariableArray:
         """File and line where its start value is given: with the component, or in its class."""
         is_given = self.path.rpartition(".")[2] in self.owner._values
         return self.owner._origin if is_given else self.declared.where
+
+    def conditions(self) -> list[tuple[ca.SX, str]]:
+        """Return the residual and the text of each start value that holds."""
+        if not any(self.fixed):
+            return []
+        residuals, starts = scalars(vec(self.expr.sx - self.start.sx)), scalars(self.start.sx)
+        entries = zip(self.fixed, residuals, self.names, starts, strict=True)
+        return [(residual, f"{name} = {start}") for fixed, residual, name, start in entries if fixed]
 
     @cached_property
     def names(self) -> list[str]:
@@ -106,11 +117,9 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
     symbol = ca.SX.sym(path, *shape)
     expr = Expr(symbol, unit_of(declared, owner), path, shape)
     given = owner._values.get(name)
-    start = (
-        given
-        if isinstance(given, f.InitialValue)
-        else f.InitialValue(f.evaluate(declared.start, owner), declared.fixed)
-    )
+    of_class = f.InitialValue(f.evaluate(declared.start, owner), declared.fixed)
+    start = given if isinstance(given, f.InitialValue) else of_class
+    value, fixed, guessed = _entries(start, of_class, expr)
     nominal = declared.nominal(owner) if callable(declared.nominal) else declared.nominal
     nominal = start.nominal if start.nominal is not None else f.evaluate(nominal, owner)
     arrays.append(
@@ -119,14 +128,39 @@ def _declare(owner: Component, name: str, declared: f.Variable, arrays: list[Var
             expr,
             declared,
             owner,
-            _fill(start.value, shape, expr, "start"),
-            start.fixed,
-            isinstance(given, f.InitialValue),
+            _fill(value, shape, expr, "start"),
+            fixed,
+            guessed,
             _fill(1.0 if nominal is None else nominal, shape, expr, "nominal"),
             nominal is not None,
         )
     )
     return expr
+
+
+def _entries(
+    start: f.InitialValue, of_class: f.InitialValue, expr: Expr
+) -> tuple[Any, tuple[bool, ...], tuple[bool, ...]]:
+    """Return a start value, and of each entry whether it holds and whether it is given; None is that of the class."""
+    n, value = expr.sx.numel(), start.value
+    if len(expr.shape) != 1 or not isinstance(value, list | tuple) or not any(map(_is_apart, value)):
+        return value, (start.fixed,) * n, (start is not of_class,) * n
+    if len(value) != n:
+        raise DeclarationError(misshapen(f"start of `{expr.name}`", value, (len(value),), expr.shape))
+    otherwise = _fill(of_class.value, expr.shape, expr, "start")
+
+    def of(k: int, entry: Any) -> f.InitialValue:
+        if entry is None:
+            return f.InitialValue(otherwise[k], of_class.fixed)
+        return entry if isinstance(entry, f.InitialValue) else f.InitialValue(entry, start.fixed)
+
+    entries = [of(k, entry) for k, entry in enumerate(value)]
+    return [e.value for e in entries], tuple(e.fixed for e in entries), tuple(entry is not None for entry in value)
+
+
+def _is_apart(entry: Any) -> bool:
+    """True if an entry of a start value is not like the others: it is left open, or a guess beside fixed ones."""
+    return entry is None or isinstance(entry, f.InitialValue)
 
 
 @lru_cache(maxsize=1024)

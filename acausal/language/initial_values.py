@@ -10,12 +10,13 @@ from acausal.language.fields import InitialValue
 
 @told
 def fixed(value: Any, *, nominal: Any = None) -> Any:
-    """Start value that holds at the start: `Revolute(phi=fixed(0.1))`.
+    """Start value that holds at the start: `Revolute(phi=fixed(0.1))`, `Body(v_0=fixed((1, None, guess(2))))`.
 
     Parameters
     ----------
     value : float, sequence or parameter
-        Value of the variable at the start time, in its unit and shape.
+        Value of the variable at the start time, in its unit and shape. An entry of a vector that is None is left open, one
+        that is guess(...) helps alone.
     nominal : float or array, optional
         Typical size of the variable, in its unit.
     """

@@ -23,13 +23,9 @@ class Reference(Component):
         yield der(self.y[1]) == quantity(3, "m/s2")
         yield self.y[2] == 7
 
-    def initial_equations(self):
-        yield self.y[0] == 1
-        yield self.y[1] == 2
-
 
 class Followed(Model):
-    reference, move = Reference(), translational.Move()
+    reference, move = Reference(y=fixed((1, 2, None))), translational.Move()
     mass = translational.Mass(m=2)
 
     def connections(self):
