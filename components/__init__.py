@@ -22,6 +22,7 @@ from components.force import Force
 from components.force_and_torque import ForceAndTorque
 from components.frame import Frame, TwoFrames, move
 from components.free_motion import FreeMotion
+from components.free_motion_scalar_init import FreeMotionScalarInit
 from components.gear_constraint import GearConstraint
 from components.line_force import LineForce
 from components.line_force_law import LineForceLaw
@@ -98,6 +99,7 @@ __all__ = [
     "Frame",
     "FrameLoad",
     "FreeMotion",
+    "FreeMotionScalarInit",
     "GearConstraint",
     "LineForce",
     "LineForceLaw",

@@ -113,6 +113,7 @@ SCENES: dict[str, type[Scene]] = {
     "RollingWheelJoint": wheels.OnRollingWheelJoint,
     "RollingWheelSet": wheels.OnRollingWheelSet,
     "RollingWheelSetJoint": wheels.OnRollingWheelSetJoint,
+    "FreeMotionScalarInit": joints.OnFreeMotionScalarInit,
     "GearConstraint": drives.OnGearConstraint,
     "Rotor1D": drives.OnRotor,
     "Mounting1D": drives.OnMounting,

@@ -115,7 +115,7 @@ def test_shapes_are_kinds_of_geometry(name):
 
 # Parts in one dimension, sensors, and what joins drive trains or guides nothing.
 PLACELESS = [name for name in SCENES if name.startswith(("rotational.", "translational.", "thermal.", "sensors."))]
-PLACELESS += ["Mounting1D", "BevelGear1D", "FreeMotion"]
+PLACELESS += ["Mounting1D", "BevelGear1D", "FreeMotion", "FreeMotionScalarInit"]
 
 
 @pytest.mark.parametrize("name", PLACELESS)

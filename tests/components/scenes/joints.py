@@ -13,6 +13,7 @@ from components import (
     Cylindrical,
     FixedTranslation,
     FreeMotion,
+    FreeMotionScalarInit,
     Planar,
     Prismatic,
     Revolute,
@@ -184,6 +185,25 @@ class OnFreeMotion(Scene):
             return FreeMotion(**start, v_rel_a=fixed(tuple(-T @ (v - np.cross(SPIN, r)))), angles_fixed=True)
         start = {"angles_start": angles, "sequence_start": sequence, "w_rel_a": fixed(tuple(SPIN))}
         return FreeMotion(**start, r_rel_a=fixed(tuple(r)), v_rel_a=fixed(tuple(v)), angles_fixed=True)
+
+    def graph(self):
+        yield from self.path(self.it)
+
+
+class OnFreeMotionScalarInit(Scene):
+    """Turned round, the angles are those of the same motion seen from the tip."""
+
+    @part
+    def it(self):
+        angles, sequence, w = (0.3, -0.2, 0.5), (1, 2, 3), SPIN
+        r, v = np.array([0.1, 0.2, -0.1]), np.array([0.5, 1.0, 0.3])
+        if self.turned:
+            turn = Rotation.from_euler("XYZ", angles)  # from frame_a to frame_b
+            r, v = -turn.inv().apply(r), -turn.inv().apply(v - np.cross(turn.apply(w), r))
+            angles, sequence, w = tuple(-a for a in angles[::-1]), (3, 2, 1), -turn.apply(w)
+        values = {"r_rel_a": r, "v_rel_a": v, "angle": angles, "w_rel_b": w}
+        start = {f"{name}_{k + 1}": fixed(value[k]) for name, value in values.items() for k in range(3)}
+        return FreeMotionScalarInit(use_angle=True, sequence_start=sequence, **start)
 
     def graph(self):
         yield from self.path(self.it)

@@ -15,6 +15,7 @@ from components import (
     Fixed,
     FixedTranslation,
     FreeMotion,
+    FreeMotionScalarInit,
     LineForce,
     Planar,
     Prismatic,
@@ -90,6 +91,35 @@ def test_free_motion():
     names = {f"freeMotion.{v}[{k}]": f"joint.{v}[{k}]" for v in ("r_rel_a", "v_rel_a", "Q") for k in (1, 2, 3, 4)}
     names |= {f"freeMotion.w_rel_b[{k}]": f"joint.w_rel[{k}]" for k in (1, 2, 3)}
     compare(JOINTS + "FreeMotion", FreelyMoving(), names)
+
+
+def scalar(**values):
+    """Joint whose acceleration and speeds vanish at the start, which is sought below the spring."""
+    rest = {f"{name}_{k}": fixed(0) for name in ("v_rel_a", "a_rel_a", "angle_d") for k in (1, 2, 3)}
+    return FreeMotionScalarInit(use_angle=True, r_rel_a_2=guess(-0.4), **rest, **values)
+
+
+class AtRest(OnJoint):
+    joint = scalar(**{f"angle_{k}": fixed(pi / 4) for k in (1, 2, 3)})
+    body, spring = Body(m=1, I=1e-3 * np.eye(3)), Spring(c=100)
+
+    def connections(self):
+        yield from super().connections()
+        yield chain(self.world, self.spring, self.body)
+
+
+class AtAnyAngle(AtRest):
+    joint = scalar(**{f"angle_{k}": guess(pi / 4) for k in (1, 2, 3)}, **{f"angle_dd_{k}": fixed(0) for k in (1, 2, 3)})
+
+
+@pytest.mark.parametrize("number", [3, 4])
+def test_free_motion_scalar_init(number):
+    """In the fourth, the angular accelerations vanish at any angles: those of the guess remain."""
+    values = [f"{v}_{k}" for v in ("angle", "r_rel_a", "v_rel_a") for k in (1, 2, 3)]
+    names = {f"freeMotionScalarInit.{v}": f"joint.{v}" for v in values}
+    names |= {f"freeMotionScalarInit.derdd[{k}].u": f"joint.angle_d_{k}" for k in (1, 2, 3)}
+    model, initial = (AtRest(), "fixed") if number == 3 else (AtAnyAngle(), "guesses")
+    compare(JOINTS + f"FreeMotionScalarInit{number}", model, names, initial=initial)
 
 
 class UnknownSpring(LineForce):
