@@ -37,10 +37,23 @@ class MovingBody(Component):
     )
     sequence_start: Any = structural("axes of these angles", default=(1, 2, 3), shape=(3,), choices=(1, 2, 3))
     angles_fixed: bool = structural("whether the angles hold at the start", default=False, choices=(True, False))
+    T_start: Any = structural(
+        "rotation matrix of these angles",
+        default=lambda self: axes_rotations(self.sequence_start, self.angles_start),
+        shape=(3, 3),
+        doc="From the world to the body; from the angles if not given.",
+    )
+    w_0_start: Any = structural(
+        "angular velocity at the start, resolved in the world, in rad/s",
+        default=(0, 0, 0),
+        shape=(3,),
+        doc="A guess unless w_0_fixed.",
+    )
+    w_0_fixed: bool = structural("whether it holds at the start", default=False, choices=(True, False))
     r_0: Vector3 = variable("position of the body, resolved in the world", unit="m")
     v_0: Vector3 = variable("der(r_0), resolved in the world", unit="m/s")
     a_0: Vector3 = variable("der(v_0), resolved in the world", unit="m/s2")
-    w_a: Vector3 = variable("angular velocity, resolved in the body", unit="rad/s")
+    w_a: Vector3 = variable("angular velocity, resolved in the body", unit="rad/s", start=T_start @ w_0_start)
     z_a: Vector3 = variable("angular acceleration, resolved in the body", unit="rad/s2")
 
     def free_frame(self) -> Frame:
@@ -54,6 +67,8 @@ class MovingBody(Component):
 
     def free_start(self, frame: Any) -> Iterator[Any]:
         """Equations at the start of a body that moves freely."""
+        if self.w_0_fixed:
+            yield self.w_0_start == resolve1(frame.R, frame.R.w)
         if is_root(frame):
             if self.angles_fixed:
                 yield self._orientation() == frame.Q
@@ -74,7 +89,7 @@ class MovingBody(Component):
         yield self.z_a == frame.z
 
     def _orientation(self) -> Any:
-        return quaternion_of(axes_rotations(self.sequence_start, self.angles_start))
+        return quaternion_of(self.T_start)
 
 
 def off_centre(body: Any, world: Any, centre: Any) -> Iterator[Any]:

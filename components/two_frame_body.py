@@ -36,6 +36,9 @@ class TwoFrameBody(TwoFrames, MovingBody):
             angles_start=self.angles_start,
             sequence_start=self.sequence_start,
             angles_fixed=self.angles_fixed,
+            T_start=self.T_start,
+            w_0_start=self.w_0_start,
+            w_0_fixed=self.w_0_fixed,
             gyroscopic=self.gyroscopic,
         )
 
