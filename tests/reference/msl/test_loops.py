@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 from acausal import Model, chain, connect, fixed, guess
 from components import (
     BodyCylinder,
@@ -35,7 +33,8 @@ class FourBar(Model):
 
 
 class BallRod(FourBar):
-    rod = SphericalSpherical(rod_length=sqrt(1.1), m=1)
+    j2 = Prismatic(n=(1, 0, 0), s=fixed(0))
+    rod = SphericalSpherical(compute_rod_length=True, m=1)
 
     def rod_connections(self):
         yield connect(self.b1.frame_b, self.rod.frame_b)
