@@ -41,9 +41,7 @@ KNOWN = SphericalSpherical(rod_length=LENGTH, m=1)
 def test_the_motion_is_that_with_the_length_known():
     """At the start all positions are given, none of them follows from the length."""
     result = ac.simulate(Balls(), stop_time=1, tolerance=1e-8, energy=True)
-    expected = ac.simulate(
-        Balls(rod=KNOWN, j2=Prismatic(n=(1, 0, 0), s=guess(-0.2))), stop_time=1, tolerance=1e-8
-    )
+    expected = ac.simulate(Balls(rod=KNOWN, j2=Prismatic(n=(1, 0, 0), s=guess(-0.2))), stop_time=1, tolerance=1e-8)
     length = np.linalg.norm(result["rod.frame_b.r_0"] - result["rod.frame_a.r_0"], axis=1)
     np.testing.assert_allclose(length, LENGTH, rtol=1e-7)
     for name in ("j1.phi", "j2.s"):

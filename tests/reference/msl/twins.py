@@ -116,22 +116,13 @@ REASONS = {
     "MultiBody.Interfaces.partialColorMap": GRAPHICS,
     "MultiBody.Interfaces.partialGravityAcceleration": "`World(gravity=...)` takes any function of the position",
     "MultiBody.Interfaces.partialSurfaceCharacteristic": GRAPHICS,
-    "MultiBody.Joints.FreeMotionScalarInit": TO_COME,
     "MultiBody.Sensors.TransformAbsoluteVector": "a block: write `resolve1`, `resolve2` in an equation",
     "MultiBody.Sensors.TransformRelativeVector": "a block: write `resolve1`, `resolve2` in an equation",
     "MultiBody.Visualizers": GRAPHICS,
-    "Rotational.Components.AngleToTorqueAdaptor": TO_COME,
-    "Rotational.Components.GeneralAngleToTorqueAdaptor": TO_COME,
-    "Rotational.Components.GeneralTorqueToAngleAdaptor": TO_COME,
-    "Rotational.Components.TorqueToAngleAdaptor": TO_COME,
     "Rotational.Interfaces.InternalSupport": "`support` is a port that exists or not",
-    "Rotational.Sources.Move": TO_COME,
-    "Translational.Components.GeneralForceToPositionAdaptor": TO_COME,
-    "Translational.Components.GeneralPositionToForceAdaptor": TO_COME,
     "Translational.Interfaces.InternalSupport": "`support` is a port that exists or not",
     "Translational.Interfaces.PartialElementaryTwoFlangesAndSupport2": f"{BASE}: no part here needs it",
     "Translational.Interfaces.PartialTwoFlangesAndSupport": f"{BASE}: no part here needs it",
-    "Translational.Sources.Move": TO_COME,
 }
 
 
