@@ -55,3 +55,10 @@ def test_energy_is_lost_in_shifts_alone():
     shifting = (result.time > 3) & (result.time < 3.31) | (result.time > 6) & (result.time < 6.31)
     np.testing.assert_allclose(losses[~shifting], 0, atol=1e-3)
     assert losses[shifting].max() > 1e3
+
+
+def test_a_brake_that_breaks_away_is_not_redundant(recwarn):
+    result = ac.simulate(compiled(Shifting), stop_time=3.3, parameters={"gearbox.J": 0.01})
+    assert not recwarn.list
+    left = result.time > 3.18
+    assert np.all(result["gearbox.hold.mode"][left & (result.time < 3.3)] != 0)

@@ -60,6 +60,7 @@ def shares(A: np.ndarray, b: np.ndarray, reached: np.ndarray) -> Shares:
         tried[kept] = reached[kept] * bound[kept]
         if _settled(B, c, bound, tried, free, some):
             v, free = tried, some
+            state[kept] = reached[kept]  # one whose speed does not depend on those held leaves rest
             break
     sticks = np.zeros(len(b), dtype=bool)
     sticks[_independent(B, free)] = True

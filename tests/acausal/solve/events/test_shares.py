@@ -53,3 +53,12 @@ def test_all_slide_where_the_load_is_more_than_all_limits():
     found = shares(np.outer(J, J), 4 * J, np.zeros(3))
     np.testing.assert_allclose(found.sense, [1, -1, 1])
     assert not found.sticks.any()
+
+
+@pytest.mark.parametrize("short", [0.0, 5e-9])
+def test_an_independent_force_at_its_limit_leaves_rest(short):
+    A = np.array([[11.0, -6.0], [-6.0, 4.0]])
+    found = shares(A, A @ (0.35, 1 - short), np.array([0.0, 1.0]))
+    np.testing.assert_allclose(found.share, [0.35, 1], rtol=1e-7)
+    np.testing.assert_array_equal(found.sense, [0, 1])
+    np.testing.assert_array_equal(found.sticks, [True, False])
