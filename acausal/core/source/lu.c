@@ -7,12 +7,14 @@
 #include <string.h>
 
 #define GROWN 1e3 /* entries of L, and of U over those of the matrix, at which pivots are chosen anew: 1e-10 is lost at most */
+#define ENOUGH 0.1 /* of the largest entry of its column that a pivot has to have, as in Duff's MA28; all where factors grow */
+#define LOST (1 / DBL_EPSILON) /* growth of U at which no digit is left */
 
 /* The larger of two numbers, the first where the other is nan: `fmax` is a call of the library, for each entry. */
 static double larger(double most, double x) { return x > most ? x : most; }
 
-/* Factors with the pivots that were chosen; 0 where they are no longer good. */
-static int refactor(ac_lu *lu, const double *value) {
+/* Factors with the pivots that were chosen; 0 where they are no longer good, or U grows more. */
+static int refactor(ac_lu *lu, const double *value, double growth) {
     double *w = lu->work, given = 0, grown = 0;
     for (int32_t k = 0; k < lu->n; k++) {
         const int32_t j = lu->column_of[k];
@@ -42,7 +44,7 @@ static int refactor(ac_lu *lu, const double *value) {
             return 0;
         }
     }
-    return grown <= lu->most * given;
+    return grown <= growth * given;
 }
 
 /* Take memory for matrices of a pattern, given in columns; NULL where there is none. */
@@ -72,7 +74,7 @@ ac_lu *ac_lu_make(int32_t n, const int32_t *start, const int32_t *row) {
 void ac_lu_lose(ac_lu *lu, double part) { lu->most = fmax(GROWN, sqrt(part / DBL_EPSILON)); }
 
 /* Factorise with the pivots that were chosen; 0 where there are none, or where they are no longer good. */
-int ac_lu_again(ac_lu *lu, const double *value) { return lu->ready = lu->ready && refactor(lu, value); }
+int ac_lu_again(ac_lu *lu, const double *value) { return lu->ready = lu->ready && refactor(lu, value, lu->most); }
 
 /* Factorise; takes memory only where pivots are chosen. 0, 1 where the matrix is singular, -1 where there is no memory. */
 int32_t ac_lu_factor(ac_lu *lu, const double *value) {
@@ -82,12 +84,13 @@ int32_t ac_lu_factor(ac_lu *lu, const double *value) {
     const size_t bytes = (size_t)lu->start[lu->n] * sizeof *value;
     if (!lu->known || memcmp(lu->given, value, bytes)) {
         lu->known = 0;
-        const int32_t failed = ac_lu_choose(lu, value);
+        int32_t failed = ac_lu_choose(lu, value, ENOUGH);
+        if (!failed && !refactor(lu, value, lu->most)) failed = ac_lu_choose(lu, value, 1);
         if (failed) return failed;
         memcpy(lu->given, value, bytes);
         lu->known = 1;
     }
-    return (lu->ready = refactor(lu, value)) ? 0 : 1;
+    return (lu->ready = refactor(lu, value, LOST)) ? 0 : 1;
 }
 
 /* Choose pivots anew for the next matrix. They follow from its values alone, so that those chosen last do for the same ones. */

@@ -22,14 +22,14 @@ struct ac_lu {
     int64_t chosen, factored, flops;
 };
 
-int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int32_t *column);
+int32_t ac_lu_take(ac_lu *lu, const double *value, double enough, const int32_t *row, const int32_t *column);
 void ac_lu_renew(ac_lu *lu);
 void ac_lu_lose(ac_lu *lu, double part);
 int ac_lu_again(ac_lu *lu, const double *value);
 double ac_lu_least(ac_lu *lu);
 int32_t ac_is_odd(int32_t n, const int32_t *to, int32_t *seen);
 int ac_lu_is_negative(const ac_lu *lu);
-int32_t ac_lu_choose(ac_lu *lu, const double *value);
+int32_t ac_lu_choose(ac_lu *lu, const double *value, double enough);
 size_t ac_lu_order_size(const ac_lu *lu);
 void ac_lu_order(const ac_lu *lu, double *order);
 int ac_lu_reorder(ac_lu *lu, const double *order);

@@ -32,7 +32,7 @@ int ac_lu_reorder(ac_lu *lu, const double *order) {
         lu->scale[k] = order[2];
     }
     for (int32_t k = 0; k < lu->start[n] && good; k++) ones[k] = 1;
-    good = good && !ac_lu_take(lu, ones, place, place + n);
+    good = good && !ac_lu_take(lu, ones, 0, place, place + n);
     lu->ready = good;
     free(place), free(ones);
     return good;

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ENOUGH 0.1   /* of the largest entry of its column that a pivot has to have, as in Duff's MA28 */
 #define CANDIDATES 4 /* columns that are looked at for a pivot, as in Zlatev's strategy */
 
 /* Lists that grow: entries of list k stand at place[k], used[k] of room[k]. */
@@ -132,7 +131,7 @@ static int begin(choice *c, const ac_lu *lu, const double *value) {
 }
 
 /* Place of the pivot that fills least, among those that are large enough; -1 where all are 0. */
-static int32_t cheapest(const choice *c, int32_t n, int32_t *column) {
+static int32_t cheapest(const choice *c, int32_t n, double enough, int32_t *column) {
     int64_t least = INT64_MAX;
     int32_t best = -1, seen = 0;
     double size = 0;
@@ -144,7 +143,7 @@ static int32_t cheapest(const choice *c, int32_t n, int32_t *column) {
             for (int32_t k = from; k < to && most > 0; k++) {
                 const double here = fabs(c->columns.value[k]);
                 const int64_t fill = (int64_t)(c->in_row[c->columns.index[k]] - 1) * (count - 1);
-                if (here >= ENOUGH * most && (fill < least || (fill == least && here > size))) {
+                if (here >= enough * most && (fill < least || (fill == least && here > size))) {
                     least = fill, size = here, best = k, *column = j;
                 }
             }
@@ -257,8 +256,9 @@ static int32_t entry(const choice *c, int32_t i, int32_t j) {
     return -1;
 }
 
-/* Take all pivots: those that are given, rows and columns, else the cheapest; 0, 1 where there is none, -1 without memory. */
-int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int32_t *column) {
+/* Take all pivots: those that are given, rows and columns, else the cheapest that are `enough` of the largest entry of their
+   column; 0, 1 where there is none, -1 without memory. */
+int32_t ac_lu_take(ac_lu *lu, const double *value, double enough, const int32_t *row, const int32_t *column) {
     const int32_t n = lu->n;
     choice c;
     int32_t failed = 0;
@@ -268,7 +268,7 @@ int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int
     if (!begin(&c, lu, value)) failed = -1;
     for (int32_t k = 0; k < n && !failed; k++) {
         int32_t j = row ? column[k] : -1;
-        const int32_t at = row ? entry(&c, row[k], j) : cheapest(&c, n, &j);
+        const int32_t at = row ? entry(&c, row[k], j) : cheapest(&c, n, enough, &j);
         if (at < 0) {
             failed = 1;
             break;
@@ -287,7 +287,7 @@ int32_t ac_lu_take(ac_lu *lu, const double *value, const int32_t *row, const int
 }
 
 /* Choose all pivots for a matrix; 0, 1 where it is singular, -1 where there is no memory. */
-int32_t ac_lu_choose(ac_lu *lu, const double *value) {
+int32_t ac_lu_choose(ac_lu *lu, const double *value, double enough) {
     const int32_t n = lu->n;
     for (int32_t i = 0; i < n; i++) lu->scale[i] = 0;
     for (int32_t k = 0; k < lu->start[n]; k++) lu->scale[lu->row[k]] = fmax(lu->scale[lu->row[k]], fabs(value[k]));
@@ -295,5 +295,5 @@ int32_t ac_lu_choose(ac_lu *lu, const double *value) {
         if (!(lu->scale[i] > 0 && isfinite(lu->scale[i]))) return 1;
         lu->scale[i] = ldexp(1, -ilogb(lu->scale[i]));
     }
-    return ac_lu_take(lu, value, NULL, NULL);
+    return ac_lu_take(lu, value, enough, NULL, NULL);
 }

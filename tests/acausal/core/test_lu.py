@@ -85,6 +85,20 @@ def test_a_bordered_diagonal_is_not_filled():
     assert lu.counts.operations == 3 * (n - 1)
 
 
+@pytest.mark.parametrize("n", [4, 8, 12, 20])
+def test_factors_that_grow_are_no_sign_of_a_singular_matrix(n):
+    """Of a staircase the cheapest pivots are the small ones: each lets the full column grow by 1 / 0.15."""
+    A = np.zeros((n, n))
+    A[:, 0] = 1
+    for k in range(n - 1):
+        A[k : k + 2, n - 1 - k] = 0.15, 1
+    assert np.linalg.cond(A) < 30
+    A = scipy.sparse.csc_matrix(A)
+    lu, b = LU(A.indptr, A.indices), np.arange(1.0, n + 1)
+    assert lu.factor(A.data)
+    assert backward_error(A, lu.solve(b), b) < 1e-12
+
+
 def test_pivots_that_vanish_are_chosen_anew():
     start, row = np.array([0, 2, 4]), np.array([0, 1, 0, 1])
     lu = LU(start, row)
