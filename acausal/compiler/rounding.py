@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from functools import cache
 
 import casadi as ca
 
-from acausal.instructions import CONSTANT, INPUT, READABLE, read_instructions
-from acausal.symbols import scalars, stacked
+from acausal.instructions import READABLE, Instructions, read_instructions
+from acausal.symbols import picked, vec
 
 
 def terms(arguments: list[ca.SX], column: ca.SX) -> ca.SX:
@@ -25,19 +26,31 @@ def terms(arguments: list[ca.SX], column: ca.SX) -> ca.SX:
         The expressions, dense.
     """
     read = read_instructions(ca.Function("rounded", arguments, [column], READABLE))
-    given, value, size = [scalars(a) for a in arguments], list[ca.SX](), list[ca.SX]()
-    for k, (op, operands) in enumerate(zip(read.op, read.arguments, strict=True)):
-        if op == INPUT:
-            own, slopes = given[read.place[k][0]][read.place[k][1]], ()
-        elif op == CONSTANT:
-            own, slopes = ca.SX(read.constant[k]), ()
-        else:
-            own, *slopes = _operation(op, len(operands)).call([value[i] for i in operands])
-        value.append(own)
+    given = [vec(a) for a in arguments]
+    value = ca.SX.zeros(1, len(read.op))
+    for k, (argument, nonzero) in read.place.items():
+        value[k] = given[argument].nz[nonzero]
+    for k, number in read.constant.items():
+        value[k] = number
+    size = ca.fabs(value)
+    for op, nodes in _alike(read):
+        operands = [list(own) for own in zip(*(read.arguments[k] for k in nodes), strict=True)]
+        own, *slopes = _operation(op, len(operands)).call([value[places] for places in operands])
+        value[nodes] = own
         # What does not matter, as a case that does not hold, need not have a value.
         off = [ca.if_else(slope == 0, 0, ca.fabs(slope) * size[i]) for slope, i in zip(slopes, operands, strict=True)]
-        size.append(ca.fabs(own) + sum(off, ca.SX(0)))
-    return ca.densify(stacked([size[k] for k in read.results[0]]))
+        size[nodes] = ca.fabs(own) + sum(off, ca.SX(0))
+    return ca.densify(picked(size.T, read.results[0]))
+
+
+def _alike(read: Instructions) -> list[tuple[int, list[int]]]:
+    """Operations with their numbers, in groups that follow from those before: CasADi takes as long for one as for many."""
+    level, groups = list[int](), defaultdict[tuple[int, int], list[int]](list)
+    for k, (op, operands) in enumerate(zip(read.op, read.arguments, strict=True)):
+        level.append(1 + max((level[i] for i in operands), default=-1))
+        if operands:
+            groups[level[k], op].append(k)
+    return [(op, nodes) for (_, op), nodes in sorted(groups.items())]
 
 
 @cache

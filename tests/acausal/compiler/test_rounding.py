@@ -31,6 +31,22 @@ def test_cases_that_do_not_hold_do_not_matter():
     assert size(ca.if_else(X < 0, 1 / (X - 3), 0), 3) == 0
 
 
+def test_expressions_together_are_as_each_alone():
+    some = [
+        X - 100,
+        ca.sin(X * Y) - X,
+        ca.sqrt(X) + ca.sqrt(Y),
+        X,
+        ca.SX(3),
+        X * Y - Y / X,
+        ca.if_else(X < Y, X, 2 * Y),
+    ]
+    together = ca.Function("size", [X, Y], [terms([X, Y], ca.densify(ca.vertcat(*some)))])
+    for values in ((100, 3), (2, 7)):
+        assert together(*values).elements() == [size(one, *values) for one in some]
+    assert terms([X], ca.SX(0, 1)).shape == (0, 1)
+
+
 def test_no_rounding_is_larger():
     def law(t, one, end):
         begin = t - end
