@@ -12,6 +12,7 @@ from typing import Any
 from acausal.errors import DeclarationError, user_line
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
+from acausal.language.pending import reading
 from acausal.language.symbolic import Symbolic
 
 NEVER, AVOID, DEFAULT, PREFER, ALWAYS = -2, -1, 0, 1, 2
@@ -256,5 +257,6 @@ class Observed(Field):
         """Compute the expression in a built component."""
         if owner is None or not owner._is_bound:
             return super().__get__(owner, cls)
-        value = as_expr(self.compute(owner))
+        with reading():
+            value = as_expr(self.compute(owner))
         return Expr(value.sx, value.unit, f"{owner._path}.{self.name}" if owner._path else self.name, value.shape)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
 
@@ -94,4 +96,29 @@ def pending_for(what: str) -> Pending:
     try:
         return PENDING.get()
     except LookupError:
-        raise DeclarationError(f"{what} can be used inside equations() only.") from None
+        raise _only_in_equations(what) from None
+
+
+class _Reading(Pending):
+    """Nothing can be requested any more: conditions are evaluated as they are, derivatives are refused."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.watches = False
+
+    def differentiate(self, x: ca.SX) -> ca.SX:
+        raise _only_in_equations("der()")
+
+
+@contextmanager
+def reading() -> Iterator[None]:
+    """Form expressions of a built model that are read, not solved; within equations() they are as everything else there."""
+    token = PENDING.set(PENDING.get(None) or _Reading())
+    try:
+        yield
+    finally:
+        PENDING.reset(token)
+
+
+def _only_in_equations(what: str) -> DeclarationError:
+    return DeclarationError(f"{what} can be used inside equations() only.")
