@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal import Component, Scalar, connect, parameter, part, port, structural
+from acausal import Component, Scalar, connect, der, parameter, part, port, structural, variable
 from components.flange import Flange, TwoFlanges
 from components.rotational.elasto_backlash import ElastoBacklash
 from components.rotational.lossy_gear import LossyGear
@@ -23,6 +23,9 @@ class Gearbox(TwoFlanges):
     c: Scalar = parameter("spring constant, at flange_b", unit="N.m/rad", minimum=0)
     d: Scalar = parameter("damping constant, at flange_b", unit="N.m.s/rad", default=0, minimum=0)
     b: Scalar = parameter("total backlash, at flange_b", unit="rad", default=0, minimum=0)
+    phi_rel: Scalar = variable("angle from the gear to flange_b, over the elasticity", unit="rad")
+    w_rel: Scalar = variable("der(phi_rel)", unit="rad/s")
+    a_rel: Scalar = variable("der(w_rel)", unit="rad/s2")
 
     @port
     def support(self) -> Flange | None:
@@ -55,3 +58,8 @@ class Gearbox(TwoFlanges):
         if self.use_heat_port:
             yield connect(self.heat_port, self.gear.heat_port)
             yield connect(self.heat_port, self.elasticity.heat_port)
+
+    def equations(self):
+        yield self.phi_rel == self.flange_b.phi - self.gear.flange_b.phi
+        yield self.w_rel == der(self.phi_rel)
+        yield self.a_rel == der(self.w_rel)

@@ -65,6 +65,22 @@ def test_worm_gear(tau, w):
     assert result["load.w"][-1] == pytest.approx(w, abs=1e-6)
 
 
+class Twisted(Model):
+    """An elastic gear of the ratio 2 between two rotors: phi_rel'' = -c (1 / J_b + 1 / (4 J_a)) phi_rel."""
+
+    gearbox = r.Gearbox(ratio=2, c=300, phi_rel=fixed(0.1), w_rel=fixed(0))
+    first, second = r.Inertia(J=0.5), r.Inertia(J=3, phi=fixed(0), w=fixed(1))
+
+    def connections(self):
+        yield chain(self.first, self.gearbox, self.second)
+
+
+def test_a_gearbox_starts_twisted():
+    result = ac.simulate(Twisted(), stop_time=1.0, tolerance=1e-9)
+    law = 0.1 * np.cos(np.sqrt(300 * (1 / 3 + 1 / 2)) * result.time)
+    np.testing.assert_allclose(result["gearbox.phi_rel"], law, atol=1e-7)
+
+
 class Stops(Model):
     """A mass runs into a stop, rests there while it is pushed, and is drawn away."""
 
