@@ -6,9 +6,24 @@ from typing import Any
 
 import numpy as np
 
-from acausal import Scalar, apart, dot, parameter, piecewise, require, sqrt, variable
-from components.frame import TwoFrames
+from acausal import (
+    Scalar,
+    apart,
+    dot,
+    is_root,
+    parameter,
+    piecewise,
+    port,
+    potential_root,
+    require,
+    sqrt,
+    structural,
+    variable,
+)
+from components.frame import Frame, TwoFrames
 from components.orientation import resolve1, resolve2
+
+LAST = 10  # whatever else gives an orientation comes first, as of a PointMass
 
 
 class LineForce(TwoFrames):
@@ -16,7 +31,8 @@ class LineForce(TwoFrames):
 
     Notes
     -----
-    No branch: the component relates no orientations, each end must be held by something else. Where the ends meet in a
+    No branch: the component relates no orientations, each end must be held by something else. Line forces alone hold a
+    point where one of them has fixed_rotation_at_frame_a or _b there. Where the ends meet in a
     run with a force that is not 0 there, the run ends with a SimulationError: the line has no direction there.
     """
 
@@ -27,9 +43,37 @@ class LineForce(TwoFrames):
         positive=True,
         doc="Shorter lengths are replaced by it where the direction of the line is computed.",
     )
+    fixed_rotation_at_frame_a: bool = structural(
+        "whether frame_a has the axes of the world where nothing else gives it an orientation",
+        default=False,
+        choices=(True, False),
+        doc="True at a point that line forces alone hold.",
+    )
+    fixed_rotation_at_frame_b: bool = structural(
+        "whether frame_b has the axes of the world where nothing else gives it an orientation",
+        default=False,
+        choices=(True, False),
+        doc="True at a point that line forces alone hold.",
+    )
     s: Scalar = variable("length of the line", unit="m")
     v: Scalar = variable("der(s)", unit="m/s")
     f: Scalar = variable("force along the line, positive if it pulls the ends together", unit="N")
+
+    @port
+    def frame_a(self) -> Frame:
+        """Coordinate system at the first end."""
+        return Frame(turns=not self.fixed_rotation_at_frame_a)
+
+    @port
+    def frame_b(self) -> Frame:
+        """Coordinate system at the second end."""
+        return Frame(turns=not self.fixed_rotation_at_frame_b)
+
+    def connections(self):
+        if self.fixed_rotation_at_frame_a:
+            yield potential_root(self.frame_a, LAST)
+        if self.fixed_rotation_at_frame_b:
+            yield potential_root(self.frame_b, LAST)
 
     def equations(self):
         a, b = self.frame_a, self.frame_b
@@ -45,8 +89,9 @@ class LineForce(TwoFrames):
         carried_a, carried_b = self.carried(e_0)
         yield a.f == resolve2(a.R, carried_a - e_0 * f_a)
         yield b.f == resolve2(b.R, carried_b + e_0 * f_b)
-        yield a.t == (0, 0, 0)
-        yield b.t == (0, 0, 0)
+        for frame in (a, b):
+            if not is_root(frame):
+                yield frame.t == (0, 0, 0)
 
     def requirements(self):
         name = self._path or type(self).__name__

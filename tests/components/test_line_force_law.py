@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import acausal as ac
 from acausal import DeclarationError, Model, Scalar, chain, connect, fixed, parameter, part, piecewise
-from components import Body, LineForceLaw, Prismatic, World
+from components import Body, LineForceLaw, PointMass, Prismatic, Spring, World
 
 
 def stiffening(s, v):
@@ -67,3 +67,33 @@ def test_a_law_in_pieces_with_parameters():
 def test_wrong_input():
     with pytest.raises(DeclarationError, match="force"):
         ac.compile(Guided(it=LineForceLaw(force=3)))
+
+
+class Series(Model):
+    """A mass of 2 kg on two springs in series, whose common point has no mass."""
+
+    world = World(g=9.81)
+    upper, lower = Spring(c=100, s_unstretched=0.2), Spring(c=300, s_unstretched=0.3, fixed_rotation_at_frame_a=True)
+    mass = PointMass(m=2, r_0=fixed((0, -0.6, 0)), v_0=fixed((0, 0, 0)))
+
+    def connections(self):
+        yield chain(self.world, self.upper, self.lower, self.mass)
+
+
+class SeriesTurnedRound(Series):
+    upper = Spring(c=100, s_unstretched=0.2, fixed_rotation_at_frame_b=True)
+    lower = Spring(c=300, s_unstretched=0.3)
+
+    def connections(self):
+        yield chain(self.world, self.upper, self.lower.frame_b)
+        yield connect(self.lower.frame_a, self.mass.frame_a)
+
+
+@pytest.mark.parametrize("model", [Series, SeriesTurnedRound])
+def test_a_point_that_springs_alone_hold(model):
+    """Of the stiffness 75 N/m, its position is a harmonic oscillation about 0.5 m + m g / c."""
+    result = ac.simulate(model(), stop_time=2.0, tolerance=1e-9)
+    rest = -0.5 - 2 * 9.81 / 75
+    y = rest + (-0.6 - rest) * np.cos(np.sqrt(75 / 2) * result.time)
+    np.testing.assert_allclose(result["mass.r_0"][:, 1], y, atol=1e-7)
+    np.testing.assert_allclose(result["upper.frame_b.r_0"][:, 1], 0.75 * (y + 0.5) - 0.2, atol=1e-7)
