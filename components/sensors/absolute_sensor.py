@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Vector3, output, structural
+from acausal import Vector3, output
 from components.orientation import resolve1
 from components.sensors.absolute_angular_velocity import absolute_angular_velocity
 from components.sensors.absolute_position import absolute_position
@@ -14,9 +14,6 @@ from components.sensors.one_frame_sensor import OneFrameSensor, resolved
 class AbsoluteSensor(HasAngles, OneFrameSensor):
     """Measures position, velocity, acceleration and orientation of frame_a; what nobody reads costs nothing."""
 
-    resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="frame_a", choices=("world", "frame_a", "frame_resolve")
-    )
     r: Vector3 = output("position of frame_a, resolved in resolve_in_frame", unit="m")
     v: Vector3 = output("velocity of frame_a, resolved in resolve_in_frame", unit="m/s")
     a: Vector3 = output("acceleration of frame_a, resolved in resolve_in_frame", unit="m/s2")

@@ -14,7 +14,7 @@ class OneFrameSensor(Component):
 
     ends = ("frame_a", "frame_a")
     resolve_in_frame: str = structural(
-        "where the vectors are resolved", default="world", choices=("world", "frame_a", "frame_resolve")
+        "where the vectors are resolved", default="frame_a", choices=("frame_a", "world", "frame_resolve")
     )
     frame_a: Frame = port(Frame, "measured frame")
 

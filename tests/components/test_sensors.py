@@ -11,7 +11,10 @@ from acausal import Model, chain, connect, fixed, observed
 from components import Body, FixedTranslation, Revolute, Spherical, World, sensors
 from components.sensors import (
     AbsoluteAngles,
+    AbsoluteAngularVelocity,
+    AbsolutePosition,
     AbsoluteSensor,
+    AbsoluteVelocity,
     CutForceAndTorque,
     Distance,
     Power,
@@ -124,6 +127,26 @@ def test_cut_loads_and_power(result):
     )
     slope = np.gradient(energy, result.time, edge_order=2)
     np.testing.assert_allclose(result["power.power"][1:-1], slope[1:-1], atol=2e-3)
+
+
+class Turning(Model):
+    """A point at (2, 0, 0) of a frame that turns about z by 3 rad/s."""
+
+    world, joint = World(gravity=None), Revolute(phi=fixed(0.4), w=fixed(3.0))
+    arm, body = FixedTranslation(r=(2, 0, 0)), Body(m=1, I=np.eye(3))
+    position, velocity, rate = AbsolutePosition(), AbsoluteVelocity(), AbsoluteAngularVelocity()
+
+    def connections(self):
+        yield chain(self.world, self.joint, self.body)
+        yield chain(self.joint, self.arm)
+        for sensor in (self.position, self.velocity, self.rate):
+            yield connect(self.arm.frame_b, sensor.frame_a)
+
+
+def test_what_absolute_sensors_measure_is_resolved_in_their_frame():
+    result = ac.simulate(Turning(), stop_time=1.0, tolerance=1e-9)
+    for measured, value in (("position.r", (2, 0, 0)), ("velocity.v", (0, 6, 0)), ("rate.w", (0, 0, 3))):
+        np.testing.assert_allclose(result[measured], np.tile(value, (len(result.time), 1)), atol=1e-7)
 
 
 @pytest.mark.parametrize("sequence", [(1, 1, 2), (0, 1, 2), (1, 2, 4)])

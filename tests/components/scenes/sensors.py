@@ -17,15 +17,15 @@ class OnSensor(Plain):
 
 
 class OnAbsolutePosition(OnSensor):
-    it = s.AbsolutePosition()
+    it = s.AbsolutePosition(resolve_in_frame="world")
 
 
 class OnAbsoluteVelocity(OnSensor):
-    it = s.AbsoluteVelocity(resolve_in_frame="frame_a")
+    it = s.AbsoluteVelocity()
 
 
 class OnAbsoluteAngularVelocity(OnSensor):
-    it = s.AbsoluteAngularVelocity()
+    it = s.AbsoluteAngularVelocity(resolve_in_frame="world")
 
 
 class OnAbsoluteAngles(OnSensor):
