@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from acausal import Scalar, connect, parameter, part
+from typing import Any
+
+from acausal import Scalar, connect, parameter, part, structural
 from components.assemblies.revolute_end import RevoluteEnd
 from components.spherical_spherical import SphericalSpherical
 
@@ -10,6 +12,9 @@ from components.spherical_spherical import SphericalSpherical
 class JointSSR(RevoluteEnd):
     """Ball joint at frame_a, rod 1, ball joint in the middle, rod 2, revolute joint at frame_b."""
 
+    r_rod2_ib: Any = structural(
+        "from frame_ib to the joint in the middle, resolved in frame_ib, in m", default=(1, 0, 0), shape=(3,)
+    )
     rod1_length: Scalar = parameter("distance of the ball joints", unit="m", positive=True)
     rod1_mass: Scalar = parameter("mass, in the middle of rod 1", unit="kg", default=0, minimum=0)
 

@@ -177,3 +177,17 @@ def test_strut_of_negative_length_is_refused():
 
     with pytest.raises(ac.AcausalError, match="length of the strut is negative at the start; give n_axis_ia"):
         ac.simulate(Backwards(), stop_time=0.1)
+
+
+class AtRest(Model):
+    world, ground, joint = World(), Fixed(r=(1.5, 0.1, 0)), JointSSR(rod1_length=1)
+
+    def connections(self):
+        yield chain(self.world, self.joint, self.ground.frame_b)
+
+
+def test_rod_of_an_assembly_by_default():
+    result = ac.simulate(AtRest(), stop_time=0.1)
+    rod2 = result["joint.frame_im.r_0"] - result["joint.frame_ib.r_0"]
+    along = np.einsum("tij,tj->ti", result["joint.frame_ib.R.T"], rod2)
+    np.testing.assert_allclose(along, np.tile((1, 0, 0), (len(along), 1)), atol=1e-9)
