@@ -22,7 +22,10 @@ class PrismaticEnd(TwoFrames):
     )
     s_offset: Scalar = parameter("distance of the frames of the prismatic joint where s is 0", unit="m", default=0)
     s_guess: Scalar = parameter(
-        "guess of s", unit="m", default=0, doc="Selects the nearer one of the two positions in which the loop closes."
+        "guess of s",
+        unit="m",
+        default=0,
+        doc="Selects the nearer one of the two positions in which the loop closes; midway between them it may find neither.",
     )
     use_axis_flange: bool = structural("whether the prismatic joint has a drive", default=False, choices=(True, False))
     frame_ib: Frame = port(Frame, "fixed to rod 2 at the prismatic joint")

@@ -22,7 +22,10 @@ class RevoluteEnd(TwoFrames):
     )
     phi_offset: Any = structural("angle of the revolute joint where phi is 0, in rad", default=0.0, shape=())
     phi_guess: Scalar = parameter(
-        "guess of phi", unit="rad", default=0, doc="Helps to select one of the two positions in which the loop closes."
+        "guess of phi",
+        unit="rad",
+        default=0,
+        doc="Helps to select one of the two positions in which the loop closes; midway between them it may find neither.",
     )
     use_axis_flange: bool = structural("whether the revolute joint has a drive", default=False, choices=(True, False))
     frame_ib: Frame = port(Frame, "fixed to rod 2 at frame_b")
