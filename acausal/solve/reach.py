@@ -45,15 +45,17 @@ def _factors(compiled: CompiledModel, p: bytes) -> np.ndarray:
     """Factors of the nominal values.
 
     What is not of the first group stays at its guess at first: without a guess its nominal value may lie far outside the
-    machine.
+    machine. A slide across a rod changes its length in proportion to its own distance from the middle, so that the second
+    round finds a factor inversely as the first one: of both their geometric mean counts, whatever the guess.
     """
-    found = np.ones(compiled.nx)
+    found, rounds = np.ones(compiled.nx), []
     for others in (0.0, 1.0):
         spread = others * found
         for _, groups in _groups(compiled):
             spread[groups[0][0]] = 1.0
         found = _once(compiled, np.frombuffer(p), spread)
-    return found
+        rounds.append(found)
+    return np.sqrt(rounds[0] * rounds[1])
 
 
 @np.errstate(all="ignore")
