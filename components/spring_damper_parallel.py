@@ -11,7 +11,7 @@ class SpringDamperParallel(HeatLoss, LineForce):
     """Linear spring and linear damper along the line from frame_a to frame_b."""
 
     c: Scalar = parameter("spring constant", unit="N/m", minimum=0)
-    d: Scalar = parameter("damping constant", unit="N.s/m", minimum=0)
+    d: Scalar = parameter("damping constant", unit="N.s/m", default=0, minimum=0)
     s_unstretched: Scalar = parameter(
         "unstretched length", unit="m", default=0, minimum=0, doc="There the spring bears no force."
     )
