@@ -94,9 +94,9 @@ class DrivenJoint(TwoFrames):
         """Whether it has dry friction that sticks."""
         return self.friction in ("stiction", "reaction")
 
-    def held(self) -> Any:
-        """Load of the friction that sticks, or 0."""
-        return self.stiction.load if self.sticks() else 0.0
+    def resisting(self, drag: Any) -> Any:
+        """Load of all friction against the motion."""
+        return drag + self.stiction.load if self.sticks() else drag
 
     def sliding(self, speed: Expr, dry: Expr, arm: Expr) -> Iterator[Any]:
         """Give the friction that sticks its speed and load: `dry`, or mu |f| arm, f the force on frame_b across the axis."""

@@ -59,7 +59,7 @@ class Prismatic(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, r, null_rotation())
         yield self.frame_a.f == -self.frame_b.f
         yield self.frame_a.t == -self.frame_b.t - cross(r, self.frame_b.f)
-        yield self.f - self._drag() - self.held() == -dot(n, self.frame_b.f)
+        yield self.f - self.resisting(self._drag()) == -dot(n, self.frame_b.f)
         yield from self.sliding(self.v, self.f_dry, quantity(1.0, "1"))
         if self.use_axis_flange:
             yield self.axis.s == self.s + self.give(self.f)

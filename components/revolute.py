@@ -67,7 +67,7 @@ class Revolute(DrivenJoint):
         yield from move(self.frame_a, self.frame_b, (0, 0, 0), R)
         yield self.frame_a.f == -resolve1(R, self.frame_b.f)
         yield self.frame_a.t == -resolve1(R, self.frame_b.t)
-        yield self.tau - self._drag() - self.held() == -dot(n, self.frame_b.t)
+        yield self.tau - self.resisting(self._drag()) == -dot(n, self.frame_b.t)
         yield from self.sliding(self.w, self.tau_dry, self.r_pin)
         yield from self.drive()
 

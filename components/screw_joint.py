@@ -34,7 +34,7 @@ class ScrewJoint(Revolute):
         yield from move(a, b, r, R)
         yield a.f == -f_b
         yield a.t == -resolve1(R, b.t) - cross(r, f_b)
-        yield self.tau - self._drag() - self.held() == -dot(n, b.t) - lead * dot(n, b.f)
+        yield self.tau - self.resisting(self._drag()) == -dot(n, b.t) - lead * dot(n, b.f)
         yield from self.drive()
 
     def shapes(self):

@@ -18,6 +18,8 @@ SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank"
 RINGS = {(1e-5, "idas"), (1e-8, "idas")}
 FLAT = {(tolerance, "rosenbrock") for tolerance in (1e-3, 1e-5, 1e-8)}
 CHOOSY = {"slider-crank": RINGS, "pendulum": RINGS, "free-vibration": RINGS, "n-four-bar": FLAT}
+# Scenes in which IDAS ends at a tolerance of 1e-3: the force of a tyre that is touched by its damper has a kink.
+STEEP = {"Tyre"}
 MACHINES: dict[str, tuple[type[Model], float]] = {c.__name__: (c, 1.0) for c in (Axis, Fall, Tether, Two)}
 MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in SCENES.items()}
 
@@ -47,6 +49,7 @@ def test_every_equation_holds_at_every_output(name, tolerance, method):
 @pytest.mark.parametrize("name", WITH_COMPONENT)
 def test_every_equation_holds_around_every_component(name):
     model = compiled(WITH_COMPONENT[name])
-    for tolerance, method in ((1e-3, "idas"), (1e-6, "rosenbrock")):
+    loose = 1e-5 if name in STEEP else 1e-3
+    for tolerance, method in ((loose, "idas"), (1e-6, "rosenbrock")):
         result = ac.simulate(model, stop_time=0.5, tolerance=tolerance, method=method, intervals=20)
         assert worst_equation(result, model) < 1e-10
