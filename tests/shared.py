@@ -56,6 +56,11 @@ def pairwise(*choices: Iterable) -> list:
     ]
 
 
+def every_other(values: Iterable) -> list:
+    """All values, every other one marked slow."""
+    return [pytest.param(value, marks=pytest.mark.slow) if k % 2 else value for k, value in enumerate(values)]
+
+
 def heed_interrupts() -> None:
     """What is started in the background ignores interrupts, and so does what that starts."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)

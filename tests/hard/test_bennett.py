@@ -48,7 +48,7 @@ def off(begins: float, askew: bool, result: ac.Result) -> tuple[float, float]:
     [
         ({"method": "auto", "tolerance": 1e-4}, 1e-3),
         ({"method": "auto", "tolerance": 1e-7}, 1e-5),
-        ({"method": "rosenbrock", "tolerance": 1e-7}, 1e-5),
+        pytest.param({"method": "rosenbrock", "tolerance": 1e-7}, 1e-5, marks=pytest.mark.slow),
         ({"method": "auto", "tolerance": 1e-7, "constraints": "states"}, 1e-5),
         pytest.param({"method": "idas", "tolerance": 1e-7}, 1e-3, marks=pytest.mark.slow),
         pytest.param({"method": "resolve", "tolerance": 1e-7}, 1e-3, marks=pytest.mark.slow),
@@ -88,7 +88,12 @@ def test_events_are_those_of_the_motion() -> None:
 
 
 @pytest.mark.parametrize(
-    "intervals", [pytest.param(1, marks=pytest.mark.slow), 2, pytest.param(5, marks=pytest.mark.slow)]
+    "intervals",
+    [
+        pytest.param(1, marks=pytest.mark.slow),
+        pytest.param(2, marks=pytest.mark.slow),
+        pytest.param(5, marks=pytest.mark.slow),
+    ],
 )
 def test_few_outputs_of_many_turns(intervals: int) -> None:
     """IDAS is looked at after a call: it is asked for no more than what is kept may last, and costs what the time takes."""
@@ -123,7 +128,7 @@ class Switched(Bennett):
         yield self.drive.tau == piecewise((6, sin(3 * self.joint[0].phi) > 0.2), -5)
 
 
-@pytest.mark.parametrize("method", ["auto", "idas"])
+@pytest.mark.parametrize("method", ["auto", pytest.param("idas", marks=pytest.mark.slow)])
 def test_no_event_is_missed_where_outputs_are_few(method: str) -> None:
     compiled = ac.compile(Switched(begins=4.0, turned=ASKEW))
     for intervals in (1, 2, 4, 40):

@@ -15,6 +15,7 @@ from components import BodyRod, Fixed, Revolute, World
 from models import NFourBar
 from tests.hard.measure import single_coordinate, within
 from tests.reference import n_four_bar
+from tests.shared import pairwise
 
 
 class Parallelogram(Model):
@@ -95,9 +96,7 @@ class Watched(Parallelogram):
 
 
 @pytest.mark.skipif(library() is None, reason="needs the core")
-@pytest.mark.parametrize("kind", [Parallelogram, Watched])
-@pytest.mark.parametrize("intervals", [4, 400])
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+@pytest.mark.parametrize(("tolerance", "intervals", "kind"), pairwise([1e-3, 1e-6], [4, 400], [Parallelogram, Watched]))
 def test_the_method_that_damps_tells_where_it_passed_a_flat_position(tolerance, intervals, kind):
     model, end = kind(angle=2.0, rates=(2.0, 2.0), gravity=0.0), 1.2
     with pytest.warns(ac.AcausalWarning, match="pass a flat position") as caught:

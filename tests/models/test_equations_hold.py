@@ -18,7 +18,7 @@ SHORT = {"free-vibration": 0.02, "pendulum": 0.3, "spin-up": 5.0, "slider-crank"
 RINGS = {(1e-5, "idas"), (1e-8, "idas")}
 FLAT = {(tolerance, "rosenbrock") for tolerance in (1e-3, 1e-5, 1e-8)}
 CHOOSY = {"slider-crank": RINGS, "pendulum": RINGS, "free-vibration": RINGS, "n-four-bar": FLAT}
-# Scenes in which IDAS ends at a tolerance of 1e-3: the force of a tyre that is touched by its damper has a kink.
+# Scenes in which IDAS ends at a tolerance of 1e-3: the force of a tyre has kinks where its damper is limited.
 STEEP = {"Tyre"}
 MACHINES: dict[str, tuple[type[Model], float]] = {c.__name__: (c, 1.0) for c in (Axis, Fall, Tether, Two)}
 MODELS = MACHINES | {name: (c, SHORT.get(name, c.stop_time / 3)) for name, c in SCENES.items()}

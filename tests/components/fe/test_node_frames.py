@@ -54,7 +54,7 @@ def test_a_hole_has_its_frame_at_its_centre(element: str, error: float) -> None:
     assert found[2] == pytest.approx(0.005, rel=1e-5)  # triangles are cut along one diagonal
 
 
-@pytest.mark.parametrize("share", [1.0, 0.5])
+@pytest.mark.parametrize("share", [pytest.param(1.0, marks=pytest.mark.slow), 0.5])
 def test_nodes_on_a_circle_whose_centre_is_elsewhere(share: float) -> None:
     """Without elements, and half a bearing, whose mean is 2 / pi radii off: the warning has the place to be given."""
     nodes = ring("hex20", share=share)

@@ -92,6 +92,7 @@ def test_a_file_that_is_no_library(why):
     assert LIBRARY.MEND in reason()
 
 
+@pytest.mark.slow
 @CC
 def test_a_library_of_other_sources(why, monkeypatch):
     path, reason = why

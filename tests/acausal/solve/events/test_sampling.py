@@ -33,6 +33,7 @@ from components import Revolute
 from components.rotational import Torque
 from models import FlexiblePendulum, FourBar
 from tests.benchmarks.events.scenes import SampledPendulum
+from tests.shared import pairwise
 
 pytestmark = pytest.mark.skipif(library() is None, reason="needs the core")
 
@@ -192,9 +193,7 @@ def both(monkeypatch: Any, model: type[Model], **options: Any) -> tuple[ac.Resul
         return found, ac.simulate(compiled(model), **options)
 
 
-@pytest.mark.parametrize("method", ["auto", "rosenbrock"])
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(("model", "tolerance", "method"), pairwise(MODELS, [1e-3, 1e-6], ["auto", "rosenbrock"]))
 def test_same_as_the_search(monkeypatch: Any, model: type[Model], tolerance: float, method: str) -> None:
     one, other = both(monkeypatch, model, tolerance=tolerance, method=method, intervals=70)
     assert one.stats.events == other.stats.events > 0
@@ -403,8 +402,7 @@ class Beside(Model):
         yield der(self.x) == -self.x + piecewise((1, time < self.end), 0)
 
 
-@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
-@pytest.mark.parametrize("intervals", [1, 7, 400])
+@pytest.mark.parametrize(("intervals", "method"), pairwise([1, 7, 400], ["auto", "rosenbrock", "idas"]))
 def test_a_sample_is_on_a_break_where_rounding_alone_is_between_them(intervals: int, method: Any) -> None:
     compiled = ac.compile(Beside())
     for period, ends in ((0.1, (0.8, 0.9, 1.0, 1.1)), (0.05, (0.4, 0.55)), (0.01, (0.1,)), (0.02, (0.2,))):

@@ -14,6 +14,7 @@ from acausal.solve.integrate.by_core import ByCore
 from acausal.solve.integrate.consistent import Consistent
 from acausal.solve.problem import Problem
 from components import Body, Revolute, World
+from tests.shared import pairwise
 
 CORE = pytest.mark.skipif(library() is None, reason="needs the core")
 
@@ -83,10 +84,10 @@ WORDS = r"no solution|could not be solved|no step was short enough|ever shorter"
 
 
 @CORE
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
-@pytest.mark.parametrize("intervals", [1, 10, 400])
-@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
-@pytest.mark.parametrize("case", range(len(ENDS)))
+@pytest.mark.parametrize(
+    ("case", "method", "intervals", "tolerance"),
+    pairwise(range(len(ENDS)), ["auto", "rosenbrock", "idas"], [1, 10, 400], [1e-3, 1e-6, 1e-9]),
+)
 def test_a_run_ends_where_its_solution_does(case, method, intervals, tolerance):
     model, end = ENDS[case]
     with pytest.raises(ac.SimulationError, match=WORDS) as caught:

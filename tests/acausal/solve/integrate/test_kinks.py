@@ -80,7 +80,12 @@ CORE = pytest.mark.skipif(
 
 @CORE
 @pytest.mark.parametrize(
-    ("law", "linear"), [*((law, linear) for law in LAWS for linear in (0.2, 0.3)), ("saturation", 1e-3)]
+    ("law", "linear"),
+    [
+        *((law, 0.3) for law in LAWS),
+        *(pytest.param(law, 0.2, marks=pytest.mark.slow) for law in LAWS),
+        pytest.param("saturation", 1e-3, marks=pytest.mark.slow),
+    ],
 )
 def test_the_error_is_that_of_the_tolerance(law: str, linear: float) -> None:
     compiled = ac.compile(type(law, (Kinked,), {"law": law})())

@@ -79,7 +79,8 @@ def test_a_contact_that_the_guess_of_the_position_closes(position):
 
 
 @pytest.mark.parametrize(
-    "position", [pytest.param(0.0, marks=pytest.mark.slow), 1e-3, pytest.param(0.05, marks=pytest.mark.slow), 1.0]
+    "position",
+    [1e-3, *(pytest.param(position, marks=pytest.mark.slow) for position in (0.0, 0.05, 1.0))],
 )
 def test_a_contact_that_the_guess_of_the_position_has_open(position):
     result = ac.simulate(OnWheel(guide=Prismatic(n=(0, 1, 0), s=guess(position))), stop_time=0.1, initial="steady")

@@ -10,6 +10,7 @@ import pytest
 import acausal as ac
 from acausal import InitializationError, Model, chain, connect, fixed, guess
 from components import BodyBox, FixedRotation, Prismatic, Revolute, Spherical, World
+from tests.shared import pairwise
 
 JOINTS = {
     "hinge": lambda: Revolute(phi=fixed(0.3), w=fixed(2)),
@@ -39,9 +40,7 @@ def ring(joint, sides=3, closed=True, length=0.5, more=0.0) -> Model:
     return Ring()
 
 
-@pytest.mark.parametrize("method", ["auto", "rosenbrock", "idas"])
-@pytest.mark.parametrize("joint", JOINTS)
-@pytest.mark.parametrize("sides", [3, 5])
+@pytest.mark.parametrize(("sides", "joint", "method"), pairwise([3, 5], JOINTS, ["auto", "rosenbrock", "idas"]))
 def test_a_polygon_moves_as_the_one_that_is_not_closed(sides: int, joint: str, method: str) -> None:
     found, open_ = (
         ac.simulate(ring(JOINTS[joint](), sides, closed), stop_time=0.5, method=method, tolerance=1e-8, intervals=20)

@@ -164,6 +164,7 @@ def cubic(model, stop_time, times, dt, order):
     raise SimulationError(f"no steps at order {order}")
 
 
+@pytest.mark.slow
 def test_a_run_that_takes_too_long_is_stopped():
     """In processes by an alarm; in threads, where there is none, when it reports its progress."""
     slow = Formulation("slow", run=stepped.slow)
