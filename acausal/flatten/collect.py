@@ -106,7 +106,7 @@ def _take_defaults(found: Equations, defaults: list[Late]) -> None:
     alone = _alone(found, slice(0, 2)) if defaults else {}
     for component, name, value, origin in defaults:
         own = getattr(component, name)
-        if not any(_contains(path, component) for s in scalars(own.sx) for path in alone.get(s.element_hash(), ())):
+        if not any(_is_stated(s, component, alone) for s in scalars(own.sx)):
             with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v()), o), origin)
             PENDING.get().place(origin)
 
@@ -122,9 +122,10 @@ def _alone(found: Equations, sides: slice) -> dict[int, list[str]]:
     return alone
 
 
-def _contains(path: str, component: Component) -> bool:
-    """Whether the part at a path contains a component."""
-    return path == "" or component._path.startswith(f"{path}.")
+def _is_stated(symbol: ca.SX, component: Component, alone: dict[int, list[str]]) -> bool:
+    """Whether a part that contains a component has a symbol of it alone on a side."""
+    paths = alone.get(symbol.element_hash(), ())
+    return any(path == "" or component._path.startswith(f"{path}.") for path in paths)
 
 
 def _given(component: Component, name: str, value: Any) -> Any:
@@ -214,10 +215,7 @@ def _balance(balance: Balance, found: Equations, stated: dict[int, list[str]]) -
         for name, declared in same[0].fields.items():
             if isinstance(declared, f.Variable) and declared.flow:
                 flows = [(getattr(c, name).sx, sign) for c, (_, sign) in zip(same, balance, strict=True)]
-                entries = scalars(flows[0][0]) if len(balance) == 1 else []
-                if entries and all(
-                    any(_contains(path, first._owner) for path in stated.get(s.element_hash(), ())) for s in entries
-                ):
+                if len(balance) == 1 and all(_is_stated(s, first._owner, stated) for s in scalars(flows[0][0])):
                     continue
                 total = reduce(lambda a, b: combined(a, "+", b), [sx if sign > 0 else -sx for sx, sign in flows])
                 zero = Expr(ca.SX.zeros(*total.shape))
