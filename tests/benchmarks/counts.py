@@ -33,7 +33,7 @@ def runs() -> Iterator[tuple[str, Run]]:
     """Yield the name of each run, and the run."""
     for name, scene in models.SCENES.items():
         how = {"stop_time": SHORT[name]} if name in SHORT else {}
-        yield from _each(name, partial(ac.compile, scene), TOLERANCES, **how)
+        yield from _each(name, lambda s=scene: ac.compile(s()), TOLERANCES, **how)
     for one in events.SCENES:
         yield from _each(f"events/{one.name}", lambda one=one: ac.compile(one.make()), TOLERANCES, **one.span(False))
     for name, machine in loops.SCENES.items():
