@@ -7,8 +7,7 @@ import numpy as np
 
 from acausal.compiler.compiled_model import CompiledModel
 from acausal.compiler.once import once
-from acausal.compiler.set_valued import MODE
-from acausal.core import Equations, Sampled, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
+from acausal.core import Equations, Square, Tape, laws_of, make_equations, make_square, make_tape, with_powers
 from acausal.instructions import READABLE
 from acausal.language.functions import time
 
@@ -83,67 +82,3 @@ def core_motion(compiled: CompiledModel) -> tuple[Square | None, Tape]:
     if not rates.numel():
         return None, tape
     return make_square(arguments, 2, inner @ rates + follows, 5, np.arange(rates.numel())), tape
-
-
-@once
-def core_sampled(compiled: CompiledModel, works: bool, moves: bool) -> Sampled | None:
-    """Return the model as the core runs it over instants that discrete variables plan; None where it does not.
-
-    That is where nothing is planned, where what is differentiated may jump, and without states.
-
-    Parameters
-    ----------
-    compiled : CompiledModel
-        The model.
-    works, moves : bool
-        As of `core_equations`.
-    """
-    r, guards = compiled.reduced, compiled.guards
-    if not compiled.nx or guards.differentiated or not guards.plans:
-        return None
-    moving, watched = core_motion(compiled)
-    given = r.x, r.z, r.p, time.sx, r.constants
-    nominal = ca.SX.sym("nominal", compiled.nx + compiled.nz)
-    values, to, jump = list[ca.SX](), list[int](), [0]
-    for guard in guards.watched:
-        if guards.guards[guard].jumps:
-            call, places = guards.jump(guard)
-            values.append(call.function(*given))
-            to += [-1 - place if is_state else guards.n_switches + place for is_state, place in places]
-        jump.append(len(to))
-    planned = guards.planned.function(r.p, r.constants)
-    column = ca.vertcat(guards.scale.function(*given, nominal), *values, planned)
-    arguments = [r.p, r.constants, r.x, r.z, time.sx, nominal]
-    acts = make_tape(ca.Function("acts", arguments, [ca.densify(column)], READABLE))
-    c, project = compiled.constraints, None
-    if c.size:
-        project = make_tape(ca.Function("project", arguments[:-1], [c.coordinates.function(*given)], READABLE))
-    energetic, energies = list[int](), None
-    if works:
-        column = ca.vertcat(compiled.powers, compiled.energy)
-        energies = make_tape(ca.Function("energies", arguments[:-1], [ca.densify(column)], READABLE), early=(0, 1))
-        energetic = compiled.dependence.needed(compiled.dependence.inside(column))[0].tolist()
-    modes = set(guards.laws.places[:, MODE].tolist())
-
-    def decides(guard: int) -> bool:
-        return guard < guards.n_switches or any(jump.discrete in modes for jump in guards.guards[guard].jumps)
-
-    everything = tuple(range(compiled.nz))
-    needed = tuple(compiled.dependence.needed(guards.needs)[0].tolist())
-    return Sampled(
-        core_equations(compiled, False, moves),
-        core_square(compiled, everything) if everything else None,
-        core_square(compiled, needed) if needed else None,
-        moving,
-        core_square(compiled, tuple(energetic)) if energetic else None,
-        energies,
-        watched,
-        acts,
-        is_switch=np.array([decides(guard) for guard in guards.watched], dtype=np.int32),
-        is_clocked=np.array(guards.clocked, dtype=np.int32),
-        jump=np.array(jump, dtype=np.int32),
-        to=np.array(to, dtype=np.int32),
-        project=project,
-        coordinate=np.array(c.places, dtype=np.int32),
-        multiplier=c.multipliers.astype(np.int32),
-    )

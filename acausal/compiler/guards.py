@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
@@ -232,11 +233,20 @@ class Guards:
 
     @cached_property
     def motion(self) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Watched excesses, their rates with z held, their Jacobian by the z in them, and what determines the rates of these.
+        """How all watched excesses move, as of `motion_of`."""
+        return self.motion_of(self.watched)
+
+    def motion_of(self, some: Sequence[int]) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
+        """Return excesses, their rates with z held, their Jacobian by the z in them, and what determines the rates of these.
 
         The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
+
+        Parameters
+        ----------
+        some : sequence of int
+            Guards.
         """
-        r, excess = self.reduced, self.excess[self.watched]
+        r, excess = self.reduced, self.excess[list(some)]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
         unknowns, equations = (k.tolist() for k in self._dependence.needed(self._dependence.inside(excess)))
         z, own = r.z[unknowns], r.running.alg[equations]

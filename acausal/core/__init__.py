@@ -6,8 +6,7 @@ from acausal.core.library import library, why_not
 from acausal.core.lu import LU
 from acausal.core.model_file import StoredModel
 from acausal.core.rodas import End, Equations, Outputs, Rodas, make_equations, with_powers
-from acausal.core.sampled import Sampled
-from acausal.core.sampler import Back, SampledState, Sampler, Samples
+from acausal.core.run import Back, Rows, Run, RunState
 from acausal.core.settle import Settler, Square, make_square
 from acausal.core.tape import Tape, make_tape
 
@@ -19,10 +18,9 @@ __all__ = [
     "Equations",
     "Outputs",
     "Rodas",
-    "Sampled",
-    "SampledState",
-    "Sampler",
-    "Samples",
+    "Rows",
+    "Run",
+    "RunState",
     "Settler",
     "Square",
     "StoredModel",

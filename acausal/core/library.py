@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
+from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_void_p
 from functools import cache
 
 import numpy as np
@@ -115,9 +115,14 @@ FUNCTIONS = {
     "ac_rodas_go": (c_int32, (c_void_p, c_int64, POINTER(Progress))),
     "ac_rodas_renew": (None, (c_void_p,)),
     "ac_rodas_free": (None, (c_void_p,)),
-    "ac_sampler_make": (c_void_p, (c_void_p,)),
-    "ac_sampler_go": (c_int32, (c_void_p,) * 7),
-    "ac_sampler_free": (None, (c_void_p,)),
+    "ac_unit_read": (c_void_p, (c_char_p, c_size_t, POINTER(c_int32))),
+    "ac_unit_free": (None, (c_void_p,)),
+    "ac_instance_make": (c_void_p, (c_void_p,)),
+    "ac_instance_free": (None, (c_void_p,)),
+    "ac_message": (c_char_p, (c_void_p,)),
+    "ac_run_begin": (None, (c_void_p, c_double, c_double, c_double, c_int32, *[c_void_p] * 5)),
+    "ac_run_go": (c_int32, (c_void_p, c_void_p, c_void_p)),
+    "ac_run_values": (None, (c_void_p,) * 7),
 }
 
 

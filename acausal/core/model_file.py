@@ -59,17 +59,28 @@ class StoredModel:
         given = (len(self.x), len(self.z), len(self.p), len(self.c), len(self.size), len(self.rate), len(self.names))
         if given != (e.nx, e.nz, e.np, e.nc, e.nx, e.nx, e.nx):
             raise ValueError("the start does not fit the equations")
+        return {**equations_sections(e), **self.start}
+
+    @property
+    def start(self) -> dict[str, bytes]:
+        """Those of them that hold the start and the states."""
         return {
-            "numbers": ints([e.nx, e.nz, e.np, e.nc]),
-            "values": tape_bytes(e.values),
-            "slopes": tape_bytes(e.slopes),
-            **({"powers": tape_bytes(e.powers)} if e.powers else {}),
-            "pattern": ints(e.start) + ints(e.row) + ints(e.diagonal),
             "start": b"".join(map(floats, ([self.time], self.x, self.z, self.p, self.c))),
             "sizes": floats(self.size),
             "rates": ints(self.rate),
             "names": b"".join(name.encode() + b"\0" for name in self.names),
         }
+
+
+def equations_sections(e: Equations) -> dict[str, bytes]:
+    """Return the content of the sections of equations by their tags."""
+    return {
+        "numbers": ints([e.nx, e.nz, e.np, e.nc]),
+        "values": tape_bytes(e.values),
+        "slopes": tape_bytes(e.slopes),
+        **({"powers": tape_bytes(e.powers)} if e.powers else {}),
+        "pattern": ints(e.start) + ints(e.row) + ints(e.diagonal),
+    }
 
 
 def framed(version: int, sections: dict[str, bytes]) -> bytes:

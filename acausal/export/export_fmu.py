@@ -149,10 +149,10 @@ def _token(content: bytes) -> str:
 
 def _expressions(content: Content, table: Table, references: Sequence[int]) -> dict[int, ca.SX]:
     """What rates, variables and indicators are."""
-    rates = dict(zip(table.rates, scalars(content.running[0]), strict=True))
-    shown = {table.first_shown + k: e for k, e in enumerate(scalars(content.moving(stacked(table.shown))))}
+    rates = dict(zip(table.rates, scalars(content.runtime.running[0]), strict=True))
+    shown = {table.first_shown + k: e for k, e in enumerate(scalars(content.runtime.moving(stacked(table.shown))))}
     first = table.first_shown + len(table.shown)
-    excess = scalars(content.moving(picked(content.problem.compiled.guards.excess, content.watched)))
+    excess = scalars(content.runtime.moving(picked(content.problem.compiled.guards.excess, content.watched)))
     watched = {first + k: e for k, e in enumerate(excess)}
     return {k: e for k, e in (rates | shown | watched).items() if k in set(references)}
 
@@ -165,7 +165,7 @@ def _dependencies(
     inputs = [k for k, _ in content.given.inputs]
     knowns = ca.vertcat(time.sx, r.x, picked(content.given.symbols, inputs))
     references = [TIME, *table.states, *(table.parameters + k for k in inputs)]
-    reach = Reach(content.running[1], r.z, knowns)
+    reach = Reach(content.runtime.running[1], r.z, knowns)
     found = _expressions(content, table, [*outputs, *table.rates, *indicators])
     return {k: tuple(references[j] for j in reach(e)) for k, e in found.items()}
 
@@ -177,7 +177,7 @@ def _initial(content: Content, table: Table, solved: set[int], outputs: Sequence
     state_of = {place: state for state, place in own.starts.items()}
     references = [table.states[state_of[k]] if k in state_of else table.parameters + k for k in settable]
     y = ca.vertcat(r.x, r.z)
-    reach = Reach(content.moving(content.beginning.residuals), y, picked(own.symbols, settable))
+    reach = Reach(content.runtime.moving(content.beginning.residuals), y, picked(own.symbols, settable))
     wanted = sorted(solved & {*outputs, *table.rates, *table.states})
     expressions = _expressions(content, table, wanted)
     expressions |= dict(zip(table.states, scalars(r.x), strict=True))

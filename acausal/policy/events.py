@@ -72,14 +72,12 @@ class Rests:
 
 @dataclass(frozen=True)
 class Sampling:
-    """Planned instants that are passed at one go."""
+    """Slices of a run in the core."""
 
     # Rows at one go, and numbers in them: 8 MB.
     rows: int = 512
     numbers: int = 1_000_000
-    # Steps from one instant to the next: where there are more, the search for events costs less than they do.
-    steps: int = 64
-    # Instants at most that are left to the search after one with something else, before the next try: twice as many each time.
+    # Events at most that are left to the search after one that was in doubt, before the next try: twice as many each time.
     longest: int = 64
 
 

@@ -150,60 +150,6 @@ AC_PUBLIC int32_t ac_rodas_go(ac_rodas *r, int64_t steps, ac_progress *progress)
 AC_PUBLIC void ac_rodas_renew(ac_rodas *r);
 AC_PUBLIC void ac_rodas_free(ac_rodas *r);
 
-/* Conditions that are watched, and variables that jump at instants which they plan, such as those of a sampled controller.
-   The inputs of the squares and tapes are p, c, x, z, t, and what is named. */
-typedef struct {
-    const ac_equations *equations;
-    const ac_square *whole, *needed; /* for all algebraic unknowns, and for those that conditions need; NULL where there are none */
-    const ac_square *moving;         /* for the rates of some of them, which stand behind the inputs; NULL for none */
-    const ac_square *powering;       /* for what energies need; NULL for none */
-    const ac_tape *energies;         /* supplied and dissipated power, stored energy; NULL where they are not asked for */
-    const ac_tape *watched;          /* of these rates too: conditions, hold where they are not positive; their rates */
-    const ac_tape *acts;             /* of nominal values of x, z too: what these change in conditions; new values; instants */
-    const ac_tape *project;          /* where closed loops have coordinates; NULL where there are none */
-    int32_t conditions, jumps, multipliers;
-    const int32_t *is_switch;        /* (conditions) of a switch, not of jumps */
-    const int32_t *is_clocked;       /* (conditions) of time and discrete variables alone */
-    const int32_t *jump;             /* (conditions + 1) where the jumps of each begin */
-    const int32_t *to;               /* (jumps) place of each new value in c; -1 - place in x */
-    const int32_t *coordinate;       /* (outputs of project) places in x */
-    const int32_t *multiplier;       /* (multipliers) places in z, of what keeps coordinates there */
-} ac_sampled;
-
-/* What a run over planned instants is asked for. The thresholds are those of acausal/policy/events.py. */
-typedef struct {
-    const ac_request *steps;         /* tolerance, sizes and kind of its steps; the rest of it is not read */
-    double end;                      /* of the segment in s */
-    int64_t most, longest, ringing;  /* steps, refused ones too: after which no leg begins; of a leg; of one that is longer than: */
-    double calm;                     /* in s */
-    int32_t density, fine, outputs;  /* pairs of looks between outputs, parts of a step at least; times of all outputs */
-    double span;                     /* of the run in s */
-    double tolerance, soon, moves, level, reach, error, shortest, added, crowded, enough, noise, apart;
-    const double *p, *time;          /* parameters; (outputs) in s, ascending */
-    const double *nominal, *declared; /* (nx + nz) sizes in the run, (nz) as they were stated */
-    int32_t room;                    /* for rows */
-    double *row_time, *row_x, *row_z, *row_c, *row_event; /* (room, ...); the time of its event, nan where there is none */
-    double *row_work;                /* (room, 2) supplied and dissipated energy since it began, where they are asked for */
-    double *peak;                    /* (conditions) greatest values seen, positive where nothing changes; to be raised */
-} ac_samples;
-
-/* Where it is: instants are passed whole or not at all. */
-typedef struct {
-    double time, step;               /* the longer of the last two steps, 0 for none */
-    int64_t steps, refused, values, evaluations, instants;
-    int32_t rows;
-} ac_sampled_state;
-
-/* Why it came back: no more instants in the segment; no room for rows, or no steps left; something else may happen. */
-enum { AC_NO_INSTANT, AC_FULL, AC_DOUBT };
-
-typedef struct ac_sampler ac_sampler;
-
-AC_PUBLIC ac_sampler *ac_sampler_make(const ac_sampled *sampled);
-AC_PUBLIC int32_t ac_sampler_go(ac_sampler *s, const ac_samples *request, ac_sampled_state *state, double *x, double *z, double *c,
-                                int32_t *truth);
-AC_PUBLIC void ac_sampler_free(ac_sampler *s);
-
 /* A model as a file has it; the format is in docs/model-file.md. */
 typedef struct {
     ac_equations equations;

@@ -22,7 +22,9 @@ static size_t lay_out(ac_instance *i, double *at) {
     const ac_equations *e = &u->parts.model.equations;
     const size_t nx = (size_t)e->nx, nz = (size_t)e->nz, n = nx + nz, np = (size_t)e->np, nc = (size_t)e->nc;
     const size_t watched = (size_t)u->watched, all = n + np + nc + (size_t)u->jumps + 3 * watched + 2;
-    size_t longest = ac_tape_length(e->values), used = 0;
+    const size_t moving = (size_t)u->square[AC_MOVING].n;
+    size_t longest = ac_tape_length(e->values), rows = 0, used = 0;
+    for (int k = 0; k < AC_ROW_TAPES; k++) rows = most_of(rows, ac_tape_length(&u->row_tape[k]));
     for (int k = 0; k < AC_TAPES; k++) longest = most_of(longest, ac_tape_length(&u->tape[k]));
     for (int k = 0; k < AC_SQUARES; k++) longest = most_of(longest, ac_tape_length(&u->squared[k]));
     struct {
@@ -30,14 +32,18 @@ static size_t lay_out(ac_instance *i, double *at) {
         size_t size;
     } part[] = {
         {&i->x, nx}, {&i->z, nz}, {&i->p, np}, {&i->c, nc}, {&i->truth, watched}, {&i->held, (size_t)u->timed},
-        {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 4 * watched + 2 * nx}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
+        {&i->crossed, watched}, {&i->sure, n}, {&i->looks, 3 * watched + 2 * nx}, {&i->least, watched}, {&i->width, watched},
+        {&i->peak, watched}, {&i->event_y, n}, {&i->crossing, watched}, {&i->before, n}, {&i->after, n}, {&i->dense, 3 * n}, {&i->rate, nx}, {&i->shown, (size_t)u->shown},
         {&i->guards, 3 * watched}, {&i->work, all}, {&i->other, all}, {&i->flips, (size_t)u->switches + watched + (size_t)u->timed}, {&i->dw, longest}, {&i->values, ac_tape_length(e->values)},
-        {&i->step_y, n}, {&i->order, 3 * n + 1},
+        {&i->step_y, n}, {&i->order, 3 * n + 1}, {&i->sampled, AC_SLOTS * 3 * watched}, {&i->errors, AC_SLOTS * watched},
+        {&i->row_w, rows}, {&i->kept, n + nc + 2 * watched}, {&i->samples.time, AC_ROWS}, {&i->samples.x, AC_ROWS * nx},
+        {&i->samples.z, AC_ROWS * nz}, {&i->samples.found, AC_ROWS * (2 * watched + 3)}, {&i->samples.solution, AC_ROWS * most_of(nz, moving)},
+        {&i->samples.scale, 2 * most_of(nz, moving)},
     };
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         if (at) *part[k].to = at + used;
         used += part[k].size;
-        if (part[k].to == &i->dense) i->kept = used;
+        if (part[k].to == &i->dense) i->saved = used;
     }
     for (int k = 0; k < AC_TAPES; k++) {
         if (at) i->w[k] = at + used;
@@ -96,7 +102,7 @@ void ac_restart(ac_instance *i) {
 int32_t ac_reset(ac_instance *i) {
     const ac_unit *u = i->of;
     const ac_model *m = &u->parts.model;
-    memset(i->x, 0, i->kept * sizeof *i->x);
+    memset(i->x, 0, i->saved * sizeof *i->x);
     memset(&i->now, 0, sizeof i->now);
     ac_restart(i);
     ac_put(i->p, m->p, m->equations.np);
@@ -195,7 +201,7 @@ int32_t ac_know(ac_instance *i, int32_t what) {
     const ac_unit *u = i->of;
     const ac_equations *e = &u->parts.model.equations;
     if (!(i->now.known & AC_Z)) {
-        if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, ac_unsolved(i));
+        if (ac_solve(i, AC_ALGEBRAIC) && follow(i)) return ac_fail(i, AC_RETRY, AC_UNSOLVED_TEXT);
         i->now.known |= AC_Z;
         ac_put(i->sure, i->x, e->nx);
         ac_put(i->sure + e->nx, i->z, e->nz);

@@ -10,17 +10,22 @@
 
 /* Tapes beside those of the equations; their inputs are x, z, t, p, c, too. */
 enum { AC_HEAD, AC_SHOWN, AC_GUARDS, AC_TIMED, AC_INSTANTS, AC_JUMPS, AC_CLOSING, AC_COORDINATES, AC_LIMITS, AC_TAPES };
-/* Square systems; their inputs are p, c, x, z, t. */
-enum { AC_ALGEBRAIC, AC_INITIAL, AC_SQUARES };
+/* Square systems; their inputs are p, c, x, z, t: for all algebraic unknowns; for all unknowns at the start; for the algebraic
+   unknowns that event indicators need, those that powers need; of the derivatives of the former, which are inputs behind t. */
+enum { AC_ALGEBRAIC, AC_INITIAL, AC_INDICATING, AC_POWERING, AC_MOVING, AC_SQUARES };
+/* Tapes that are evaluated at many points; their inputs are p, c, x, z, t, of the first the derivatives of AC_MOVING too:
+   event indicators and their derivatives; supplied and dissipated power and stored energy, or nothing. */
+enum { AC_INDICATORS, AC_ENERGIES, AC_ROW_TAPES };
 /* What an entry of p is. */
 enum { AC_TUNABLE, AC_FIXED, AC_INPUT, AC_STARTS, AC_INNER };
 
 /* What a limit is, and so when it is looked at: of a parameter; required of parameters; of variables at the start. */
 enum { AC_LIMITED, AC_REQUIRED, AC_REQUIRED_AT_START };
 
-/* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on. */
+/* A condition: the switch that it sets, or -1; whether it holds at 0; whether it acts at the start; its jumps, from one on; whether
+   it compares time with discrete variables alone. */
 typedef struct {
-    int32_t on, inclusive, at_start, jump, jumps;
+    int32_t on, inclusive, at_start, jump, jumps, clocked;
 } ac_guard;
 
 /* Constraints that are closed together, and the states that may change for that. */
@@ -38,9 +43,8 @@ struct ac_unit {
     /* Numbers of switches, discrete variables, closures, variables, watched conditions, those of time alone, instants, jumps,
        constraints, inputs, levels. */
     int32_t switches, discretes, closures, shown, watched, timed, instants, jumps, constraints, inputs, levels;
-    ac_tape tape[AC_TAPES], squared[AC_SQUARES];
+    ac_tape tape[AC_TAPES], squared[AC_SQUARES], row_tape[AC_ROW_TAPES];
     ac_square square[AC_SQUARES];
-    int32_t *places;                        /* of the unknowns of both, one after the other */
     const int32_t *role, *start_of;         /* (np) what each entry is; (nx) its entry of p that is its start, or -1 */
     const int32_t *input;                   /* (inputs, 2) entry of p and of its slope; then the entry of the time of both */
     const ac_guard *guard;                  /* (watched + timed) */
@@ -69,10 +73,13 @@ typedef struct {
     double next, event;                    /* of the instants that are known; event in the last step; infinite for none */
     double sure_time;                      /* of the last point at which the algebraic unknowns were solved for */
     double crowd;                          /* since when events follow one another closely */
+    double delay;                          /* for how long the time of the event is uncertain by the tolerance */
+    double since, longer, last;            /* where the output interval begins; the longer of the last two steps, and the last one */
     int32_t phase, simulates, known;       /* known: what of the values is that of the present, see AC_Z... */
     int32_t curved, integrates, first, failed; /* an interpolant is there, in Model Exchange a point; the integration goes on; the first event is to come */
     ac_pace pace;                          /* of the integration */
     int32_t crowded;                       /* events of the crowd */
+    int32_t weak, hasty;                   /* events in a row with hardly any motion between; whether samples may have missed some */
     int32_t given;                         /* values were set since the last step, by which conditions may change at once */
     int32_t sure;                          /* whether there is such a point, with these parameters */
     int32_t taken;                         /* steps since closed loops were at their constraints */
@@ -83,10 +90,25 @@ typedef struct {
 enum { AC_Z = 1, AC_RATE = 2, AC_SHOW = 4, AC_GUARD = 8, AC_FIRST = 16, AC_FACTORS = 32 };
 #define SETTLED 1e-7 /* change over the size after which the next one would be rounding, as in `Consistent` */
 
+#define AC_ROWS 32         /* points at which indicators or powers are evaluated at once, at most */
+#define AC_FIRST_SAMPLES 8 /* samples of the first step after an event */
+#define AC_SLOTS 52        /* samples of indicators in a step that are kept at a time */
+
+/* Points of a step: (AC_ROWS, ...) each; `found`: what is evaluated there; `solution`: of a square, `solved`: whether it is one. */
+typedef struct {
+    double *time, *x, *z, *found, *solution, *scale;
+    int32_t solved[AC_ROWS];
+} ac_samples;
+
+/* Counts of steps, refused ones, evaluations of the equations, of parts of them, and integrations that were begun. */
+typedef struct {
+    int64_t steps, refused, values, evaluations, begun;
+} ac_counts;
+
 struct ac_instance {
     const ac_unit *of;
     ac_now now;
-    size_t kept;                            /* numbers from x on that belong to the state */
+    size_t saved;                           /* numbers from x on that belong to the state */
     double *x, *z, *p, *c, *truth, *held, *crossed; /* truth, crossed: of watched conditions, held: of those of time alone */
     double *before, *after, *dense;         /* interpolant: (n), (n), (3, n); in Model Exchange the last point that was kept, its rates */
     double *sure;                           /* x and z of the last point at which z was solved for */
@@ -94,9 +116,17 @@ struct ac_instance {
     double *w[AC_TAPES], *values, *dw;      /* of the tapes; values: of the equations; dw: of the longest */
     ac_settler *settler[AC_SQUARES];
     ac_rodas *rodas;
-    double *looks;                          /* conditions and their rates at the ends of a part of a step, rates at those of the step */
+    double *looks;                          /* values, rates and levels of indicators at the end of the last step; rates of states at its ends */
+    double *least, *width, *peak;           /* of indicators: levels of what was not positive, tolerance bands, greatest values since the last event */
+    ac_samples samples;
+    double *event_y, *crossing;             /* states and algebraic unknowns at the event; indicators that change there */
+    double *sampled, *errors, *row_w;       /* work of `ac_locate`; array of the row tapes */
+    double *kept;                           /* what an event iteration that fails goes back to: x, z, c, truth, crossed */
+    ac_counts counts;
+    double energy[2];                       /* supplied and dissipated energy */
+    struct ac_recorder *recorder;           /* of a run; NULL in Co-Simulation */
     double *step_y, step_time;              /* a step as the integrator writes it */
-    double ends[2];                         /* of the integration */
+    double ends[3];                         /* of the integration, with the first output or communication point between */
     int32_t going;                          /* whether the integrator is where the last step ended */
     double *order;                          /* of pivots, while they are copied; x and z on the way to a point */
     int32_t prepared;                       /* tapes whose early runs are done */
@@ -110,6 +140,7 @@ typedef struct {
     const double *x, *rate;
 } ac_point;
 
+#define AC_UNSOLVED_TEXT "the equations have no solution here."
 #define AC_FLAT_TEXT "closed loops pass a flat position: two ways lead on from there, and rounding would choose one."
 
 void ac_put(double *to, const double *from, int32_t count);     /* copy; NULL: nothing */
@@ -141,10 +172,16 @@ double ac_next_instant(ac_instance *i, double *between);
 double ac_width(const ac_instance *i, int32_t guard);           /* how far off a condition may be; they have to be known */
 void ac_stand(ac_instance *i, double time);                     /* at a time within the last step of Co-Simulation */
 int32_t ac_refuse_jump(ac_instance *i);
+void ac_sample_step(ac_instance *i, int32_t rows);
+int32_t ac_sample_indicators(ac_instance *i, int32_t rows);
+int32_t ac_sample_energies(ac_instance *i, int32_t rows);
+int32_t ac_locate(ac_instance *i);                              /* the first event of the last step */
+int32_t ac_add_work(ac_instance *i, double from, double to);
+int32_t ac_stored_energy(ac_instance *i, double *stored);
+void ac_add_jump(ac_instance *i, double change);
 double ac_sharpness(ac_instance *i);
 int ac_is_unfit(ac_instance *i);
 void ac_keep(ac_instance *i);
-const char *ac_unsolved(const ac_instance *i);                  /* what to say where the equations have no solution */
 int32_t ac_flat(ac_instance *i, const ac_point *a, const ac_point *b);
 int ac_is_flat(ac_instance *i);
 

@@ -2,68 +2,76 @@
    Which of them follow from the others changes with the position; as `kept.py`. */
 #include "instance.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SWEEPS 30     /* of Jacobi's method; a few are enough */
-#define ROUNDING 1e-15
-#define LARGEST 64    /* constraints of which a decomposition costs less than a step */
+#define HALVINGS 60    /* of the interval that holds an eigenvalue: to rounding of the largest */
 #define FAIRLY 0.5    /* how well kept constraints hold the others: below, others are kept, as `simulate` does */
 
 /* Constraints of positions at the present, over the size of each equation: A (m, n), Q as much; how many of them are kept. */
 typedef struct {
     int32_t m, n, kept;
-    double *A, *Q, *G; /* G: (m, m) */
-    int32_t on[LARGEST];
+    double *A, *Q, *G; /* G: (m, m) and 4 m more */
+    int32_t *on, *row;
 } held;
 
-/* The r-th largest eigenvalue of a symmetric matrix, by Jacobi's method. */
-static double eigenvalue(double *G, int32_t m, int32_t r) {
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        double off = 0;
-        for (int32_t a = 0; a < m; a++) {
-            for (int32_t b = a + 1; b < m; b++) {
-                const double g = G[a * m + b];
-                off = fmax(off, fabs(g));
-                if (fabs(g) <= ROUNDING) continue;
-                const double theta = (G[b * m + b] - G[a * m + a]) / (2 * g);
-                const double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(1 + theta * theta));
-                const double c = 1 / sqrt(1 + t * t), s = t * c;
-                for (int32_t k = 0; k < m; k++) {
-                    const double x = G[k * m + a], y = G[k * m + b];
-                    G[k * m + a] = c * x - s * y, G[k * m + b] = s * x + c * y;
-                }
-                for (int32_t k = 0; k < m; k++) {
-                    const double x = G[a * m + k], y = G[b * m + k];
-                    G[a * m + k] = c * x - s * y, G[b * m + k] = s * x + c * y;
-                }
-            }
+/* Reduce a symmetric matrix to tridiagonal form by reflections (Golub and Van Loan 2013, algorithm 8.3.1): diagonal d, squares e of
+   what stands beside it. */
+static void tridiagonal(double *G, int32_t m, double *d, double *e, double *v, double *w) {
+    for (int32_t k = 0; k < m; k++) {
+        double length = 0, along = 0;
+        for (int32_t a = k + 1; a < m; a++) v[a] = G[a * m + k], length += v[a] * v[a];
+        d[k] = G[k * m + k], e[k] = length;
+        if (k + 2 >= m || length == v[k + 1] * v[k + 1]) continue;
+        v[k + 1] += copysign(sqrt(length), v[k + 1]);
+        const double beta = 2 / ac_dot(v + k + 1, v + k + 1, m - k - 1);
+        for (int32_t a = k + 1; a < m; a++) w[a] = beta * ac_dot(G + a * m + k + 1, v + k + 1, m - k - 1);
+        along = beta / 2 * ac_dot(w + k + 1, v + k + 1, m - k - 1);
+        for (int32_t a = k + 1; a < m; a++) w[a] -= along * v[a];
+        for (int32_t a = k + 1; a < m; a++) {
+            for (int32_t b = k + 1; b < m; b++) G[a * m + b] -= v[a] * w[b] + w[a] * v[b];
         }
-        if (off <= ROUNDING) break;
     }
-    for (int32_t a = 0; a < m; a++) {
-        int32_t larger = 0;
-        for (int32_t b = 0; b < m; b++) larger += G[b * m + b] > G[a * m + a] || (b < a && G[b * m + b] == G[a * m + a]);
-        if (larger == r - 1) return G[a * m + a];
-    }
-    return NAN;
 }
 
-/* Evaluate the constraints of positions; 0 where there are none, too many, or no memory. */
+/* The r-th largest eigenvalue of a symmetric matrix whose eigenvalues are not negative, by bisection with Sturm sequences. */
+static double eigenvalue(double *G, int32_t m, int32_t r) {
+    double *d = G + m * m, *e = d + m, low = 0, high = 0;
+    tridiagonal(G, m, d, e, e + m, e + 2 * m);
+    for (int32_t k = 0; k < m; k++) {
+        if (!isfinite(d[k])) return NAN;
+        high += d[k];
+    }
+    for (int halving = 0; halving < HALVINGS; halving++) {
+        const double middle = low + (high - low) / 2;
+        int32_t above = 0;
+        double q = 1;
+        for (int32_t k = 0; k < m; k++) {
+            q = d[k] - middle - (k ? e[k - 1] / q : 0);
+            if (q == 0) q = DBL_EPSILON * high + DBL_MIN;
+            above += q > 0;
+        }
+        *(above >= r ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* Evaluate the constraints of positions; 0 where there are none, or no memory. */
 static int32_t hold(ac_instance *i, held *h) {
     const ac_unit *u = i->of;
     const ac_level *l = u->level;
-    if (!u->levels || l->rows > LARGEST) return 0;
+    if (!u->levels) return 0;
     const size_t m = (size_t)l->rows, n = (size_t)l->columns;
     *h = (held){.m = l->rows, .n = l->columns};
-    h->A = calloc(m * (2 * n + m + 1) + 1, sizeof(double));
+    h->A = calloc(m * (2 * n + m + 5) + m + 1, sizeof(double));
     if (!h->A) return 0;
     h->Q = h->A + m * n, h->G = h->Q + m * n;
-    double *size = h->G + m * m;
-    int32_t row[LARGEST];
-    h->kept = ac_counting(i, l, row);
-    for (int32_t a = 0, k = 0; a < h->m; a++) h->on[a] = k < h->kept && row[k] == l->row[a] ? ++k : 0;
+    double *size = h->G + m * m + 4 * m;
+    h->on = (int32_t *)(size + m), h->row = h->on + m;
+    h->kept = ac_counting(i, l, h->row);
+    for (int32_t a = 0, k = 0; a < h->m; a++) h->on[a] = k < h->kept && h->row[k] == l->row[a] ? ++k : 0;
     ac_constraints(i, l->row, h->m, l->column, h->n, h->A);
     ac_measure(i, l->row, h->m, h->A, h->n, size);
     for (int32_t a = 0; a < h->m; a++) {
@@ -84,7 +92,7 @@ static double least(held *h, int kept) {
     return sqrt(fmax(eigenvalue(h->G, m, h->kept), 0));
 }
 
-/* Smallest singular value of the constraints of positions, which is 0 in a flat one; infinite where there are none, or too many.
+/* Smallest singular value of the constraints of positions, which is 0 in a flat one; infinite where there are none.
    Of constraints that follow from one another it is that of all, of as many as are kept. */
 double ac_sharpness(ac_instance *i) {
     held h;
@@ -99,7 +107,7 @@ static void choose(ac_instance *i, held *h) {
     const ac_unit *u = i->of;
     double *on = i->c + u->switches + u->discretes;
     memcpy(h->Q, h->A, (size_t)h->m * (size_t)h->n * sizeof *h->Q);
-    memset(h->on, 0, sizeof h->on);
+    memset(h->on, 0, (size_t)h->m * sizeof *h->on);
     for (int32_t taken = 0; taken < h->kept; taken++) {
         int32_t best = -1, firm = 0;
         double most = -1;
@@ -148,10 +156,4 @@ void ac_keep(ac_instance *i) {
     if (!spares(i) || !hold(i, &h)) return;
     if (unfit(&h)) choose(i, &h);
     free(h.A);
-}
-
-const char *ac_unsolved(const ac_instance *i) {
-    return i->of->levels && i->of->level->rows > LARGEST && spares(i)
-        ? "the equations have no solution here; which constraints of closed loops are kept is not changed among more than 64."
-        : "the equations have no solution here.";
 }

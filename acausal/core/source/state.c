@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define FACTORS 3
+#define FACTORS (AC_SQUARES + 1)
 
 static const char MAGIC[8] = "acstate";
 
@@ -22,7 +22,7 @@ static uint64_t hash(const char *text) {
 }
 
 size_t ac_state_size(const ac_instance *i) {
-    size_t numbers = i->kept;
+    size_t numbers = i->saved;
     for (int k = 0; k < FACTORS; k++) numbers += ac_lu_order_size(factors(i, k));
     return sizeof(head) + sizeof i->now + numbers * sizeof(double);
 }
@@ -39,7 +39,7 @@ void ac_state_write(const ac_instance *i, void *bytes) {
     unsigned char *to = bytes;
     memcpy(to, &own, sizeof own), to += sizeof own;
     memcpy(to, &i->now, sizeof i->now), to += sizeof i->now;
-    memcpy(to, i->x, i->kept * sizeof(double)), to += i->kept * sizeof(double);
+    memcpy(to, i->x, i->saved * sizeof(double)), to += i->saved * sizeof(double);
     for (int k = 0; k < FACTORS; k++) {
         ac_lu_order(factors(i, k), i->order);
         const size_t size = ac_lu_order_size(factors(i, k)) * sizeof(double);
@@ -56,7 +56,7 @@ int32_t ac_state_read(ac_instance *i, const void *bytes, size_t length) {
     }
     from += sizeof own;
     memcpy(&i->now, from, sizeof i->now), from += sizeof i->now;
-    memcpy(i->x, from, i->kept * sizeof(double)), from += i->kept * sizeof(double);
+    memcpy(i->x, from, i->saved * sizeof(double)), from += i->saved * sizeof(double);
     i->now.known &= AC_Z | AC_FIRST;
     i->prepared = 0, i->going = 0;
     for (int k = 0; k < FACTORS; k++) {

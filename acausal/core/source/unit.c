@@ -5,16 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 5
+#define VERSION 6
 
 enum {
-    LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, SQUARE_PATTERN, SQUARE_2, SQUARE_2_PATTERN, TAPES,
-    RULES = TAPES + AC_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
+    LAYOUT = AC_SECTIONS, ROLES, STARTS, INPUTS, SQUARE, TAPES = SQUARE + 3 * AC_SQUARES, ROW_TAPES = TAPES + AC_TAPES,
+    RULES = ROW_TAPES + AC_ROW_TAPES, JUMPS_TO, CLOSE_PATTERN, CLOSURES, KINDS, LEVELS, COORDINATES_TO, FOLLOW_AT, BOUNDS, LIMITED,
     DAMPED, NOMINAL, NATURAL, TOKEN, SECTIONS
 };
 static const char TAG[SECTIONS][AC_TAG + 1] = {
     "numbers", "values", "slopes", "powers", "pattern", "start", "sizes", "rates", "names", "layout", "roles", "starts", "inputs",
-    "settle", "settleat", "begin", "beginat", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits",
+    "settle", "settleat", "settleof", "begin", "beginat", "beginof", "needed", "neededat", "neededof", "power", "powerat", "powerof",
+    "moving", "movingat", "movingof", "head", "shown", "guards", "timed", "instants", "jumps", "closing", "coords", "limits", "watched",
+    "energies",
     "rules", "jumpsto", "closeat", "closures", "kinds", "levels", "coordsto", "followat", "bounds", "limited", "damped", "nominal", "natural",
     "token",
 };
@@ -63,37 +65,58 @@ static int read_tapes(const ac_section *found, ac_unit *u) {
     const ac_equations *e = &u->parts.model.equations;
     const int32_t varying = e->nx + e->nz + 1, inputs = varying + e->np + e->nc;
     const int32_t outputs[AC_TAPES] = {
-        u->switches + u->discretes, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1, -1,
+        -1, u->shown, 2 * u->watched, u->timed, u->instants, u->jumps, -1, -1, -1,
     };
     for (int k = 0; k < AC_TAPES; k++) {
         if (!ac_read_tape(found[TAPES + k], inputs, 0, varying, &u->tape[k])) return 0;
         if (outputs[k] >= 0 && u->tape[k].outputs != outputs[k]) return 0;
     }
-    return 1;
+    /* A model without equations of its start is begun from outside. */
+    const int32_t head = u->tape[AC_HEAD].outputs;
+    return head == u->switches + u->discretes || (!head && !found[SQUARE + 3 * AC_INITIAL + 2].left);
 }
 
-static int read_squares(const ac_section *found, ac_unit *u) {
-    const ac_equations *e = &u->parts.model.equations;
-    const int32_t rare = e->np + e->nc, inputs = rare + e->nx + e->nz + 1;
-    u->places = malloc(((size_t)e->nx + 2 * (size_t)e->nz + 1) * sizeof *u->places);
-    if (!u->places) return 0;
-    int32_t *place = u->places;
-    for (int k = 0; k < AC_SQUARES; k++) {
-        ac_square *q = &u->square[k];
-        ac_section at = found[SQUARE_PATTERN + 2 * k];
-        q->n = k == AC_INITIAL ? e->nx + e->nz : e->nz;
-        q->tape = &u->squared[k];
-        if (!ac_read_tape(found[SQUARE + 2 * k], inputs, rare, inputs, &u->squared[k])) return 0;
-        if (!ac_read_columns(&at, q->n, q->n, &q->start, &q->row) || at.left) return 0;
-        if (u->squared[k].outputs != q->n + q->start[q->n]) return 0;
-        q->unknown = place;
-        for (int32_t j = 0; j < q->n; j++) *place++ = rare + (k == AC_INITIAL ? j : e->nx + j);
+/* Whether unknowns stand one after the other in the inputs. */
+static int ascend(const ac_square *q, int32_t first) {
+    for (int32_t k = 0; k < q->n; k++) {
+        if (q->unknown[k] != first + k) return 0;
     }
     return 1;
 }
 
+/* One square system: its tape, the sparsity of its Jacobian, and the places of its unknowns. */
+static int read_square(const ac_section *found, int32_t inputs, int32_t rare, ac_tape *tape, ac_square *q) {
+    ac_section at = found[1], of = found[2];
+    q->n = (int32_t)(of.left / sizeof *q->unknown), q->tape = tape;
+    q->unknown = integers(of, q->n);
+    return q->unknown && ac_read_tape(found[0], inputs, rare, inputs, tape) && ac_read_columns(&at, q->n, q->n, &q->start, &q->row)
+        && !at.left && tape->outputs == q->n + q->start[q->n] && ac_within(q->unknown, q->n, inputs);
+}
+
+static int read_squares(const ac_section *found, ac_unit *u) {
+    const ac_equations *e = &u->parts.model.equations;
+    const int32_t rare = e->np + e->nc, n = e->nx + e->nz, inputs = rare + n + 1;
+    const int32_t moving = (int32_t)(found[SQUARE + 3 * AC_MOVING + 2].left / sizeof(int32_t));
+    for (int k = 0; k < AC_SQUARES; k++) {
+        const int32_t more = k == AC_MOVING ? moving : 0;
+        if (more > INT32_MAX - inputs || !read_square(found + SQUARE + 3 * k, inputs + more, rare, &u->squared[k], &u->square[k])) return 0;
+    }
+    const ac_square *q = u->square;
+    for (int k = AC_INDICATING; k <= AC_POWERING; k++) {
+        for (int32_t j = 0; j < q[k].n; j++) {
+            if (q[k].unknown[j] < rare + e->nx || q[k].unknown[j] >= rare + n) return 0;
+        }
+    }
+    const ac_tape *t = u->row_tape;
+    return q[AC_ALGEBRAIC].n == e->nz && ascend(&q[AC_ALGEBRAIC], rare + e->nx) && (!q[AC_INITIAL].n || q[AC_INITIAL].n == n)
+        && ascend(&q[AC_INITIAL], rare) && ascend(&q[AC_MOVING], inputs)
+        && ac_read_tape(found[ROW_TAPES + AC_INDICATORS], inputs + moving, rare, inputs + moving, &u->row_tape[AC_INDICATORS])
+        && ac_read_tape(found[ROW_TAPES + AC_ENERGIES], inputs, rare, inputs, &u->row_tape[AC_ENERGIES])
+        && t[AC_INDICATORS].outputs == 2 * u->watched && (!t[AC_ENERGIES].outputs || t[AC_ENERGIES].outputs == 3);
+}
+
 static int read_rules(const ac_section *found, ac_unit *u) {
-    const int32_t guards = u->watched + u->timed, *n = integers(found[RULES], 5 * (int64_t)guards);
+    const int32_t guards = u->watched + u->timed, *n = integers(found[RULES], 6 * (int64_t)guards);
     u->guard = (const ac_guard *)n;
     u->jump = integers(found[JUMPS_TO], 2 * (int64_t)u->jumps);
     if (!n || !u->jump) return 0;
@@ -189,7 +212,5 @@ ac_unit *ac_unit_read(const void *bytes, size_t length, int32_t *why) {
 }
 
 void ac_unit_free(ac_unit *unit) {
-    if (!unit) return;
-    free(unit->places);
     free(unit);
 }

@@ -9,21 +9,21 @@
 typedef struct ac_unit ac_unit;
 typedef struct ac_instance ac_instance;
 
-ac_unit *ac_unit_read(const void *bytes, size_t length, int32_t *why);
-void ac_unit_free(ac_unit *unit);
+AC_PUBLIC ac_unit *ac_unit_read(const void *bytes, size_t length, int32_t *why);
+AC_PUBLIC void ac_unit_free(ac_unit *unit);
 const char *ac_unit_why(int32_t why);              /* in words */
 const char *ac_unit_token(const ac_unit *unit);    /* tells this model from others */
 
 /* Phases, in this order: being set up, being initialised, at an event, between events. */
 enum { AC_SET_UP, AC_INITIALISING, AC_AT_EVENT, AC_RUNNING };
 /* How a call ended: done; refused with nothing changed; tried elsewhere where steps are shorter; never again. */
-enum { AC_OK, AC_REFUSED, AC_RETRY, AC_FAILED };
+enum { AC_OK, AC_REFUSED, AC_RETRY, AC_FAILED, AC_PAUSE, AC_LEAVE }; /* the last two: of runs alone */
 
 /* An instance of a unit, which has to stay; NULL without memory. */
-ac_instance *ac_instance_make(const ac_unit *unit);
-void ac_instance_free(ac_instance *i);
+AC_PUBLIC ac_instance *ac_instance_make(const ac_unit *unit);
+AC_PUBLIC void ac_instance_free(ac_instance *i);
 int32_t ac_reset(ac_instance *i);                  /* as it was made */
-const char *ac_message(const ac_instance *i);      /* of the last call that was not AC_OK */
+AC_PUBLIC const char *ac_message(const ac_instance *i);      /* of the last call that was not AC_OK */
 int32_t ac_phase(const ac_instance *i);
 double ac_time(const ac_instance *i);
 
@@ -41,7 +41,7 @@ int32_t ac_begun(ac_instance *i);                  /* consistent values from her
 
 /* What an event changed, and the next one that is known. */
 typedef struct {
-    int32_t states, ends, planned; /* whether states changed; whether it cannot go on; whether a next time is known */
+    int32_t states, changed, ends, planned; /* whether states changed, or anything; whether it cannot go on; whether a next time is known */
     double next;
 } ac_happened;
 

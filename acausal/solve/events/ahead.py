@@ -160,11 +160,16 @@ class Ahead:
             raise
 
     def _look_closer(self, at: Point) -> None:
-        if self.stride.look_closer():
+        if not self.stride.look_closer():
+            self.tell_of_haste(at.time)
+
+    def tell_of_haste(self, time: float) -> None:
+        """Warn once that samples may miss a change of a condition."""
+        if self._hasty:
             return
         self._hasty = True
         caution(
-            f"from t = {at.time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
+            f"from t = {time:.6g} s on, conditions change faster than they are checked, {2 * self.stride.density} times an "
             "interval; a change that reverts in between is missed. One of these:\n"
             f"{places_text(self.integrator.compiled, self.instants.watched.tolist())}\n"
             "More intervals mean more checks: simulate(..., intervals=...)."

@@ -17,11 +17,11 @@ from acausal.solve.events.agenda import Agenda
 from acausal.solve.events.ahead import Ahead
 from acausal.solve.events.between import work_between
 from acausal.solve.events.chattering import Chattering
+from acausal.solve.events.hybrid import Hybrid, Passed
 from acausal.solve.events.instant import Cycling, Instants
 from acausal.solve.events.locate import Crossing, Undecided
 from acausal.solve.events.many import warn_of_many
 from acausal.solve.events.rests import ends_of_rests
-from acausal.solve.events.sampling import Sampling
 from acausal.solve.integrate.attempt import Integrator
 from acausal.solve.integrate.ladder import Failure
 from acausal.solve.integrate.segment import segment
@@ -62,7 +62,7 @@ class Course:
         self.instants = Instants(problem, settings.tolerance, span, settings.nominal)
         self.ahead = Ahead(integrator, self.instants, times)
         self.agenda = Agenda(self.guards, problem.p, np.union1d(times, self.breaks))
-        self.sampling = Sampling(self.ahead, self.instants, times)
+        self.hybrid = Hybrid(self.ahead, times)
         self.events: list[float] = []
         self.searched = 0  # those of them that were not passed at one go, which cost a hundred times as much
         self.recent: deque[float] = deque(maxlen=INSTANTS.most)
@@ -153,10 +153,10 @@ class Course:
             while at.time < end:
                 at = segment(self.integrator, at, self.ahead.stride.grid(at.time, end))
                 self.ahead.stride.lengthen()
-        happened = -1
         while at.time < end:
-            if happened != len(self.events):
-                at, happened = self._sampled(at, end), len(self.events)
+            if passed := self.hybrid.go(at, end, self.weak):
+                at = self._passed(passed)
+                continue
             instant, row = self.agenda.planned(at, at.time + self.ahead.locator.shortest) or (np.inf, np.inf)
             target = min(instant, row, end)
             at = self._advance(at, target)
@@ -166,19 +166,20 @@ class Course:
             self.integrator.report(at.time)
         return at
 
-    def _sampled(self, at: Point, end: float) -> Point:
-        """Pass planned instants at one go, as many as are sure."""
-        # What is planned a rounding error before a break acts at the break.
-        before = end - (end < self.times[-1]) * self.agenda.added * abs(end)
-        passed = self.sampling.go(at, before) if at.time < before else None
-        if not passed:
-            return at
-        self.integrator.trace.add(passed.leg)
+    def _passed(self, passed: Passed) -> Point:
+        """Keep what the core has passed; let what it left to Python happen at its end."""
+        for leg in passed.legs:
+            self.integrator.trace.add(leg)
         self.events += passed.events
         self.recent.extend(passed.events)
         self.ahead.stride.begin()
         self.integrator.report(passed.at.time)
-        return passed.at
+        crossed, at, self.weak = passed.crossed, passed.at, passed.weak
+        if crossed is None:
+            return at
+        self.ahead.locator.passed = 0.0
+        self._refuse_chattering(at.time, self.instants.watched[crossed].tolist() or self.guards.watched)
+        return self._jump(at, at.time, passed.work, crossed=crossed)
 
     def _advance(self, at: Point, end: float) -> Point:
         """Go as far as one looks ahead at once, or to the first event."""

@@ -1,12 +1,25 @@
-"""A model as the core integrates it without Python."""
+"""The model file with which the core runs a model."""
 
 from __future__ import annotations
 
+import casadi as ca
+import numpy as np
+
+from acausal.compiler import CompiledModel
 from acausal.compiler.core_equations import core_equations
+from acausal.compiler.once import once
+from acausal.compiler.runtime import NOTHING, Runtime
 from acausal.core import StoredModel
-from acausal.solve.integrate.one_step import are_rates
+from acausal.core.model_file import floats, framed, ints
+from acausal.solve.integrate.one_step import are_rates, sizes
+from acausal.solve.integrate.settings import Settings
 from acausal.solve.points import Point
 from acausal.solve.problem import Problem
+from acausal.solve.start.kept import closure_of
+from acausal.solve.start.loop_states import sparing
+from acausal.solve.start.loops import levels
+
+VERSION = 6
 
 
 def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel:
@@ -29,3 +42,71 @@ def stored(problem: Problem, at: Point, works: bool, moves: bool) -> StoredModel
         rate=are_rates(problem),
         names=problem.compiled.states,
     )
+
+
+@once
+def runtime_of(compiled: CompiledModel, energies: bool) -> Runtime:
+    """Return the run-time object of a model; its parameters are those of the model, then nominal values."""
+    nominal = ca.SX.sym("nominal", compiled.nx + compiled.nz)
+    symbols = ca.vertcat(compiled.reduced.p, nominal)
+    return Runtime(
+        compiled, symbols, nominal, compiled.guards.watched, levels(compiled), closure_of(compiled), energies
+    )
+
+
+@once
+def _sections(compiled: CompiledModel, energies: bool) -> dict[str, bytes]:
+    """Sections that do not change from run to run."""
+    runtime, guards, c = runtime_of(compiled, energies), compiled.guards, compiled
+    instants = guards.planned.function(c.reduced.p, c.reduced.constants)
+    counts = guards.n_switches, guards.n_discretes, len(c.constraints.closures)
+    nothing = runtime.tape(NOTHING)
+    return {
+        **runtime.sections,
+        "layout": runtime.layout(counts, 0, 0, instants.numel(), 0),
+        "roles": ints(np.full(runtime.symbols.numel(), 4)),
+        "starts": ints(np.full(c.nx, -1)),
+        "inputs": b"",
+        **runtime.square("begin", NOTHING, 3, []),
+        **dict.fromkeys(("head", "shown", "timed", "limits"), nothing),
+        "instants": runtime.tape(instants if instants.numel() else NOTHING),
+        "rules": runtime.rules([]),
+        "bounds": b"",
+        "limited": b"",
+    }
+
+
+def run_file(problem: Problem, settings: Settings, at: Point, tolerance: float) -> bytes:
+    """Return the model file of a run.
+
+    Parameters
+    ----------
+    problem : Problem
+        The model.
+    settings : Settings
+        How it is to be integrated.
+    at : Point
+        Where it is, consistent.
+    tolerance : float
+        Relative tolerance.
+    """
+    compiled, nominal = problem.compiled, settings.nominal
+    runtime, free = runtime_of(compiled, settings.energy), np.empty(0, dtype=int)
+    start = StoredModel(
+        runtime.equations,
+        at.time,
+        *(at.x, at.z, np.append(problem.p, nominal), at.constants.vector),
+        size=nominal[: compiled.nx],
+        rate=are_rates(problem),
+        names=compiled.states,
+    )
+    follows = sparing(problem, at, free) if compiled.constraints.size else problem.nominal[: compiled.nx]
+    sections = {
+        **_sections(compiled, settings.energy),
+        **start.start,
+        "damped": floats(sizes(problem, nominal, settings.spectrum.vibration)),
+        "nominal": floats([settings.span, tolerance, *nominal, *problem.reaches, *follows]),
+        "natural": floats(nominal[compiled.nx :]),
+        "token": b"run\0",
+    }
+    return framed(VERSION, sections)

@@ -49,7 +49,7 @@ def test_whatever_others_do_while_the_core_integrates(monkeypatch, model, name, 
 
     monkeypatch.setattr(Rodas, "_go", go)
     assert_same([read(ac.simulate(compiled, **options))], expected[:1])
-    assert calls
+    assert calls or compiled.guards.watched  # with events, `Run` goes on
 
 
 def others_may_enter() -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.core import library
+from acausal.core import Run, library
 from acausal.solve import run as module
 from acausal.solve.integrate.by_core import ByCore
 
@@ -92,22 +92,23 @@ def test_interrupted_anywhere(energy, method):
             # The last row may be at an event that has not happened yet.
             rows = slice(0, len(result.time) - 1)
             np.testing.assert_allclose(result[name][rows], whole[name][rows], atol=1e-5)
-    assert kept > PLACES / 2
+    # The core passes most of the run in one line of Python.
+    assert kept > (PLACES / 2 if method == "idas" else 1)
 
 
 @pytest.mark.skipif(library() is None, reason="needs the core")
 def test_steps_of_a_look_ahead_are_counted(monkeypatch):
-    go = ByCore.advance
+    go = Run.go
 
-    def cut(self, steps):
-        go(self, steps)
+    def cut(self, *arguments, **options):
+        go(self, *arguments, **options)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(ByCore, "advance", cut)
+    monkeypatch.setattr(Run, "go", cut)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(Bounces(), stop_time=2.5, method="rosenbrock")
     stats = caught.value.result.stats
-    assert stats.calls == 1
+    assert stats.calls > 0
     assert stats.method_steps == {"rosenbrock": stats.steps}
     assert 0 < stats.steps < stats.residual_evaluations
     assert stats.integration_seconds > 0

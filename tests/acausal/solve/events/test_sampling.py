@@ -26,9 +26,9 @@ from acausal import (
 )
 from acausal.compiler import CompiledModel
 from acausal.core import library
-from acausal.core import sampler as core
-from acausal.core.sampler import Sampler
-from acausal.solve.events.sampling import Sampling
+from acausal.core import run as core
+from acausal.core.run import Run
+from acausal.solve.events.hybrid import Hybrid
 from components import Revolute
 from components.rotational import Torque
 from models import FlexiblePendulum, FourBar
@@ -189,7 +189,7 @@ def both(monkeypatch: Any, model: type[Model], **options: Any) -> tuple[ac.Resul
     """The same run at one go, and by the search."""
     found = ac.simulate(compiled(model), **options)
     with monkeypatch.context() as patch:
-        patch.setattr(Sampling, "go", lambda *_: None)
+        patch.setattr(Hybrid, "go", lambda *_: None)
         return found, ac.simulate(compiled(model), **options)
 
 
@@ -221,15 +221,15 @@ def test_counts_are_those_of_the_search(monkeypatch: Any) -> None:
 def test_it_is_taken(monkeypatch: Any) -> None:
     """All instants but the last one before each end are passed in a few calls."""
     passed = []
-    go = Sampler.go
+    go = Run.go
 
     def counted(*arguments: Any, **options: Any) -> Any:
         passed.append(go(*arguments, **options))
         return passed[-1]
 
-    monkeypatch.setattr(Sampler, "go", counted)
+    monkeypatch.setattr(Run, "go", counted)
     found = ac.simulate(compiled(SampledPendulum), stop_time=1.0)
-    assert sum(samples.state.instants for samples in passed) >= found.stats.events - 5
+    assert sum(len(rows.events) for rows in passed) >= found.stats.events - 5
     assert len(passed) < 10
 
 
@@ -287,7 +287,7 @@ def test_samples_are_no_reason_to_warn(recwarn: pytest.WarningsRecorder) -> None
 
 def test_interrupted_between_instants(monkeypatch: Any) -> None:
     """What was passed before Ctrl-C is kept."""
-    go, calls = Sampler.go, []
+    go, calls = Run.go, []
 
     def interrupted(*arguments: Any, **options: Any) -> Any:
         calls.append(1)
@@ -295,7 +295,7 @@ def test_interrupted_between_instants(monkeypatch: Any) -> None:
             raise KeyboardInterrupt
         return go(*arguments, **options)
 
-    monkeypatch.setattr(Sampler, "go", interrupted)
+    monkeypatch.setattr(Run, "go", interrupted)
     with pytest.raises(KeyboardInterrupt) as caught:
         ac.simulate(compiled(SampledPendulum), stop_time=3.0)
     result: Any = caught.value.result
@@ -343,28 +343,6 @@ def test_what_has_no_value_at_an_instant_is_told_as_by_the_search(monkeypatch: A
         ac.simulate(Lost())
     result: Any = caught.value.result
     assert result.time[-1] == pytest.approx(0.35, abs=0.02)
-
-
-def test_unknowns_that_do_not_fit_are_searched_for_again(monkeypatch: Any) -> None:
-    """An algebraic unknown that came to rest beside its equation, at one instant among many, is not believed."""
-    go, spoilt = Sampler.go, []
-
-    def wrong(*arguments: Any, **options: Any) -> Any:
-        found = go(*arguments, **options)
-        place = np.flatnonzero(np.isfinite(found.events))[len(spoilt) % 3 : 1 + len(spoilt) % 3]
-        found.z[place] *= 1.1
-        spoilt.append(place)
-        return found
-
-    given: Any = {"stop_time": 0.2, "tolerance": 1e-6}
-    right = ac.simulate(compiled(Plant), **given)
-    monkeypatch.setattr(Sampler, "go", wrong)
-    found = ac.simulate(compiled(Plant), **given)
-    assert any(len(place) for place in spoilt)
-    for name in found:
-        np.testing.assert_allclose(found[name], right[name], rtol=0, atol=1e-9, err_msg=name)
-    assert found.stats.events == right.stats.events
-    assert found.stats.calls > right.stats.calls
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6])

@@ -9,6 +9,7 @@
 #define SINGLY 64      /* rounds beyond them, in which one switch changes at a time, as of `Assignments` of Python */
 #define SOON 1e-8      /* of the run: what changes sign within that time does so now */
 #define MOVES 1e-3     /* of the size in a run: a condition that changes less does not move */
+#define ADDED 1e-11    /* of the run, or of a late time: rounding of instants that add up, due + 0.1 again and again */
 #define NEAR 1e-12     /* of the time: instants that near are one, and leave no room for an integration */
 #define LATE 2e-2      /* of the time, where that is long beside the run */
 
@@ -38,7 +39,8 @@ double ac_width(const ac_instance *i, int32_t guard) {
 /* Whether a watched condition holds from now on. */
 static int holds(const ac_instance *i, int32_t k, double rate) {
     const double value = i->guards[k], width = ac_width(i, k), change = rate * i->of->span;
-    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * SOON;
+    const double rounding = ADDED * fmax(1, LATE * fabs(i->now.time) / i->of->span);
+    const int soon = i->crossed[k] > 0 || fabs(value) <= fabs(change) * (i->of->guard[k].clocked ? rounding : SOON);
     return ac_holds(value, change, width, MOVES * width, soon, i->truth[k] > 0);
 }
 
@@ -160,6 +162,7 @@ int32_t ac_happen(ac_instance *i, ac_happened *found) {
         if (!round) look_at_clock(i, &r);
         failed = look_at_conditions(i, &r, round >= ROUNDS);
         if (failed || !r.changes) break;
+        found->changed = 1;
         failed = jump(i, &r, &found->states);
         if (failed) break;
         for (int32_t k = 0; k < u->switches; k++) i->c[k] = r.on[k];

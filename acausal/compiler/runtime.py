@@ -1,0 +1,216 @@
+"""The run-time object of a compiled model: its equations, events and constraints as the sections of a model file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from acausal.compiler.compiled_model import CompiledModel
+from acausal.core import Equations, Square, make_equations, make_square, make_tape
+from acausal.core.model_file import equations_sections, ints, tape_bytes
+from acausal.instructions import READABLE
+from acausal.language.functions import time
+from acausal.symbols import dense, picked, stacked
+
+NOTHING = ca.SX(0, 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Runtime:
+    """What the run-time takes of a compiled model.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    symbols : casadi.SX
+        Parameters of the run-time: those of the model first.
+    nominal : casadi.SX or casadi.DM
+        Nominal values of states and algebraic unknowns, numbers or among these parameters.
+    watched : list of int
+        Conditions that are event indicators.
+    levels : sequence of (rows, columns)
+        Constraints that are closed together, positions first, and the states that they hold.
+    closures : array of int
+        Closure of each constraint, -1 where it is always independent.
+    energies : bool
+        Whether powers are integrated.
+    varied : callable
+        Returns an expression in which inputs vary with time.
+    """
+
+    compiled: CompiledModel
+    symbols: ca.SX
+    nominal: ca.SX | ca.DM
+    watched: list[int]
+    levels: Sequence[tuple[list[int], np.ndarray]]
+    closures: np.ndarray
+    energies: bool = False
+    varied: Callable[[ca.SX], ca.SX] = lambda expression: expression
+
+    def moving(self, expression: ca.SX) -> ca.SX:
+        """Return an expression where the projection moves and inputs vary."""
+        projections = self.compiled.reduced.projections
+        if projections.choice.numel():
+            expression = ca.substitute(expression, projections.moves, 1)
+        return self.varied(expression)
+
+    @cached_property
+    def running(self) -> tuple[ca.SX, ca.SX]:
+        """Derivatives of the states, and residuals."""
+        running = self.compiled.reduced.running
+        return self.moving(running.ode), self.moving(running.alg)
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The equations that are integrated."""
+        x, z, t, p, c = self._symbols
+        return make_equations(x, z, t, p, c, *self.running)
+
+    @cached_property
+    def sections(self) -> dict[str, bytes]:
+        """Sections that follow from the equations, by their tags; those of the start and of the clock are the caller's."""
+        c, by_rows = self.compiled.constraints, self._by_rows
+        return {
+            **equations_sections(self.equations),
+            **self.square("settle", self.running[1], 3, range(self.compiled.nz)),
+            **by_rows,
+            "guards": self.tape(ca.vertcat(self._excess, self._scale)),
+            "jumps": self.tape(self._jumps[0]),
+            "jumpsto": ints([k for place in self._jumps[1] for k in place]),
+            "closing": self.tape(ca.vertcat(self._constraints, self._entries)),
+            "coords": self.tape(self._coordinates[0]),
+            "coordsto": ints(self._coordinates[1]),
+            "closeat": ints(self._closing.sparsity().colind()) + ints(self._closing.sparsity().row()),
+            "closures": ints(self.closures),
+            "kinds": ints(c.kinds),
+            "levels": b"".join(ints([len(rows), len(columns), *rows, *columns]) for rows, columns in self.levels),
+            "followat": ints(c.multipliers) + ints(c.kept.T.ravel()),
+        }
+
+    def layout(self, counts: tuple[int, int, int], shown: int, timed: int, instants: int, inputs: int) -> bytes:
+        """Return the section of numbers; `counts`: of switches, discrete variables and closures among the constants."""
+        jumps, constraints = self._jumps[0].numel(), self.compiled.constraints.size
+        watched, levels = len(self.watched), len(self.levels)
+        return ints([*counts, shown, watched, timed, instants, jumps, constraints, inputs, levels])
+
+    def rules(self, timed: Sequence[int]) -> bytes:
+        """Return the section of conditions: watched ones, then those of time alone.
+
+        Of each, the switch that it sets, whether it holds at 0 and acts at the start, its first jump, how many, and whether
+        it compares time with discrete variables alone.
+        """
+        guards, found = self.compiled.guards, list[int]()
+        first = np.cumsum([0, *(len(guard.jumps) for guard in guards.guards)]).tolist()
+        clocked = dict(zip(guards.watched, guards.clocked, strict=True))
+        for k in (*self.watched, *timed):
+            guard = guards.guards[k]
+            switch = k if k < guards.n_switches else -1
+            numbers = switch, guard.inclusive, guard.at_start, first[k], len(guard.jumps), clocked.get(k, False)
+            found += map(int, numbers)
+        return ints(found)
+
+    def tape(self, column: ca.SX) -> bytes:
+        """Return an expression of x, z, time, parameters and constants as a section holds it."""
+        function = ca.Function("tape", self._symbols, [dense(self.moving(column))], READABLE)
+        return tape_bytes(make_tape(function, early=(3, 4)))
+
+    def square(
+        self, name: str, residuals: ca.SX, argument: int | None, places: Sequence[int] | np.ndarray
+    ) -> dict[str, bytes]:
+        """Return equations for some entries of an argument, or where none is given for states and algebraic unknowns."""
+        x, z, t, p, c = self._symbols
+        residuals, places = self.moving(residuals), np.array(places, dtype=int)
+        if argument is None:
+            return self._square_sections(name, make_square([p, c, ca.vertcat(x, z), t], 2, residuals, 2, places))
+        return self._square_sections(name, make_square([p, c, x, z, t], 2, residuals, argument, places))
+
+    def _square_sections(self, name: str, square: Square) -> dict[str, bytes]:
+        return {
+            name: tape_bytes(square.tape),
+            f"{name}at": ints(square.start) + ints(square.row),
+            f"{name}of": ints(square.unknowns),
+        }
+
+    @cached_property
+    def _symbols(self) -> list[ca.SX]:
+        r = self.compiled.reduced
+        return [r.x, r.z, time.sx, self.symbols, r.constants]
+
+    @property
+    def _by_rows(self) -> dict[str, bytes]:
+        """Indicators and energies, with the squares of the algebraic unknowns that they need."""
+        compiled, (x, z, t, p, c) = self.compiled, self._symbols
+        excess, direct, by_z, inner, follows = (self.moving(part) for part in compiled.guards.motion_of(self.watched))
+        rates = ca.SX.sym("rates", by_z.shape[1])
+        arguments = [p, c, x, z, t, rates]
+        column = dense(ca.vertcat(excess, direct + by_z @ rates)) if self.watched else NOTHING
+        indicators = make_tape(ca.Function("watched", arguments, [column], READABLE), early=(0, 1))
+        moves = inner @ rates + follows if rates.numel() else NOTHING
+        moving = make_square(arguments, 2, moves, 5, np.arange(rates.numel()))
+        energies = dense(self.moving(ca.vertcat(compiled.powers, compiled.energy))) if self.energies else NOTHING
+        powers = make_tape(ca.Function("energies", arguments[:-1], [energies], READABLE), early=(0, 1))
+        dependence = compiled.dependence
+        needed = dependence.needed(dependence.inside(ca.veccat(excess, direct, by_z, inner, follows)))
+        powering = dependence.needed(dependence.inside(energies))
+        return {
+            **self.square("needed", picked(self.running[1], needed[1].tolist()), 3, needed[0]),
+            **self.square("power", picked(self.running[1], powering[1].tolist()), 3, powering[0]),
+            **self._square_sections("moving", moving),
+            "watched": tape_bytes(indicators),
+            "energies": tape_bytes(powers),
+        }
+
+    @property
+    def _excess(self) -> ca.SX:
+        return picked(self.compiled.guards.excess, self.watched)
+
+    @property
+    def _scale(self) -> ca.SX:
+        """Change of each watched excess by nominal changes of the unknowns."""
+        r = self.compiled.reduced
+        J = ca.jacobian(self._excess, ca.vertcat(r.x, r.z))
+        return ca.fabs(J) @ self.nominal if self.watched else NOTHING
+
+    @cached_property
+    def _jumps(self) -> tuple[ca.SX, list[tuple[int, int]]]:
+        guards = self.compiled.guards
+        values, places = list[ca.SX](), list[tuple[int, int]]()
+        for k in range(len(guards.guards)):
+            if guards.guards[k].jumps:
+                call, to = guards.jump(k)
+                values.append(call.function(*guards.arguments))
+                places += [(int(is_state), place) for is_state, place in to]
+        return stacked(values), places
+
+    @property
+    def _constraints(self) -> ca.SX:
+        running = self.compiled.reduced.running
+        return dense(running.constraints) if self.compiled.constraints.size else NOTHING
+
+    @cached_property
+    def _closing(self) -> ca.SX:
+        return ca.jacobian(self._constraints, self.compiled.reduced.x)
+
+    @property
+    def _entries(self) -> ca.SX:
+        J = self._closing
+        return stacked(J.nz[:].elements()) if J.nnz() else NOTHING
+
+    @cached_property
+    def _coordinates(self) -> tuple[ca.SX, list[int]]:
+        """Projected coordinates, and the states that stand for them."""
+        r = self.compiled.reduced
+        place = {v: k for k, v in enumerate(r.plan.states)}
+        to = [place[p.state] for p in r.plan.constrained.projections]
+        return (dense(r.running.resolve(r.projections.coordinates)) if to else NOTHING), to
+
+
+def decides(compiled: CompiledModel) -> bool:
+    """Return whether events decide set-valued laws, or may let something jump that is differentiated."""
+    guards = compiled.guards
+    return bool(guards.differentiated) or len(guards.laws.places) > 0

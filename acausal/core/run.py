@@ -1,0 +1,192 @@
+"""Runs of the hybrid loop of the core: integration, events and rows at outputs, in slices."""
+
+from __future__ import annotations
+
+from ctypes import Structure, byref, c_double, c_int32, c_int64, c_void_p
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from acausal.core.library import address, loaded
+from acausal.locks import apart
+
+
+class Back(IntEnum):
+    """Why a run came back.
+
+    It is at its end; there is no room for more rows; it took its steps; it is at an event, which is left to the caller; or it
+    is in doubt what happens next.
+    """
+
+    END = 0
+    FULL = 1
+    PAUSED = 2
+    EVENT = 3
+    DOUBT = 4
+
+
+class RequestData(Structure):
+    """What the library takes as the request for a run, see `hybrid.h`."""
+
+    _fields_ = (
+        ("end", c_double),
+        ("leaves", c_int32),
+        ("steps", c_int64),
+        ("longest", c_int64),
+        ("outputs", c_int32),
+        ("room", c_int32),
+        *((name, c_void_p) for name in ("time", "row_time", "row_x", "row_z", "row_c", "row_work", "event_time")),
+    )
+
+
+class RunState(Structure):
+    """Where a run is, its energies and counts since it began, and what is doubtful, see `hybrid.h`."""
+
+    _fields_ = (
+        ("time", c_double),
+        ("step", c_double),
+        ("supplied", c_double),
+        ("dissipated", c_double),
+        *((name, c_int64) for name in ("steps", "refused", "values", "evaluations", "begun")),
+        *((name, c_int32) for name in ("rows", "events", "hasty", "why", "weak")),
+    )
+
+
+@dataclass(frozen=True)
+class Rows:
+    """What a slice of a run recorded.
+
+    Attributes
+    ----------
+    back : Back
+        Why it came back.
+    times, x, z, c : arrays, shapes (n,), (n, nx), (n, nz), (n, nc)
+        Rows at outputs, after events and at the end; algebraic unknowns nearly right.
+    work : array, shape (n, 2)
+        Supplied and dissipated energy in J since the run began.
+    events : array, shape (m,)
+        Times of events in s.
+    """
+
+    back: Back
+    times: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    c: np.ndarray
+    work: np.ndarray
+    events: np.ndarray
+
+
+class Run:
+    """An instance of a model that runs, with memory of its own, for one thread at a time.
+
+    Parameters
+    ----------
+    content : bytes
+        The model file.
+    sizes : (int, int, int, int)
+        Numbers of states, algebraic unknowns, constants of a segment and watched conditions.
+    room : int
+        Rows of a slice at most.
+
+    Raises
+    ------
+    ValueError
+        If the file is not readable.
+    """
+
+    def __init__(self, content: bytes, sizes: tuple[int, int, int, int], room: int) -> None:
+        self._library, self._sizes, self._unit, self._memory = loaded(), sizes, None, None
+        why = c_int32()
+        self._unit = self._library.ac_unit_read(content, len(content), byref(why))
+        if not self._unit:
+            raise ValueError(f"the model file is not readable: reason {why.value}")
+        self._memory = self._library.ac_instance_make(self._unit)
+        if not self._memory:
+            raise MemoryError
+        nx, nz, nc, _ = sizes
+        self._rows = [np.empty((room, n)) for n in (1, nx, nz, nc, 2)]
+        self._events, self._room, self.state = np.empty(room), room, RunState()
+
+    def __del__(self) -> None:
+        if getattr(self, "_memory", None):
+            self._library.ac_instance_free(self._memory)
+        if getattr(self, "_unit", None):
+            self._library.ac_unit_free(self._unit)
+
+    def begin(
+        self,
+        time: float,
+        x: np.ndarray,
+        z: np.ndarray,
+        p: np.ndarray,
+        c: np.ndarray,
+        mode: np.ndarray,
+        *,
+        step: float,
+        tolerance: float,
+        damps: bool,
+    ) -> None:
+        """Stand at a consistent point.
+
+        Parameters
+        ----------
+        time : float
+            In s.
+        x, z, p, c : arrays
+            States, algebraic unknowns, parameters and constants of the segment.
+        mode : array of bool
+            Which watched conditions hold.
+        step : float
+            First step in s; chosen if 0.
+        tolerance : float
+            Relative tolerance.
+        damps : bool
+            Whether vibrations are damped that coordinates do not show.
+        """
+        given = [np.ascontiguousarray(a, dtype=float) for a in (x, z, p, c, mode)]
+        self.state = RunState(time=time, step=step)
+        self._library.ac_run_begin(self._memory, time, step, tolerance, damps, *map(address, given))
+
+    def go(self, outputs: np.ndarray, end: float, *, leaves: bool, steps: int, longest: int = 2**62) -> Rows:
+        """Go on to an end, in one slice, while other threads may go on.
+
+        Parameters
+        ----------
+        outputs : array
+            Output times in s, ascending.
+        end : float
+            Where it stops, in s.
+        leaves : bool
+            Whether what happens at events is left to the caller.
+        steps : int
+            Steps after which it pauses, refused ones among them.
+        longest : int
+            Steps between two outputs or events at most.
+        """
+        outputs = np.ascontiguousarray(outputs, dtype=float)
+        request = RequestData(
+            *(end, leaves, steps, longest, len(outputs), self._room, address(outputs)),
+            *map(address, (*self._rows, self._events)),
+        )
+        call = self._library.ac_run_go
+        back = Back(apart(lambda: call(self._memory, byref(request), byref(self.state))))
+        n, m = self.state.rows, self.state.events
+        times, x, z, c, work = (rows[:n].copy() for rows in self._rows)
+        return Rows(back, times[:, 0], x, z, c, work, self._events[:m].copy())
+
+    @property
+    def message(self) -> str:
+        """What the core says of a doubt."""
+        return self._library.ac_message(self._memory).decode()
+
+    def values(self) -> tuple[np.ndarray, ...]:
+        """Return states, algebraic unknowns, constants, watched conditions that hold, their greatest values since the last event,
+        and those that change now.
+        """
+        nx, nz, nc, watched = self._sizes
+        found = [np.empty(n) for n in (nx, nz, nc, watched, watched, watched)]
+        self._library.ac_run_values(self._memory, *map(address, found))
+        x, z, c, mode, peak, crossed = found
+        return x, z, c, mode > 0, peak, crossed > 0

@@ -1,0 +1,290 @@
+/* The hybrid loop: integrate to the next event, locate it, apply it, restart; across communication points where there are no inputs. */
+#include "hybrid.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define AHEAD 100       /* spans of a run: where no stop time is known */
+#define RETURN 64       /* steps after which closed loops go back to their constraints, as `simulate` does */
+#define CROWDED 1e-9    /* of a run: within that time ... */
+#define MOST_CROWDED 100 /* ... so many events, or as many in a row with hardly any motion between, are chattering */
+#define SNAP 0.01       /* of an output interval: an event that near an output, within its tolerance, is at the output */
+#define EARLY 1e-5      /* of a step: an event that comes so early is located again in a shorter step, as the dense output is off by a part
+                           of all that moves in the step; not where it is that many rounding errors of the time away, or fewer */
+#define ROUNDINGS 1000
+#define SHORTER 8       /* times as far as that event */
+
+/* States and guesses of algebraic unknowns at a time within the last step. */
+void ac_stand(ac_instance *i, double time) {
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz, n = nx + nz;
+    const double h = i->now.to - i->now.from, s = h > 0 ? fmin((time - i->now.from) / h, 1) : 1;
+    ac_interpolate(n, i->before, i->after, i->dense, s, 0, nx, i->x);
+    ac_interpolate(n, i->before, i->after, i->dense, s, nx, nz, i->z);
+    i->now.time = time;
+    ac_moved(i);
+}
+
+/* Begin to integrate from the present, or go on after a step that was kept. */
+static int32_t begin(ac_instance *i, double to) {
+    const ac_unit *u = i->of;
+    const ac_model *m = &u->parts.model;
+    const double ahead = isfinite(i->now.stop) && i->now.stop > i->now.time ? i->now.stop : i->now.time + AHEAD * u->span;
+    const double horizon = u->inputs ? to : fmax(to, ahead);
+    const int32_t goes_on = i->now.integrates, damps = i->now.damping > 0;
+    i->ends[0] = goes_on ? i->now.to : i->now.time;
+    if (!goes_on) i->now.end = fmin(horizon, i->now.next);
+    i->ends[1] = fmin(to, i->now.end), i->ends[2] = i->now.end;
+    const ac_request request = {
+        .tolerance = i->now.tolerance, .first_step = goes_on ? i->now.first_step : i->now.longer, .rate = m->rate,
+        .size = damps ? u->damped : m->size, .smooth = !damps, .largest = damps, .singular = damps && u->constraints,
+        .most = INT64_MAX / 4, .outputs = i->ends[1] < i->ends[2] ? 2 : 1, .time = i->ends, .room = 1,
+        .step_time = &i->step_time, .step_y = i->step_y, .step_dense = i->dense,
+    };
+    const double *y = i->after;
+    if (!goes_on) {
+        ac_keep(i);
+        const int32_t failed = ac_know(i, AC_Z);
+        if (failed) return failed;
+        memcpy(i->after, i->x, (size_t)ac_states(i) * sizeof *i->x);
+        memcpy(i->after + ac_states(i), i->z, (size_t)m->equations.nz * sizeof *i->z);
+        i->now.looked = i->now.taken = 0, i->now.last = 0;
+    }
+    ac_rodas_begin(i->rodas, &request, y, y + ac_states(i), i->p, i->c);
+    if (goes_on) {
+        i->rodas->h = i->now.first_step;
+        i->rodas->begun = 1, i->rodas->pace = i->now.pace;
+    }
+    i->now.integrates = 1, i->going = 1, i->counts.begun++;
+    i->now.to = i->ends[0];
+    return AC_OK;
+}
+
+/* Go on from where the constraints have the states: errors that lead away from there would add up. */
+static void go_back(ac_instance *i) {
+    const ac_unit *u = i->of;
+    if (!u->constraints || i->now.taken++ < RETURN) return;
+    i->now.taken = 1;
+    ac_stand(i, i->now.to);
+    const double *w = ac_run(i, AC_COORDINATES);
+    for (int32_t k = 0; k < u->tape[AC_COORDINATES].outputs; k++) i->after[u->coordinate[k]] = w[u->tape[AC_COORDINATES].output[k]];
+    ac_rodas_move(i->rodas, i->after, i->after + ac_states(i));
+}
+
+/* Whether one more step may be tried. */
+static int may_step(ac_instance *i, double *left) {
+    struct ac_recorder *r = i->recorder;
+    if (!r) return (*left)-- > 0;
+    return r->left-- > 0 && r->since++ < r->run->longest;
+}
+
+/* Integrate until a step is accepted; without one the present stays. */
+static int32_t advance(ac_instance *i, double *left) {
+    static const char *const why[] = {
+        "", "", "", "no step is short enough for the tolerance.", "the equations have no solution beyond.",
+        "there is not enough memory.",
+    };
+    const size_t n = (size_t)ac_states(i) + (size_t)i->of->parts.model.equations.nz;
+    const ac_progress begun = i->rodas->progress;
+    ac_progress done = {0};
+    int32_t end = AC_MORE, may = 1;
+    go_back(i);
+    while (end == AC_MORE && !done.kept && (may = may_step(i, left))) end = ac_rodas_go(i->rodas, 1, &done);
+    if (done.steps + done.refused) {
+        i->counts.steps += done.steps - begun.steps, i->counts.refused += done.refused - begun.refused;
+        i->counts.values += done.values - begun.values;
+    }
+    if (!may && i->recorder && i->recorder->left < 0) return AC_PAUSE;
+    if (!may && i->recorder) i->recorder->state->why = AC_MANY;
+    if (!may) return ac_fail(i, AC_RETRY, "more steps are needed than the setting allows.");
+    if (!done.kept) {
+        if (i->recorder) i->recorder->state->why = end;
+        return ac_fail(i, AC_FAILED, why[end]);
+    }
+    memcpy(i->before, i->after, n * sizeof *i->before);
+    memcpy(i->after, i->step_y, n * sizeof *i->after);
+    i->now.from = i->now.to, i->now.to = done.time, i->now.first_step = i->rodas->h, i->now.pace = i->rodas->pace;
+    i->now.longer = fmax(i->now.last, i->now.to - i->now.from), i->now.last = i->now.to - i->now.from;
+    i->now.curved = 1, i->now.event = INFINITY;
+    return AC_OK;
+}
+
+/* Whether loops passed a singular configuration in the last step. */
+static int32_t refuse_flat(ac_instance *i) {
+    if (!i->of->levels) return AC_OK;
+    const int32_t nx = ac_states(i);
+    double *rates = i->looks + 3 * i->of->watched;
+    int32_t failed = AC_OK;
+    if (i->now.looked) ac_put(rates, rates + nx, nx);
+    for (int end = i->now.looked ? 1 : 0; end < 2 && !failed; end++) {
+        ac_stand(i, end ? i->now.to : i->now.from);
+        failed = ac_know(i, AC_RATE);
+        if (failed && ac_is_flat(i)) return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+        memcpy(rates + end * nx, i->rate, (size_t)nx * sizeof *rates);
+    }
+    const ac_point a = {i->now.from, i->before, rates}, b = {i->now.to, i->after, rates + nx};
+    if (failed || !ac_flat(i, &a, &b)) return failed;
+    return ac_fail(i, AC_FAILED, AC_FLAT_TEXT);
+}
+
+/* Whether an event comes so early in the first step that a shorter one has to locate it. */
+static int is_early(const ac_instance *i) {
+    const double h = i->now.to - i->now.from, ahead = i->now.event - i->now.from;
+    return !i->now.looked && ahead < EARLY * h && ahead > ROUNDINGS * DBL_EPSILON * fabs(i->now.event);
+}
+
+/* Check an accepted step, and locate the first event in it. */
+static int32_t check(ac_instance *i) {
+    const double time = i->now.time;
+    int32_t failed = refuse_flat(i);
+    if (!failed) failed = ac_refuse_jump(i);
+    if (!failed) failed = ac_locate(i);
+    const int early = !failed && is_early(i);
+    if (early) i->now.longer = SHORTER * (i->now.event - i->now.from), i->now.event = INFINITY;
+    if (!failed && !early && i->of->levels) {
+        ac_stand(i, i->now.to);
+        if (ac_is_unfit(i)) i->now.integrates = 0;
+    }
+    ac_stand(i, time);
+    i->now.looked = !failed;
+    /* A step that could not be checked is not taken. */
+    if (failed || early) i->now.integrates = i->now.curved = 0;
+    return failed;
+}
+
+/* Integrate one step on the way to a time. */
+static int32_t step(ac_instance *i, double to, double *left) {
+    int32_t failed = AC_OK;
+    if (!i->now.integrates || !i->going || i->now.to >= i->now.end) {
+        if (i->now.to >= i->now.end) i->now.integrates = 0;
+        failed = begin(i, to);
+    }
+    if (i->recorder) ac_hold(i);
+    if (!failed) failed = advance(i, left);
+    return failed ? failed : check(i);
+}
+
+/* Move within the last step. */
+static int32_t move(ac_instance *i, double to) {
+    const int32_t failed = ac_add_work(i, i->now.time, to);
+    ac_stand(i, to);
+    return failed;
+}
+
+/* Whether events follow one another without end. */
+static int chatters(ac_instance *i) {
+    if (i->now.time - i->now.crowd > CROWDED * i->of->span) i->now.crowd = i->now.time, i->now.crowded = 0;
+    return ++i->now.crowded > MOST_CROWDED || i->now.weak > MOST_CROWDED;
+}
+
+/* Let happen what happens at the present. */
+static int32_t iterate(ac_instance *i, int32_t *changed) {
+    ac_happened found;
+    double before, after;
+    int32_t failed = ac_know(i, AC_Z);
+    if (!failed) failed = ac_stored_energy(i, &before);
+    if (!failed) failed = ac_happen(i, &found);
+    if (!failed) failed = ac_stored_energy(i, &after);
+    if (!failed) ac_add_jump(i, after - before), *changed = found.changed;
+    return failed;
+}
+
+/* Let an event happen; a run leaves to its caller what does not succeed, as it was before. */
+static int32_t act(ac_instance *i) {
+    const ac_equations *e = &i->of->parts.model.equations;
+    const int chatter = chatters(i);
+    int32_t changed = 0;
+    i->now.integrates = i->now.curved = 0;
+    if (!i->recorder) {
+        return chatter ? ac_fail(i, AC_FAILED, "conditions chatter: events follow one another without end.") : iterate(i, &changed);
+    }
+    double *kept = i->kept;
+    (void)ac_know(i, AC_Z); /* where it fails, so does the iteration */
+    ac_put(kept, i->x, e->nx), kept += e->nx;
+    ac_put(kept, i->z, e->nz), kept += e->nz;
+    ac_put(kept, i->c, e->nc), kept += e->nc;
+    ac_put(kept, i->truth, i->of->watched), kept += i->of->watched;
+    ac_put(kept, i->crossed, i->of->watched);
+    if (!chatter && !i->recorder->run->leaves && !iterate(i, &changed)) {
+        ac_record_event(i, changed);
+        return AC_OK;
+    }
+    ac_put(i->crossed, kept, i->of->watched), kept -= i->of->watched;
+    ac_put(i->truth, kept, i->of->watched), kept -= e->nc;
+    ac_put(i->c, kept, e->nc), kept -= e->nz;
+    ac_put(i->z, kept, e->nz), kept -= e->nx;
+    ac_put(i->x, kept, e->nx);
+    ac_changed(i);
+    return AC_LEAVE;
+}
+
+/* How far from an output an event is at it: within its tolerance, and a part of the output interval. */
+static double snap(const ac_instance *i, double to) { return fmin(i->now.delay, SNAP * (to - i->now.since)); }
+
+/* Stand at the event of the last step, which a near output takes to itself. */
+static int32_t at_event(ac_instance *i, double to) {
+    const int32_t nx = ac_states(i), nz = i->of->parts.model.equations.nz;
+    const double event = i->now.event;
+    const int32_t failed = ac_add_work(i, i->now.time, event);
+    i->now.time = fabs(to - event) <= snap(i, to) ? to : event;
+    ac_put(i->x, i->event_y, nx), ac_put(i->z, i->event_y + nx, nz), ac_put(i->crossed, i->crossing, i->of->watched);
+    ac_moved(i);
+    i->now.event = INFINITY;
+    return failed;
+}
+
+/* Go on to a time; with `early`, back at the first event, which is left to the caller. */
+int32_t ac_go(ac_instance *i, double to, int32_t early, int32_t *event) {
+    double left = i->now.most;
+    int32_t failed = AC_OK;
+    while (!failed && !*event && i->now.time < to - ac_near(i)) {
+        if (i->recorder && ac_is_full(i)) return AC_PAUSE;
+        if (i->now.curved && i->now.event <= to + snap(i, to)) {
+            failed = at_event(i, to);
+        } else if (i->now.curved && i->now.time < i->now.to) {
+            failed = move(i, fmin(to, i->now.to));
+            continue;
+        } else if (i->now.next <= i->now.time + ac_near(i)) {
+            i->now.time = i->now.next;
+            ac_moved(i);
+        } else {
+            failed = step(i, to, &left);
+            continue;
+        }
+        if (failed) continue;
+        if (early) i->now.integrates = i->now.curved = 0, *event = 1;
+        else failed = act(i);
+    }
+    if (failed || *event) return failed;
+    i->now.time = to;
+    if (i->now.next > to + ac_near(i) || (i->recorder && to >= i->recorder->run->end)) return AC_OK;
+    if (early) *event = 1;
+    return early ? AC_OK : act(i);
+}
+
+/* Values that were set may change conditions at once, and instants that are known. */
+static int32_t happen_by_what_was_given(ac_instance *i) {
+    ac_happened found;
+    const int32_t any = i->now.given && i->of->watched + i->of->timed;
+    i->now.given = 0;
+    return any ? ac_happen(i, &found) : AC_OK;
+}
+
+/* From the present time to another; with `early`, back at the first event, which is left to the caller. */
+int32_t ac_step(ac_instance *i, double to, int32_t early, double *reached, int32_t *event) {
+    *event = 0, *reached = i->now.time;
+    if (i->now.phase == AC_AT_EVENT) {
+        const int32_t failed = ac_leave_event(i);
+        if (failed) return failed;
+    }
+    if (i->now.phase != AC_RUNNING || i->now.failed) return ac_fail(i, AC_REFUSED, "it is not running.");
+    if (!(to >= i->now.time) || !isfinite(to)) return ac_fail(i, AC_REFUSED, "a step leads to a later time.");
+    int32_t failed = happen_by_what_was_given(i);
+    i->now.since = i->now.time;
+    if (!failed) failed = ac_go(i, to, early, event);
+    if (!failed) failed = ac_know(i, AC_Z);
+    *reached = i->now.time;
+    i->now.failed = failed == AC_FAILED;
+    if (!failed) ac_renew_inputs(i);
+    return failed;
+}

@@ -1,0 +1,56 @@
+/* Runs of the hybrid loop that record rows, as `simulate` asks for them. */
+#ifndef ACAUSAL_HYBRID_H
+#define ACAUSAL_HYBRID_H
+
+#include "instance.h"
+
+/* What a run is asked for. */
+typedef struct {
+    double end;                      /* where it stops; what happens there is left to the caller */
+    int32_t leaves;                  /* whether what happens at events is left to the caller */
+    int64_t steps, longest;          /* steps, refused ones too: after which it pauses; between two outputs or events at most */
+    int32_t outputs, room;           /* outputs in all; rows and events at most */
+    const double *time;              /* (outputs) ascending */
+    double *row_time, *row_x, *row_z, *row_c; /* (room, ...) rows at outputs, after events, and at the end */
+    double *row_work;                /* (room, 2) supplied and dissipated energy since it began */
+    double *event_time;              /* (room) of each event */
+} ac_run_request;
+
+/* How far it is. */
+typedef struct {
+    double time, step;               /* reached; the longer of the last two steps, 0 for none */
+    double supplied, dissipated;     /* energies since it began */
+    int64_t steps, refused, values, evaluations, begun;
+    int32_t rows, events, hasty, why; /* why: as of `ac_rodas_go`, where that ended it */
+    int32_t weak;                    /* events in a row with hardly any motion between */
+} ac_run_state;
+
+struct ac_recorder {
+    const ac_run_request *run;
+    ac_run_state *state;
+    int64_t left, since;             /* steps before a pause; steps since the last output or event */
+    double output;                   /* the next one: what happens there needs no row of its own */
+    int32_t rows, events;            /* before the last step, with the energies until then: what a run in doubt goes back to */
+    double energy[2];
+};
+
+/* Why a run came back: it is at its end; at its room; at its pause; at an event that is left to the caller; it is in doubt what happens
+   next. */
+enum { AC_RUN_END, AC_RUN_FULL, AC_RUN_PAUSED, AC_RUN_EVENT, AC_RUN_DOUBT };
+
+/* Take an instance to a consistent point, from which it runs with a first step, chosen if 0; `truth`: which watched conditions hold.
+   `damping`, `tolerance`: as of the settings. */
+AC_PUBLIC void ac_run_begin(ac_instance *i, double time, double step, double tolerance, int32_t damping, const double *x, const double *z,
+                            const double *p, const double *c, const double *truth);
+AC_PUBLIC int32_t ac_run_go(ac_instance *i, const ac_run_request *run, ac_run_state *state);
+/* Values at the present: states, algebraic unknowns, constants, conditions that hold, greatest values of indicators since the last event,
+   indicators that change now. */
+AC_PUBLIC void ac_run_values(const ac_instance *i, double *x, double *z, double *c, double *truth, double *peak, double *crossed);
+
+int ac_is_full(const ac_instance *i);
+void ac_record_event(ac_instance *i, int32_t changed); /* and stand there; a row where anything changed */
+void ac_hold(ac_instance *i);           /* the present is what a run goes back to */
+void ac_retreat(ac_instance *i);        /* go back to where the last step began */
+int32_t ac_go(ac_instance *i, double to, int32_t early, int32_t *event);
+
+#endif
