@@ -237,14 +237,8 @@ class Guards:
         return self.motion_of(self.watched)
 
     def motion_of(self, some: Sequence[int]) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX, ca.SX]:
-        """Return excesses, their rates with z held, their Jacobian by the z in them, and what determines the rates of these.
-
-        The last two are the Jacobian of the equations of these z, and the rates of these equations with z held.
-
-        Parameters
-        ----------
-        some : sequence of int
-            Guards.
+        """Return excesses of some guards, their rates with z held, their Jacobian by the z in them, and what determines the rates
+        of these: the Jacobian of the equations of these z, and the rates of these equations with z held.
         """
         r, excess = self.reduced, self.excess[list(some)]
         moving, seeds = ca.vertcat(r.x, time.sx), ca.vertcat(r.running.ode, 1)
