@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, unknown_units, weighing
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.events import discontinuities
@@ -24,7 +25,6 @@ from acausal.flatten.flat_model import (
 from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.flatten.tape import Linear, Tape, expressions
 from acausal.flatten.whose import contradiction_text
@@ -65,7 +65,7 @@ class Assembly:
 
     Parameters
     ----------
-    raw : Said
+    raw : CollectedStatements
         What the components stated.
     chain : Derivatives
         Symbols of the variables and of their derivatives.
@@ -75,7 +75,7 @@ class Assembly:
         Variables with a declared derivative that is not integrated.
     """
 
-    def __init__(self, raw: Said, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
+    def __init__(self, raw: CollectedStatements, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
         self.raw, self.chain, self.declared = raw, chain, declared
         self.size = chain.variables.numel()
         closures = raw.equations.closures

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.said import Said
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.tape import Linear
 from acausal.flatten.variables import VariableArray
 from acausal.language.fields import ALWAYS
@@ -49,12 +49,14 @@ class Attributes:
             self.nominal, self.sized = alias.nominal / abs(factor), True
 
 
-def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]) -> list[Attributes]:
+def attributes(
+    raw: CollectedStatements, lower: list[int], jumping: Iterable[int], solved: Mapping[int, Linear]
+) -> list[Attributes]:
     """Return the attributes of all unknowns, those of the derivatives behind those of the variables.
 
     Parameters
     ----------
-    raw : Said
+    raw : CollectedStatements
         What the components stated.
     lower : list of int
         Of each derivative, what it is the derivative of.
@@ -78,7 +80,7 @@ def attributes(raw: Said, lower: list[int], jumping: Iterable[int], solved: Mapp
     return found
 
 
-def unknown_units(raw: Said, lower: list[int]) -> list[Dimension | None]:
+def unknown_units(raw: CollectedStatements, lower: list[int]) -> list[Dimension | None]:
     """Return the units of all unknowns, those of the derivatives behind those of the variables; None where not known."""
     found = [unit for array in raw.arrays for unit in array.units]
     for k in lower:
@@ -86,7 +88,7 @@ def unknown_units(raw: Said, lower: list[int]) -> list[Dimension | None]:
     return found
 
 
-def weighing(raw: Said) -> tuple[str, ...]:
+def weighing(raw: CollectedStatements) -> tuple[str, ...]:
     """Names of the parameters that nominal values depend on."""
     inside = {s.element_hash() for s in ca.symvar(stacked(_weights(raw).values()))}
     own = raw.build.parameters
@@ -109,12 +111,12 @@ def _declared(array: VariableArray) -> Iterator[Attributes]:
         )
 
 
-def _weights(raw: Said) -> dict[int, ca.SX]:
+def _weights(raw: CollectedStatements) -> dict[int, ca.SX]:
     """Nominal values of variables, in parameters, by the expression that gives them."""
     return {id(a.nominal): dense(vec(a.nominal.sx)) for a in {id(a.nominal): a for a in raw.arrays}.values()}
 
 
-def _nominals(raw: Said) -> list[float]:
+def _nominals(raw: CollectedStatements) -> list[float]:
     """Nominal values of all variables as they are when compiled."""
     own, weights = raw.build.parameters, _weights(raw)
     function = ca.Function("nominal", [stacked(own.symbols)], [stacked(weights.values())])

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.discontinuities import guards, laws, promises
 from acausal.flatten.flat_model import FlatDiscontinuities
-from acausal.flatten.said import Said
 from acausal.symbols import vec
 
 
-def discontinuities(raw: Said, resolved: Any) -> FlatDiscontinuities:
+def discontinuities(raw: CollectedStatements, resolved: Any) -> FlatDiscontinuities:
     """Return what switches and jumps; `resolved` replaces placeholders of derivatives in a list of expressions."""
     return FlatDiscontinuities(
         tuple(switch for switch, _ in raw.pending.switches),

@@ -8,12 +8,12 @@ from typing import Any
 import casadi as ca
 
 from acausal.flatten.assembly import Assembly
+from acausal.flatten.collected_statements import CollectedStatements, collect_statements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
 from acausal.flatten.foreign import refuse_foreign
 from acausal.flatten.inputs import refuse_rates_of_inputs
 from acausal.flatten.origin import Origin
-from acausal.flatten.said import Said, hear
 from acausal.language.component import Component
 from acausal.symbols import scalars
 
@@ -39,7 +39,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     DeclarationError, ConnectError, UnitsError
         Where the model is wrong, with component and line.
     """
-    raw = hear(model, overrides, free)
+    raw = collect_statements(model, overrides, free)
     refuse_foreign(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
@@ -59,7 +59,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     return Assembly(raw, chain, resolved, {k: e for k, e in declared.items() if k not in integrated}).flat_model()
 
 
-def _declared(raw: Said) -> dict[int, ca.SX]:
+def _declared(raw: CollectedStatements) -> dict[int, ca.SX]:
     """Index of each variable with a declared derivative -> that derivative."""
     return {
         raw.index[s.element_hash()]: e
@@ -68,7 +68,7 @@ def _declared(raw: Said) -> dict[int, ca.SX]:
     }
 
 
-def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
+def _integrated(raw: CollectedStatements, declared: dict[int, ca.SX]) -> list[int]:
     """Declared variables of chosen roots that no root equation defines."""
     if not raw.graph.roots:
         return []
@@ -80,7 +80,7 @@ def _integrated(raw: Said, declared: dict[int, ca.SX]) -> list[int]:
     return sorted(k for k in found if k in declared and k not in defined)
 
 
-def _bare(raw: Said, side: ca.SX) -> list[int]:
+def _bare(raw: CollectedStatements, side: ca.SX) -> list[int]:
     """Indices of the variables if a side of an equation is nothing but variables."""
     indices = [raw.index.get(s.element_hash(), -1) for s in scalars(side)]
     return indices if -1 not in indices else []

@@ -15,12 +15,12 @@ from acausal.language.functions import feedback, initial, time
 from acausal.symbols import scalars, stacked, vec
 
 if TYPE_CHECKING:
-    from acausal.flatten.said import Said
+    from acausal.flatten.collected_statements import CollectedStatements
 
 Found = Callable[[ca.SX], bool]
 
 
-def refuse_foreign(raw: Said) -> None:
+def refuse_foreign(raw: CollectedStatements) -> None:
     """Raise DeclarationError if an expression of the model calls an external function or holds an undeclared symbol."""
     stated = [*zip(raw.equations.residuals, raw.equations.origins, strict=True)]
     stated += zip(raw.initial.residuals, raw.initial.origins, strict=True)
@@ -49,7 +49,7 @@ def refuse_foreign(raw: Said) -> None:
         raise DeclarationError(place + _undeclared(stranger))
 
 
-def _refuse_varying(raw: Said) -> None:
+def _refuse_varying(raw: CollectedStatements) -> None:
     """Raise DeclarationError if a start value depends on a variable, or a nominal value on one or on time."""
     variables = raw.index.keys()
     for array in (a for a in raw.arrays if not a.start.sx.is_constant()):
@@ -98,14 +98,14 @@ def _undeclared(symbol: ca.SX) -> str:
     )
 
 
-def _requested(raw: Said) -> list[ca.SX]:
+def _requested(raw: CollectedStatements) -> list[ca.SX]:
     """Symbols that a model may use beside its variables and parameters."""
     pending = raw.pending
     columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     return columns + [symbol for symbol, _ in (*pending.switches, *pending.derivatives)]
 
 
-def _place(raw: Said, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
+def _place(raw: CollectedStatements, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
     """Where something is stated, or where the derivative or the energy is used that holds it."""
     for sx, origin in stated:
         if found(sx):

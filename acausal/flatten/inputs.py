@@ -7,7 +7,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.flatten.said import Said
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.symbols import dense, scalars, vec
@@ -24,7 +24,7 @@ def inputs_of(tree: Component) -> dict[int, str]:
     return {s.element_hash(): name for name in names for s in _symbols(getattr(tree, name).sx)}
 
 
-def refuse_rates_of_inputs(raw: Said) -> None:
+def refuse_rates_of_inputs(raw: CollectedStatements) -> None:
     """Raise DeclarationError if a component asks for the derivative of an expression that holds an input."""
     inputs = inputs_of(raw.build.root)
     if not inputs or not raw.pending.derivatives:

@@ -7,8 +7,8 @@ from typing import Any
 import casadi as ca
 
 from acausal.flatten.collect import Closure
+from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.flat_model import FlatClosure, FlatLoops, Loop
-from acausal.flatten.said import Said
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.tape import Linear
 from acausal.language import fields as f
@@ -16,7 +16,7 @@ from acausal.symbols import scalars
 
 
 def loops_of(
-    raw: Said,
+    raw: CollectedStatements,
     redundant: set[int],
     values: list[Linear],
     rows: list[int],
@@ -28,7 +28,7 @@ def loops_of(
 
     Parameters
     ----------
-    raw : Said
+    raw : CollectedStatements
         What the components stated.
     redundant : set of int
         Redundant residuals.
@@ -68,7 +68,12 @@ def loops_of(
 
 
 def _loop(
-    raw: Said, redundant: set[int], values: list[Linear], flows: list[tuple[str, bool]], cut: Cut, own: list[Closure]
+    raw: CollectedStatements,
+    redundant: set[int],
+    values: list[Linear],
+    flows: list[tuple[str, bool]],
+    cut: Cut,
+    own: list[Closure],
 ) -> Loop:
     dropped = [c for c in own if c.row in redundant]
     found = sorted({raw.index.get(s.element_hash(), -1) for c in dropped for s in ca.symvar(c.dual)})

@@ -36,7 +36,7 @@ MASS = parse("kg")
 
 
 @dataclass
-class Said:
+class CollectedStatements:
     """Instances, graph, variables, equations, declared derivatives and energies of a model."""
 
     build: Instantiation
@@ -59,7 +59,9 @@ class Said:
         return {self.index[s.element_hash()] for v, _ in self.declared_by_parts for s in scalars(v.sx)}
 
 
-def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> Said:
+def collect_statements(
+    model: Component, overrides: Mapping[str, Any] | None, free: Collection[str] = ()
+) -> CollectedStatements:
     """Instantiate a model, connect it and collect everything that its components state."""
     pending = Pending()
     token = PENDING.set(pending)
@@ -89,7 +91,7 @@ def hear(model: Component, overrides: Mapping[str, Any] | None, free: Collection
         _look_at_observed(components)
     finally:
         PENDING.reset(token)
-    return Said(
+    return CollectedStatements(
         build,
         graph,
         arrays,
