@@ -14,6 +14,7 @@ from acausal.flatten.attributes import attributes, unknown_units, weighing
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
+from acausal.flatten.equation_owner import contradiction_text
 from acausal.flatten.events import discontinuities
 from acausal.flatten.flat_model import (
     FlatEquations,
@@ -27,7 +28,6 @@ from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.flatten.tape import Linear, Tape, expressions
-from acausal.flatten.whose import contradiction_text
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, picked, scalars, stacked
 

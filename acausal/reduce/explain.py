@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping
 import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.flatten.equation_owner import is_stated_by_user
 from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.origin import Origin
 from acausal.flatten.tree import join, walk
-from acausal.flatten.whose import is_users
 from acausal.language.component import Connector
 from acausal.language.fields import Variable
 from acausal.language.functions import time
@@ -85,11 +85,11 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     inside = [o for o in dict.fromkeys(origins[e] for e in rows) if o.kind != "root"]
     givers = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
     every = dict.fromkeys([*inside, *givers])
-    own = [o for o in every if is_users(flat.tree, o)]
+    own = [o for o in every if is_stated_by_user(flat.tree, o)]
     users, rivals = _lines(own, bases), _rivals(own)
     n = len(part.variables)
     # Where unknowns are left, what parts gave of them is no more than how the equations were solved.
-    stated = [o for o in (inside if n else every) if not is_users(flat.tree, o)]
+    stated = [o for o in (inside if n else every) if not is_stated_by_user(flat.tree, o)]
     others = _lines(stated, bases)
     if not n and not givers:
         return _known(flat, rows, _lines(inside, bases))
@@ -180,7 +180,7 @@ def _repeats(flat: FlatModel) -> list[str]:
         return []
     # A group to which the user contributes most holds the likely slip.
     stated, users = max(
-        ((own, [o for o in own if is_users(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
+        ((own, [o for o in own if is_stated_by_user(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
     )
     lines = _lines(users if len(users) > 1 else [*users, *(o for o in stated if o not in users)], {})
     mend = _rivals(users) or "Replace one of them, or take out a part that determines the same as another."

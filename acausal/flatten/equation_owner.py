@@ -12,7 +12,7 @@ from acausal.language.component import Component
 MOST = 5
 
 
-def is_users(tree: Component, origin: Origin) -> bool:
+def is_stated_by_user(tree: Component, origin: Origin) -> bool:
     """Return whether an equation is stated in a file of the model's own classes, where the likely slip is.
 
     Parameters
@@ -41,7 +41,9 @@ def contradiction_text(tree: Component, wrong: list[tuple[Origin, float]], other
     """
     own = {origin: f": its sides differ by {value:.6g}" for origin, value in wrong[:MOST]}
     every = own | {origin: "" for origin in others if origin not in own}
-    groups = [[f"  {o}{text}" for o, text in every.items() if is_users(tree, o) == users] for users in (True, False)]
+    groups = [
+        [f"  {o}{text}" for o, text in every.items() if is_stated_by_user(tree, o) == users] for users in (True, False)
+    ]
     first, second = groups if all(groups) else ([*groups[0], *groups[1]], [])
     one = len(first) == 1
     what = "this equation contradicts" if one else "these equations contradict"
