@@ -11,11 +11,11 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.alike import Alike
 from acausal.flatten.given import Late
 from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
+from acausal.flatten.template_reuse import TemplateReuse
 from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
@@ -76,12 +76,14 @@ class Equations:
         return [k in self.soft for k, r in enumerate(self.residuals) for _ in range(r.numel())]
 
 
-def collect(components: list[Component], graph: Graph, most: int, alike: Alike, defaults: list[Late]) -> Equations:
+def collect(
+    components: list[Component], graph: Graph, most: int, reuse: TemplateReuse, defaults: list[Late]
+) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
     for component in components:
         start = len(found.sides)
-        _run(component, "equations", found, most, alike)
+        _run(component, "equations", found, most, reuse)
         found.owned.append((component, range(start, len(found.sides))))
         for name, value in component._values.items():
             declared = component.fields[name]
@@ -92,7 +94,7 @@ def collect(components: list[Component], graph: Graph, most: int, alike: Alike, 
     _take_defaults(found, defaults)
     first = len(found.sides)
     for connector in graph.roots:
-        _run(connector, "root_equations", found, most, alike)
+        _run(connector, "root_equations", found, most, reuse)
     found.of_roots = range(first, len(found.sides))
     _close(graph, found)
     stated = _alone(found, slice(0, 1))
@@ -134,11 +136,11 @@ def _given(component: Component, name: str, value: Any) -> Any:
     return equation(own, plain(value, own.unit, f"`{name}`"))
 
 
-def collect_initial(components: list[Component], most: int, alike: Alike) -> Equations:
+def collect_initial(components: list[Component], most: int, reuse: TemplateReuse) -> Equations:
     """Return the initial equations of all components, at most `most` of each."""
     found = Equations([], [], [])
     for component in components:
-        _run(component, "initial_equations", found, most, alike)
+        _run(component, "initial_equations", found, most, reuse)
     return found
 
 
@@ -223,8 +225,8 @@ def _balance(balance: Balance, found: Equations, stated: dict[int, list[str]]) -
                 found.add(Equation(Expr(total), zero), origin)
 
 
-def _run(component: Component, method: str, found: Equations, most: int, alike: Alike) -> None:
-    for statement, origin in alike.hear(component, method, Equation, lambda c: stated(c, method, most)):
+def _run(component: Component, method: str, found: Equations, most: int, reuse: TemplateReuse) -> None:
+    for statement, origin in reuse.statements(component, method, Equation, lambda c: stated(c, method, most)):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))

@@ -12,7 +12,6 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.alike import Alike
 from acausal.flatten.collect import Equations, collect, collect_initial
 from acausal.flatten.constraints import add_constraints
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
@@ -20,6 +19,7 @@ from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
 from acausal.flatten.signals import given_by_connections
+from acausal.flatten.template_reuse import TemplateReuse
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector
@@ -81,12 +81,12 @@ def collect_statements(
         most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
         parts = [c for c in components if not isinstance(c, Connector)]
-        alike = Alike([*parts, *leads])
-        equations = collect(components, graph, most, alike, build.defaults)
+        reuse = TemplateReuse([*parts, *leads])
+        equations = collect(components, graph, most, reuse, build.defaults)
         add_constraints(equations, index, variables, pending.derivatives)
-        starts = collect_initial(components, most, alike)
-        declared, by_parts = ([p for c in group for p in _derivatives(c, alike)] for group in (leads, parts))
-        energies = {name: _total(name, components, alike) for name in ENERGIES}
+        starts = collect_initial(components, most, reuse)
+        declared, by_parts = ([p for c in group for p in _derivatives(c, reuse)] for group in (leads, parts))
+        energies = {name: _total(name, components, reuse) for name in ENERGIES}
         pending.place(Origin.of(build.root))
         _look_at_observed(components)
     finally:
@@ -108,19 +108,19 @@ def collect_statements(
     )
 
 
-def _derivatives(component: Component, alike: Alike) -> Iterator[tuple[Expr, Expr]]:
+def _derivatives(component: Component, reuse: TemplateReuse) -> Iterator[tuple[Expr, Expr]]:
     """Yield the variables whose derivative a component declares, each with that."""
     if getattr(type(component), DERIVATIVES) is not getattr(Component, DERIVATIVES):
-        for pair, _ in alike.hear(component, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES)):
+        for pair, _ in reuse.statements(component, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES)):
             yield pair
 
 
-def _total(name: str, components: list[Component], alike: Alike) -> ca.SX:
+def _total(name: str, components: list[Component], reuse: TemplateReuse) -> ca.SX:
     """Sum of an energy or a power over all components."""
     total = as_expr(0.0)
     for component in components:
         if getattr(type(component), name) is not getattr(Component, name):
-            for power, origin in alike.hear(
+            for power, origin in reuse.statements(
                 component, name, Expr, lambda c: [(_power(c, name), method_origin(c, name))]
             ):
                 PENDING.get().place(origin)

@@ -219,7 +219,7 @@ def test_families_of_one_class_may_differ(tmp_path):
         assert result["star.tip.r_0"].shape[1:] == (3,)
 
 
-def test_alike_components_with_families_are_heard_once():
+def test_equal_components_with_families_state_equations_once():
     heard = []
 
     class Arm(Star):

@@ -252,7 +252,7 @@ def test_units_of_one_row():
         ac.compile(Mixed())
 
 
-def test_alike_components_with_arrays_of_one_entry():
+def test_equal_components_with_arrays_of_one_entry():
     class Several(Model):
         @ac.parts
         def bodies(self):

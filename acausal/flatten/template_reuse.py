@@ -78,7 +78,7 @@ class _Template:
             yield parts[0] if self.kind is Expr else Equation(*parts) if self.kind is Equation else tuple(parts), place
 
 
-class Alike:
+class TemplateReuse:
     """Components of a model by what they are like.
 
     Parameters
@@ -103,7 +103,7 @@ class Alike:
         }
         self._templates: dict[tuple[str, int], _Template | None] = {}
 
-    def hear(self, component: Component, method: str, kind: type, hear: Hear) -> Iterable[Stated]:
+    def statements(self, component: Component, method: str, kind: type, hear: Hear) -> Iterable[Stated]:
         """Return what a component states in a method, with the place of each statement.
 
         Parameters

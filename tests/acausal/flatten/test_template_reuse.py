@@ -1,4 +1,4 @@
-"""Components that are alike are heard once; what they state is what each of them would have stated."""
+"""Equal components share one evaluation of their equations, and state what each would state alone."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.flatten import FlatModel, alike, flatten
+from acausal.flatten import FlatModel, flatten, template_reuse
 from acausal.language.functions import feedback, initial, time
 from components import BodyRod, Revolute, World
 from models import NFourBar, SpinUp, Squeezer
@@ -88,7 +88,7 @@ def told(flat: FlatModel) -> list[Any]:
 )
 def test_they_state_what_each_would_have_stated(model: ac.Model, monkeypatch: pytest.MonkeyPatch) -> None:
     once = told(flatten(model))
-    monkeypatch.setattr(alike, "FEWEST", 10**6)
+    monkeypatch.setattr(template_reuse, "FEWEST", 10**6)
     assert told(flatten(model)) == once
 
 
@@ -123,5 +123,5 @@ def test_what_is_wrong_is_told_of_the_first() -> None:
         def equations(self):
             yield self.x == self.y
 
-    with pytest.raises(ac.UnitsError, match=r"part\[0\] \(Wrong\), .*test_alike.py:\d+: units differ: `?part\[0\].x"):
+    with pytest.raises(ac.UnitsError, match=r"part\[0\] \(Wrong\), .*_reuse.py:\d+: units differ: `?part\[0\].x"):
         flatten(Parts(make=lambda k: Wrong()))
