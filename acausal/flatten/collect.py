@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import Late
+from acausal.flatten.field_values import DeferredInput
 from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
@@ -77,7 +77,7 @@ class Equations:
 
 
 def collect(
-    components: list[Component], graph: Graph, most: int, reuse: TemplateReuse, defaults: list[Late]
+    components: list[Component], graph: Graph, most: int, reuse: TemplateReuse, defaults: list[DeferredInput]
 ) -> Equations:
     """Return the equations of all components, at most `most` of each, of connection sets, roots and cuts."""
     found = Equations([], [], [])
@@ -103,7 +103,7 @@ def collect(
     return found
 
 
-def _take_defaults(found: Equations, defaults: list[Late]) -> None:
+def _take_defaults(found: Equations, defaults: list[DeferredInput]) -> None:
     """Give inputs their defaults where no equation of what contains them has the input alone on one side."""
     alone = _alone(found, slice(0, 2)) if defaults else {}
     for component, name, value, origin in defaults:

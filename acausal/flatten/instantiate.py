@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.family import enter_family, no_part
-from acausal.flatten.given import Given, Late, owner_text, takes_variables
+from acausal.flatten.field_values import DeferredInput, FieldValues, owner_text, takes_variables
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
@@ -39,18 +39,18 @@ class Instantiation:
     def __init__(
         self, template: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()
     ) -> None:
-        self._given = Given(overrides, free)
-        self.parameters = self._given.parameters
+        self._field_values = FieldValues(overrides, free)
+        self.parameters = self._field_values.parameters
         self.components: list[Component] = []
         self._classes: set[type] = set()
         self._outers: dict[type, list[Component]] = {}
         self.root = self._build(template, "", None)
         for component in self.components:
             self._resolve_outers(component)
-        if self._given.overrides:
-            name = next(iter(self._given.overrides))
+        if self._field_values.overrides:
+            name = next(iter(self._field_values.overrides))
             raise DeclarationError(not_settable(name, self.root, self.settable()))
-        for name in sorted(set(free) - self._given.kept):
+        for name in sorted(set(free) - self._field_values.kept):
             if follows := self.parameters.bound.get(name):
                 raise DeclarationError(f"`{name}` follows {follows} and cannot be left free; leave that free.")
             raise DeclarationError(not_settable(name, self.root, self.settable()))
@@ -64,16 +64,16 @@ class Instantiation:
             if isinstance(declared, f.Structural | f.Parameter)
         ]
 
-    def give_inputs(self, connected: list[Late]) -> None:
+    def give_inputs(self, connected: list[DeferredInput]) -> None:
         """Give the inputs of parts their values, now that the variables exist which these may hold."""
-        for bound, name, value, origin in (*self._given.late, *connected):
+        for bound, name, value, origin in (*self._field_values.late, *connected):
             vars(bound)["_values"][name] = with_place(value, origin)
             PENDING.get().place(origin)
 
     @property
-    def defaults(self) -> list[Late]:
+    def defaults(self) -> list[DeferredInput]:
         """Inputs of parts with a default that are not given; an equation of what contains the part may give them."""
-        return [entry for entry in self._given.defaults if entry[1] not in entry[0]._values]
+        return [entry for entry in self._field_values.defaults if entry[1] not in entry[0]._values]
 
     def _build(self, template: Component, path: str, owner: Component | None) -> Component:
         cls = type(template)
@@ -93,11 +93,11 @@ class Instantiation:
         own["_values"] = values = dict(template._values)
         for name, value in template._values.items():
             if owner is not None and takes_variables(cls.fields.get(name), value):
-                self._given.late.append((bound, name, lambda v=value: f.evaluate(v, owner), here))
+                self._field_values.late.append((bound, name, lambda v=value: f.evaluate(v, owner), here))
             else:
                 values[name] = with_place(lambda v=value: f.evaluate(v, owner), here)
         self.components.append(bound)
-        self._given.fill(bound, owner)
+        self._field_values.fill(bound, owner)
         with_place(lambda: _check(bound), here)
         for name, declared in cls.fields.items():
             if isinstance(declared, f.Family):

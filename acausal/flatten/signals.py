@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.flatten.given import Late
+from acausal.flatten.field_values import DeferredInput
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 from acausal.language.expression import Expr
@@ -16,7 +16,7 @@ from acausal.language.signal import Signal, Wire
 
 def given_by_connections(
     wires: Iterable[tuple[Component, Wire, str]],
-) -> list[Late]:
+) -> list[DeferredInput]:
     """Return component, field, value and place of all that connections give.
 
     Raises
@@ -24,7 +24,7 @@ def given_by_connections(
     ConnectError
         A connection joins two inputs or two outputs, or an input has two values.
     """
-    found: list[Late] = []
+    found: list[DeferredInput] = []
     given: dict[tuple[int, str], str] = {}
     for component, wire, where in wires:
         origin = Origin(component._path, type(component).__name__, where, f"connect({wire.a!r}, {wire.b!r})")

@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.given import shape_of, unit_of
+from acausal.flatten.field_values import shape_of, unit_of
 from acausal.flatten.numeric import misshapen
 from acausal.flatten.origin import value_origin, with_place
 from acausal.flatten.tree import join, walk

@@ -28,7 +28,7 @@ from acausal.units import parse
 
 _TIME = time.sx.element_hash()
 # Component, field, what forms its value, and where it is stated.
-Late = tuple[Component, str, Callable[[], Any], Origin]
+DeferredInput = tuple[Component, str, Callable[[], Any], Origin]
 
 
 @dataclass
@@ -47,7 +47,7 @@ class Parameters:
     limits: list[tuple[str, ca.SX, f.Parameter]] = field(default_factory=list)
 
 
-class Given:
+class FieldValues:
     """Gives bound components the values of their structural parameters, parameters and inputs at the top.
 
     A value is formed when it is needed: defaults may use each other in any order, but not in a circle.
@@ -71,8 +71,8 @@ class Given:
         self.overrides = dict(overrides or {})
         self.free, self.kept = set(free), set[str]()
         self.parameters = Parameters()
-        self.late: list[Late] = []
-        self.defaults: list[Late] = []
+        self.late: list[DeferredInput] = []
+        self.defaults: list[DeferredInput] = []
         self._open: list[tuple[Component, str]] = []
 
     def fill(self, bound: Component, owner: Component | None) -> None:
@@ -131,7 +131,7 @@ class Given:
         # An error in a default that another one needs is located by that one.
         return call() if len(self._open) > 1 else with_place(call, value_origin(bound, name, text=f"default of {name}"))
 
-    def _given(self, bound: Component, name: str, declared: f.Field) -> Any:
+    def _specified(self, bound: Component, name: str, declared: f.Field) -> Any:
         value = self.overrides.pop(join(bound._path, name), f.MISSING)
         if value is f.MISSING:
             value = bound._values.get(name, f.MISSING)
@@ -146,12 +146,12 @@ class Given:
 
     def _structural(self, bound: Component, name: str, declared: f.Structural) -> Any:
         where = f"`{name}` of {self._origin(bound, name).owner}"
-        given = quantities.plain(self._given(bound, name, declared), None, where)
+        given = quantities.plain(self._specified(bound, name, declared), None, where)
         return structural_value(bound, declared, given, where)
 
     def _parameter(self, bound: Component, name: str, declared: f.Parameter) -> Expr:
         origin = self._origin(bound, name)
-        value = self._given(bound, name, declared)
+        value = self._specified(bound, name, declared)
         path = join(bound._path, name)
         where = f"`{name}` of {origin.owner}"
         shape, unit = shape_of(declared, bound), unit_of(declared, bound)
