@@ -11,8 +11,8 @@ from acausal.flatten.assembly import Assembly
 from acausal.flatten.collected_statements import CollectedStatements, collect_statements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
-from acausal.flatten.foreign import refuse_foreign
 from acausal.flatten.inputs import refuse_rates_of_inputs
+from acausal.flatten.opaque_calls import refuse_opaque_expressions
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 from acausal.symbols import scalars
@@ -40,7 +40,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
         Where the model is wrong, with component and line.
     """
     raw = collect_statements(model, overrides, free)
-    refuse_foreign(raw)
+    refuse_opaque_expressions(raw)
     declared = _declared(raw)
     integrated = _integrated(raw, declared)
     chain = Derivatives(raw.variables, {k: e for k, e in declared.items() if k not in integrated})

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Found = Callable[[ca.SX], bool]
 
 
-def refuse_foreign(raw: CollectedStatements) -> None:
+def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     """Raise DeclarationError if an expression of the model calls an external function or holds an undeclared symbol."""
     stated = [*zip(raw.equations.residuals, raw.equations.origins, strict=True)]
     stated += zip(raw.initial.residuals, raw.initial.origins, strict=True)
