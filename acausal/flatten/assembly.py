@@ -24,10 +24,10 @@ from acausal.flatten.flat_model import (
     Initial,
 )
 from acausal.flatten.kinds import wrong_kinds
+from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
-from acausal.flatten.tape import Linear, Tape, expressions
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, picked, scalars, stacked
 
@@ -117,12 +117,12 @@ class Assembly:
         """Propagate constants and aliases."""
         own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
-        tape = Tape(self.symbols, given, self.residuals)
-        present = set(tape.input) | self._asked()
+        linear = LinearValues(self.symbols, given, self.residuals)
+        present = set(linear.input) | self._asked()
         units = unknown_units(self.raw, self.lower)
-        done = Simplifier(tape, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
+        done = Simplifier(linear, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
         self._refuse_contradictions(done)
-        values = [tape.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
+        values = [linear.resolve((0.0, ((k, 1.0),))) for k in range(self.symbols.numel())]
         self.origins += [self.origins[source.row] for _, source in done.left]
         unused = self._unused(done)
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]

@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.flatten.collected_statements import CollectedStatements
-from acausal.flatten.tape import Linear
+from acausal.flatten.linear_values import Linear
 from acausal.flatten.variables import VariableArray
 from acausal.language.fields import ALWAYS
 from acausal.symbols import dense, scalars, stacked, vec

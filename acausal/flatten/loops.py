@@ -9,8 +9,8 @@ import casadi as ca
 from acausal.flatten.collect import Closure
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.flat_model import FlatClosure, FlatLoops, Loop
+from acausal.flatten.linear_values import Linear
 from acausal.flatten.spanning_tree import Cut
-from acausal.flatten.tape import Linear
 from acausal.language import fields as f
 from acausal.symbols import scalars
 

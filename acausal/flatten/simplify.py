@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from acausal.flatten.tape import Linear, Tape, add, scale
+from acausal.flatten.linear_values import Linear, LinearValues, add, scale
 from acausal.policy import POLICY
 from acausal.units import Dimension
 
@@ -52,11 +52,11 @@ class Simplification:
 
 
 class Simplifier:
-    """Worklist over the residuals of a tape.
+    """Worklist over the residuals of a linear.
 
     Parameters
     ----------
-    tape : Tape
+    linear : LinearValues
         Residuals with their linear values.
     derivative : list of int
         Unknown -> the unknown that is its derivative, or -1.
@@ -72,14 +72,14 @@ class Simplifier:
 
     def __init__(
         self,
-        tape: Tape,
+        linear: LinearValues,
         derivative: list[int],
         rank: list[int],
         substitutes: dict[int, int] | None = None,
         units: Sequence[Dimension | None] = (),
         stay: Collection[int] = (),
     ) -> None:
-        self.tape = tape
+        self.linear = linear
         self.units = units or [None] * len(derivative)
         self.substitutes = substitutes or {}
         self.stay = stay
@@ -89,13 +89,13 @@ class Simplifier:
             if upper >= 0:
                 self.down[upper] = lower
         self.rank = rank
-        self.result = Simplification(self.up, rank, tape.solved)
+        self.result = Simplification(self.up, rank, linear.solved)
         self.extra: list[tuple[Linear, Source]] = []
         self.done: set[int] = set(self.substitutes.values())
 
     def run(self) -> Simplification:
         """Propagate until nothing changes."""
-        queue = list(range(len(self.tape.residual)))
+        queue = list(range(len(self.linear.residual)))
         while queue:
             for row in sorted(set(queue)):
                 if row not in self.done:
@@ -107,7 +107,7 @@ class Simplifier:
                     left.append((value, source))
             # What becomes known later may let them remove an unknown.
             self.extra = left
-            queue = self.tape.update()
+            queue = self.linear.update()
         self.result.left = [(value, source) for value, source in self._settled(self.extra) if value[1]]
         kept = self._settled([(value, Source(row)) for row, value in self.result.kept.items()])
         self.result.kept = {source.row: value for value, source in kept if value[1]}
@@ -116,13 +116,13 @@ class Simplifier:
 
     def _settled(self, values: list[tuple[Linear, Source]]) -> list[tuple[Linear, Source]]:
         """Write values in unknowns that remain, and note contradictions."""
-        found = [(self.tape.resolve(value), source) for value, source in values]
+        found = [(self.linear.resolve(value), source) for value, source in values]
         self.result.contradictions += [(source, v[0]) for v, source in found if not v[1] and abs(v[0]) > ZERO]
         return found
 
     def _derived(self, value: Linear, source: Source) -> bool:
         """Use the derivative of a residual to remove an unknown; False if it has to stay."""
-        value = self.tape.resolve(value)
+        value = self.linear.resolve(value)
         if not value[1]:
             if abs(value[0]) > ZERO:
                 self.result.contradictions.append((source, value[0]))
@@ -132,8 +132,8 @@ class Simplifier:
         return self._assign(value, source)
 
     def _visit(self, row: int) -> None:
-        value = self.tape.value[self.tape.residual[row]]
-        value = self.tape.resolve(value) if value is not None else None
+        value = self.linear.value[self.linear.residual[row]]
+        value = self.linear.resolve(value) if value is not None else None
         if value is None:
             return
         if not value[1]:
@@ -201,7 +201,7 @@ class Simplifier:
         return unknown
 
     def _replace(self, unknown: int, solution: Linear, source: Source) -> None:
-        self.tape.solve(unknown, solution)
+        self.linear.solve(unknown, solution)
         self.result.givers[unknown] = source
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1

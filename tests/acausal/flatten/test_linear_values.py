@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from acausal.flatten.tape import Linear, Tape, add, scale
+from acausal.flatten.linear_values import Linear, LinearValues, add, scale
 
 N = 5
 x = ca.SX.sym("x", N)
@@ -14,8 +14,8 @@ p = ca.SX.sym("p")
 
 
 def values(*residuals: ca.SX) -> list[Linear | None]:
-    tape = Tape(x, p, ca.vertcat(*residuals))
-    return [tape.value[node] for node in tape.residual]
+    linear = LinearValues(x, p, ca.vertcat(*residuals))
+    return [linear.value[node] for node in linear.residual]
 
 
 @pytest.mark.parametrize(
@@ -57,20 +57,20 @@ def test_sums_of_random_terms_are_those_of_vectors():
 
 
 def test_what_becomes_known_reaches_all_that_holds_it():
-    """An update gives what a tape of the expressions with these values gives."""
+    """An update gives what a linear of the expressions with these values gives."""
     rng = np.random.default_rng(1)
     residuals = [x[0] * x[1] + x[2], ca.sin(x[1]) * x[3] - x[4], x[2] / x[1] + x[0], ca.sqrt(x[1]) - x[3] * p]
     known = {k: float(v) for k, v in zip(rng.permutation(N)[:3], rng.uniform(0.5, 2, 3), strict=True)}
-    tape = Tape(x, p, ca.vertcat(*residuals))
+    linear = LinearValues(x, p, ca.vertcat(*residuals))
     for unknown, value in known.items():
-        tape.solve(int(unknown), (value, ()))
-        tape.update()
+        linear.solve(int(unknown), (value, ()))
+        linear.update()
     there = [known.get(k, x[k]) for k in range(N)]
-    fresh = Tape(x, p, ca.substitute(ca.vertcat(*residuals), x, ca.vertcat(*there)))
-    for one, other in zip(tape.residual, fresh.residual, strict=True):
-        a, b = tape.value[one], fresh.value[other]
+    fresh = LinearValues(x, p, ca.substitute(ca.vertcat(*residuals), x, ca.vertcat(*there)))
+    for one, other in zip(linear.residual, fresh.residual, strict=True):
+        a, b = linear.value[one], fresh.value[other]
         assert (a is None) == (b is None)
         if a is not None and b is not None:
             assert a[0] == pytest.approx(b[0], rel=1e-15)
             assert dict(a[1]) == pytest.approx(dict(b[1]), rel=1e-15)
-    assert tape.update() == []
+    assert linear.update() == []

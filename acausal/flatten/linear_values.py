@@ -29,7 +29,7 @@ _UNARY: dict[int, Callable[[float], float]] = {
 _SCALE = {ca.OP_NEG: -1.0, ca.OP_TWICE: 2.0, ca.OP_ASSIGN: 1.0}
 
 
-class Tape:
+class LinearValues:
     """Operations of `residuals` with the linear value of each in terms of the unknowns.
 
     Parameters
