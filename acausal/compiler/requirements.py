@@ -10,8 +10,8 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import AcausalError, DeclarationError, caution
+from acausal.flatten.component_tree import walk
 from acausal.flatten.origin import Origin, stated
-from acausal.flatten.tree import walk
 from acausal.language.component import Component
 from acausal.language.homes import error_of, misplaced
 from acausal.language.validity import Requirement

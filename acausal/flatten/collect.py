@@ -11,12 +11,12 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.field_values import DeferredInput
 from acausal.flatten.graph import Balance, Graph
 from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.template_reuse import TemplateReuse
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.events import When

@@ -15,7 +15,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.flatten.collect import Closure, Equations
-from acausal.flatten.tree import walk
+from acausal.flatten.component_tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import as_expr

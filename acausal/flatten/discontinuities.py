@@ -10,9 +10,9 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join
 from acausal.flatten.field_values import shape_of, unit_of
 from acausal.flatten.origin import Origin, value_origin, with_place
-from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component

@@ -12,10 +12,10 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join
 from acausal.flatten.numeric import is_symbolic, misshapen, numeric
 from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.structural import structural_value
-from acausal.flatten.tree import join
 from acausal.language import fields as f
 from acausal.language import quantities, unit_rules
 from acausal.language.arguments import refused

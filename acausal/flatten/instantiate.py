@@ -8,10 +8,10 @@ from itertools import islice
 from typing import Any
 
 from acausal.errors import PACKAGE, AcausalError, DeclarationError
+from acausal.flatten.component_tree import join, members, walk
 from acausal.flatten.field_values import DeferredInput, FieldValues, owner_text, takes_variables
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
 from acausal.flatten.port_family import enter_family, no_part
-from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 
 import casadi as ca
 
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.origin import value_origin
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.symbols import scalars

@@ -19,8 +19,8 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import AcausalError
+from acausal.flatten.component_tree import walk
 from acausal.flatten.origin import Origin
-from acausal.flatten.tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr

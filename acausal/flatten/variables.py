@@ -11,10 +11,10 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.field_values import shape_of, unit_of
 from acausal.flatten.numeric import misshapen
 from acausal.flatten.origin import value_origin, with_place
-from acausal.flatten.tree import join, walk
 from acausal.language import fields as f
 from acausal.language import unit_rules
 from acausal.language.component import Component, Connector

@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping
 import casadi as ca
 
 from acausal.flatten import FlatModel
+from acausal.flatten.component_tree import join, walk
 from acausal.flatten.equation_owner import is_stated_by_user
 from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.origin import Origin
-from acausal.flatten.tree import join, walk
 from acausal.language.component import Connector
 from acausal.language.fields import Variable
 from acausal.language.functions import time

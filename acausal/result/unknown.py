@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from acausal.flatten.tree import members, walk
+from acausal.flatten.component_tree import members, walk
 from acausal.language.component import Component
 from acausal.language.expression import Equation
 from acausal.language.pending import PENDING, Pending

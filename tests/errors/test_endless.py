@@ -199,7 +199,7 @@ def test_recursion_that_ends_is_no_mistake():
 
 
 def _walk(component):
-    from acausal.flatten.tree import walk
+    from acausal.flatten.component_tree import walk
 
     return walk(component)
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from acausal.errors import DeclarationError
+from acausal.flatten.component_tree import join, members, walk
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.structural import largest
-from acausal.flatten.tree import join, members, walk
 from acausal.language import fields as f
 from acausal.language.arguments import refused
 from acausal.language.component import Component
