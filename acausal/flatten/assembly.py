@@ -15,7 +15,7 @@ from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
-from acausal.flatten.events import discontinuities
+from acausal.flatten.flat_discontinuities import discontinuities
 from acausal.flatten.flat_model import (
     FlatEquations,
     FlatModel,
