@@ -16,6 +16,7 @@ from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
 from acausal.flatten.flat_discontinuities import discontinuities
+from acausal.flatten.flat_loops import loops_of
 from acausal.flatten.flat_model import (
     FlatEquations,
     FlatModel,
@@ -25,7 +26,6 @@ from acausal.flatten.flat_model import (
 )
 from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.linear_values import Linear, LinearValues, expressions
-from acausal.flatten.loops import loops_of
 from acausal.flatten.origin import Origin
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.language.functions import feedback, initial, time
