@@ -12,7 +12,6 @@ import numpy as np
 from acausal.errors import UnbalancedModelError
 from acausal.flatten.attributes import attributes, unknown_units, weighing
 from acausal.flatten.collected_statements import CollectedStatements
-from acausal.flatten.constraints import rates
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
 from acausal.flatten.flat_discontinuities import discontinuities
@@ -27,6 +26,7 @@ from acausal.flatten.flat_model import (
 from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.origin import Origin
+from acausal.flatten.part_constraints import rates
 from acausal.flatten.simplify import DECLARED, Simplification, Simplifier, Source
 from acausal.language.functions import feedback, initial, time
 from acausal.symbols import dense, picked, scalars, stacked

@@ -13,11 +13,11 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.flatten.collect import Equations, collect, collect_initial
-from acausal.flatten.constraints import add_constraints
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
+from acausal.flatten.part_constraints import add_constraints
 from acausal.flatten.signals import given_by_connections
 from acausal.flatten.template_reuse import TemplateReuse
 from acausal.flatten.variables import VariableArray, create_variables
