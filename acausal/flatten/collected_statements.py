@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.flatten.collect import Equations, collect, collect_initial
+from acausal.flatten.component_equations import Equations, collect, collect_initial
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation

@@ -6,8 +6,8 @@ from typing import Any
 
 import casadi as ca
 
-from acausal.flatten.collect import Closure
 from acausal.flatten.collected_statements import CollectedStatements
+from acausal.flatten.component_equations import Closure
 from acausal.flatten.flat_model import FlatClosure, FlatLoops, Loop
 from acausal.flatten.linear_values import Linear
 from acausal.flatten.spanning_tree import Cut

@@ -14,7 +14,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from acausal.flatten.collect import Closure, Equations
+from acausal.flatten.component_equations import Closure, Equations
 from acausal.flatten.component_tree import walk
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
