@@ -18,7 +18,7 @@ from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
 from acausal.flatten.part_constraints import add_constraints
-from acausal.flatten.signals import given_by_connections
+from acausal.flatten.signal_connections import given_by_connections
 from acausal.flatten.template_reuse import TemplateReuse
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules

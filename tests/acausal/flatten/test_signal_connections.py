@@ -132,7 +132,7 @@ class Outputs(Drive):
 def test_wrong_connections_of_signals(model, message):
     with pytest.raises(ConnectError, match=message) as error:
         ac.compile(model())
-    assert "test_signals.py:" in str(error.value)
+    assert "test_signal_connections.py:" in str(error.value)
 
 
 class Units(Drive):
