@@ -11,7 +11,7 @@ from acausal.flatten.assembly import Assembly
 from acausal.flatten.collected_statements import CollectedStatements, collect_statements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
-from acausal.flatten.inputs import refuse_rates_of_inputs
+from acausal.flatten.model_inputs import refuse_rates_of_inputs
 from acausal.flatten.opaque_calls import refuse_opaque_expressions
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component

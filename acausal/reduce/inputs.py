@@ -6,7 +6,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.inputs import MEND, inputs_of
+from acausal.flatten.model_inputs import MEND, inputs_of
 from acausal.structure import Plan
 from acausal.symbols import scalars
 

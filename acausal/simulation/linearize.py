@@ -13,7 +13,7 @@ import scipy
 from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
-from acausal.flatten.inputs import inputs_of
+from acausal.flatten.model_inputs import inputs_of
 from acausal.language.arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
