@@ -14,6 +14,7 @@ from acausal.flatten.attributes import attributes, unknown_units, weighing
 from acausal.flatten.collected_statements import CollectedStatements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.equation_owner import contradiction_text
+from acausal.flatten.field_kinds import wrong_kinds
 from acausal.flatten.flat_discontinuities import discontinuities
 from acausal.flatten.flat_loops import loops_of
 from acausal.flatten.flat_model import (
@@ -23,7 +24,6 @@ from acausal.flatten.flat_model import (
     FlatUnknowns,
     Initial,
 )
-from acausal.flatten.kinds import wrong_kinds
 from acausal.flatten.linear_values import Linear, LinearValues, expressions
 from acausal.flatten.origin import Origin
 from acausal.flatten.part_constraints import rates

@@ -10,7 +10,7 @@ import casadi as ca
 from acausal.flatten import FlatModel
 from acausal.flatten.component_tree import join, walk
 from acausal.flatten.equation_owner import is_stated_by_user
-from acausal.flatten.kinds import wrong_kinds
+from acausal.flatten.field_kinds import wrong_kinds
 from acausal.flatten.origin import Origin
 from acausal.language.component import Connector
 from acausal.language.fields import Variable
