@@ -12,7 +12,7 @@ from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.incidence import Linear, jacobian, system_of
-from acausal.reduce.inputs import refuse_unknown_rates
+from acausal.reduce.input_derivatives import refuse_unknown_rates
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
 from acausal.symbols import scalars
