@@ -11,7 +11,7 @@ from acausal.language.functions import initial, time
 from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
-from acausal.reduce.incidence import Linear, jacobian, system_of
+from acausal.reduce.flat_incidence import Linear, jacobian, system_of
 from acausal.reduce.input_derivatives import refuse_unknown_rates
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse

@@ -7,7 +7,7 @@ import numpy as np
 
 import acausal as ac
 from acausal import Model, chain, fixed, guess
-from acausal.reduce.incidence import jacobian
+from acausal.reduce.flat_incidence import jacobian
 from components import BodyCylinder, BodyShape, FixedTranslation, Revolute, Spherical, World
 
 x, p, t = ca.SX.sym("x", 3), ca.SX.sym("p"), ca.SX.sym("t")
