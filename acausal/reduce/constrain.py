@@ -25,7 +25,7 @@ class Projections:
         Numbers that are chosen when values are known: for each closure 1 if it is not redundant; for each constraint of a
         part how much of what works on each of them counts in its place where it is; 1 if D moves with the
         constraint Jacobian, 0 if it is constant; and the entries of D of all projections (see
-        `acausal.structure.constraints`), or factors of those of the Jacobian.
+        `acausal.structure.coordinate_projection`), or factors of those of the Jacobian.
     coordinates, states : casadi.SX
         Projected coordinates, and what is integrated in place of each.
     following : casadi.SX

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal.structure.blt import block_triangular
 from acausal.structure.check import check
-from acausal.structure.constraints import Constrained, constrain
+from acausal.structure.coordinate_projection import Constrained, constrain
 from acausal.structure.extension import Extension
 from acausal.structure.observed import split_observed
 from acausal.structure.ordering import order_unknowns

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from acausal.structure.block import Block
-from acausal.structure.constraints import Constrained
+from acausal.structure.coordinate_projection import Constrained
 from acausal.structure.system import System
 
 

@@ -31,7 +31,7 @@ from acausal.reduce import ReducedModel
 from acausal.reduce.constrain import Projections
 from acausal.structure import Plan
 from acausal.structure.block import Block
-from acausal.structure.constraints import Constrained, Constraint, Projection
+from acausal.structure.coordinate_projection import Constrained, Constraint, Projection
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
