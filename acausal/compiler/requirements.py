@@ -13,7 +13,7 @@ from acausal.errors import AcausalError, DeclarationError, caution
 from acausal.flatten.component_tree import walk
 from acausal.flatten.origin import Origin, stated
 from acausal.language.component import Component
-from acausal.language.homes import error_of, misplaced
+from acausal.language.statement_kinds import error_of, misplaced
 from acausal.language.validity import Requirement
 from acausal.symbols import scalars, stacked
 

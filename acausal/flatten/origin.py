@@ -13,7 +13,7 @@ from acausal.errors import AcausalError, DeclarationError, line_in
 from acausal.flatten.raw_errors import in_words
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
-from acausal.language.homes import returned
+from acausal.language.statement_kinds import returned
 
 MOST = 100_000  # statements of one generator; more are an endless loop
 

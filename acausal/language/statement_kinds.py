@@ -17,7 +17,7 @@ from acausal.language.validity import Expectation, Requirement, Separation
 from acausal.language.values import shown
 
 # Class of a statement, what it is called, and where it is yielded.
-HOMES: dict[type, tuple[str, str]] = {
+STATEMENT_KINDS: dict[type, tuple[str, str]] = {
     Equation: ("an equation", "equations()"),
     When: ("when(...)", "equations()"),
     SetValued: ("set_valued(...)", "equations()"),
@@ -55,7 +55,7 @@ def misplaced(statement: Any, method: str) -> str:
     takes = TAKES.get(method, TAKES["equations"])
     several = isinstance(statement, list | tuple) and bool(statement)
     first = statement[0] if several and isinstance(statement[0], Connect | Equation) else statement
-    for kind, (word, home) in HOMES.items():
+    for kind, (word, home) in STATEMENT_KINDS.items():
         takes_it = kind is Equation and ("equations" in method or method in BARE)
         if isinstance(first, kind) and home != f"{method}()" and not takes_it:
             return f"{method}() yields {word}, which belongs to {home}: write it there."
@@ -103,5 +103,5 @@ def returned(value: Any, method: str) -> str:
     """Return the message for a method that returns instead of yielding."""
     if value is None:
         return f"{method}() yields nothing: write `yield` before each statement, or leave the method out."
-    word = next((word for kind, (word, _) in HOMES.items() if isinstance(value, kind)), shown(value))
+    word = next((word for kind, (word, _) in STATEMENT_KINDS.items() if isinstance(value, kind)), shown(value))
     return f"{method}() returns {word}; write `yield`, not `return`."
