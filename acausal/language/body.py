@@ -10,9 +10,9 @@ from typing import Any
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.checks import check_field
+from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
-from acausal.language.refusals import refuse_slips
-from acausal.language.slips import SETTABLE
+from acausal.language.refusals import refuse_misspelt_fields
 from acausal.language.source import body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
@@ -52,7 +52,7 @@ def read_body(cls: Any) -> None:
             except AcausalError as error:
                 error.line = body_line(cls, name)
                 raise
-    refuse_slips(cls, {**plain, **vars(cls), **own}, fields)
+    refuse_misspelt_fields(cls, {**plain, **vars(cls), **own}, fields)
     for name in said.keys() & inspect.get_annotations(cls).keys() - fields.keys():
         refuse_plain(cls, name, said[name])
     for name, field in own.items():
@@ -76,7 +76,7 @@ def refuse_late_fields(cls: Any) -> None:
                     f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
                 )
-        refuse_slips(base, late, base.fields)
+        refuse_misspelt_fields(base, late, base.fields)
     refuse_annotations(cls)
 
 

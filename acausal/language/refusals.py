@@ -12,7 +12,7 @@ from acausal.language import fields as f
 from acausal.language.arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
-from acausal.language.slips import at_home, slip_of
+from acausal.language.misspelt_fields import in_own_method, intended_name
 from acausal.language.source import ENGINE
 from acausal.language.values import holds_parts, nearest_field, shown
 
@@ -35,7 +35,7 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
         path = f"{component._path}.{name}" if component._path else name
         return f"`{path}` cannot be set on a built model. {_by_path(path, field, value, compiled=True)}"
     given = f"{name}={_start(field, value)}"
-    if at_home(component, constructor=True):
+    if in_own_method(component, constructor=True):
         given = f"{name}={name}" if name in inspect.signature(cls.__init__).parameters else given
         return f"{cls.__name__}.__init__ must not set self.{name}; pass it on: super().__init__({given})."
     by_path = f" {_by_path(name, field, value)}" if isinstance(field, f.Structural | f.Parameter) else ""
@@ -89,14 +89,14 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
     declared = any(name in inspect.get_annotations(base) for base in cls.__mro__)
     if hasattr(cls, name) or declared or name in cls._settings:
         return
-    if not at_home(component):
-        setting = slip_of(cls, name, cls._settings)
+    if not in_own_method(component):
+        setting = intended_name(cls, name, cls._settings)
         meant = f"did you mean `{setting}`?" if setting else nearest_field(cls, name)
         raise DeclarationError(
             f"{cls.__name__} has no field `{name}`; {meant} Keep data of your own under a private name, `_{name}`, or "
             "declare it in the class body."
         )
-    near = slip_of(cls, name, [*cls.fields, *cls._settings])
+    near = intended_name(cls, name, [*cls.fields, *cls._settings])
     if near:
         raise DeclarationError(
             f"{cls.__name__} has no field `{name}`, and no method of it reads that; did you mean `{near}`? "
@@ -104,7 +104,7 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
         )
 
 
-def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
+def refuse_misspelt_fields(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
     """Raise DeclarationError for a name in a class body that resembles an inherited field, setting or method.
 
     Parameters
@@ -123,7 +123,7 @@ def refuse_slips(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) 
         field = isinstance(value, f.Field) and not isinstance(value, f.Part)
         if field or name in before or name in cls._settings:
             continue
-        near = slip_of(cls, name, _alike(cls, value, inherited))
+        near = intended_name(cls, name, _alike(cls, value, inherited))
         if near:
             own = "" if callable(value) else f", or annotate it, `{name}: ClassVar = ...`"
             raise DeclarationError(

@@ -55,7 +55,7 @@ def test_the_same_in_a_part_of_a_built_model_and_in_somebody_elses_function():
         ac.compile(Swing()).tree.tip.mm = 3
     with pytest.raises(DeclarationError, match="Swing has no field `stifness`"):
         tune(Swing())
-    with pytest.raises(DeclarationError, match=r"test_slips\.py:\d+: Body has no field `mass`; did you mean `m`"):
+    with pytest.raises(DeclarationError, match=r"misspelt_fields\.py:\d+: Body has no field `mass`; did you mean `m`"):
         ac.compile(Meddling())
 
 

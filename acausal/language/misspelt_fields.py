@@ -20,7 +20,7 @@ SETTABLE = ("stop_time", "method")  # those that may be fields
 NEAR = 0.75
 
 
-def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
+def intended_name(cls: Any, name: str, known: Iterable[str]) -> str | None:
     """Return the known name that is intended by another one: similar to it, and nothing in the class reads the other one.
 
     Parameters
@@ -36,7 +36,7 @@ def slip_of(cls: Any, name: str, known: Iterable[str]) -> str | None:
     return max(near)[1] if near and not _reads(cls, name) else None
 
 
-def at_home(component: Any, constructor: bool = False) -> bool:
+def in_own_method(component: Any, constructor: bool = False) -> bool:
     """Whether a method of the component, or its constructor, is being executed: it may keep plain data of its own."""
     codes = set() if constructor else set(_codes(type(component)))
     frame: Any = sys._getframe(2)
