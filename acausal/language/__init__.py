@@ -57,17 +57,17 @@ from acausal.language.functions import (
     time,
 )
 from acausal.language.initial_values import fixed, guess
+from acausal.language.numpy_functions import numpy_functions
 from acausal.language.set_valued import SetValued, set_valued
 from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
-from acausal.language.symbolic import TWINS
-from acausal.language.twins import twins
+from acausal.language.symbolic import NUMPY_FUNCTIONS
 from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
 
 # What expressions need of modules that are made of expressions.
 copyreg.pickle(Expr, shipped.reduced)
-TWINS.update(twins())
+NUMPY_FUNCTIONS.update(numpy_functions())
 
 __all__ = [
     "ALWAYS",

@@ -16,7 +16,7 @@ from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
 from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.quantities import refused
-from acausal.language.symbolic import TWINS, Symbolic
+from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.language.written import kind_of, short, written
 from acausal.symbols import combined, picked, vec
@@ -137,7 +137,7 @@ class Expr(Symbolic):
         return as_expr(base) ** self
 
     def __abs__(self) -> Any:
-        return TWINS["absolute"](self)
+        return NUMPY_FUNCTIONS["absolute"](self)
 
     def __eq__(self, other: object) -> Any:
         return equation(self, other)

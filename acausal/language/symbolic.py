@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 from acausal.errors import DeclarationError
 from acausal.language.written import short
 
-# numpy's functions by name, and what they are here; see `twins`.
-TWINS: dict[str, Callable[..., Any]] = {}
+# numpy's functions by name, and what they are here; see `numpy_functions`.
+NUMPY_FUNCTIONS: dict[str, Callable[..., Any]] = {}
 
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan2", "exp", "log", "tanh", "sqrt", "sign", "dot", "cross")
@@ -98,16 +98,16 @@ class Symbolic:
         )
 
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **options: Any) -> Any:
-        twin = TWINS.get(function.__name__)
-        if twin is None or method != "__call__" or options:
+        counterpart = NUMPY_FUNCTIONS.get(function.__name__)
+        if counterpart is None or method != "__call__" or options:
             self._refuse_numpy(function.__name__)
-        return twin(*arguments)  # type: ignore[misc]
+        return counterpart(*arguments)  # type: ignore[misc]
 
     def __array_function__(self, function: Any, _: Any, arguments: Any, options: Any) -> Any:
-        twin = TWINS.get(function.__name__)
-        if twin is None or options:
+        counterpart = NUMPY_FUNCTIONS.get(function.__name__)
+        if counterpart is None or options:
             self._refuse_numpy(function.__name__)
-        return twin(*arguments)  # type: ignore[misc]
+        return counterpart(*arguments)  # type: ignore[misc]
 
     def _refuse_numpy(self, name: str) -> Any:
         mend = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"

@@ -11,7 +11,7 @@ from acausal.language.expression import as_expr, is_deferred
 from acausal.language.fields import Deferred
 
 
-def twins() -> dict[str, Callable[..., Any]]:
+def numpy_functions() -> dict[str, Callable[..., Any]]:
     """Return the function of this package for each of numpy's that has one, by numpy's name."""
 
     def of(operate: Callable[..., Any]) -> Callable[..., Any]:
