@@ -13,11 +13,11 @@ from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.fields import InitialValue
+from acausal.language.formatting import short
 from acausal.language.no_expression import decimal_point
 from acausal.language.quantities import refused
 from acausal.language.symbolic import Symbolic
 from acausal.language.values import shown
-from acausal.language.written import short
 from acausal.units import in_si
 
 LARGEST = float(np.sqrt(np.finfo(float).max))

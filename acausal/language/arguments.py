@@ -9,7 +9,7 @@ from inspect import Parameter
 from typing import Any, TypeVar
 
 from acausal.errors import AcausalError, DeclarationError, user_line
-from acausal.language.written import short
+from acausal.language.formatting import short
 from acausal.nearest import likeliest
 
 F = TypeVar("F", bound=Callable[..., Any])

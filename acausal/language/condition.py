@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 
 from acausal.errors import DeclarationError
-from acausal.language.written import in_code, short
+from acausal.language.formatting import in_code, short
 
 
 class Condition:

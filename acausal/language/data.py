@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal.language.written import in_code
+from acausal.language.formatting import in_code
 
 
 def same(a: Any, b: Any) -> bool:

@@ -14,11 +14,11 @@ from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition, undecided
 from acausal.language.entries import chosen
+from acausal.language.formatting import formatted, kind_of, short
 from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.quantities import refused
 from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
 from acausal.language.unit_rules import Unit
-from acausal.language.written import kind_of, short, written
 from acausal.symbols import combined, picked, vec
 from acausal.units import Dimension
 
@@ -65,7 +65,7 @@ class Expr(Symbolic):
         return Expr(self.sx.T, self.unit if isinstance(self.unit, Dimension) else None, shape=shape)
 
     def __repr__(self) -> str:
-        return self.name or written(self.sx, self.shape)
+        return self.name or formatted(self.sx, self.shape)
 
     def __len__(self) -> int:
         return self.sx.shape[0]

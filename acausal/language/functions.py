@@ -15,8 +15,8 @@ from acausal.language.arguments import told
 from acausal.language.condition import Condition, refuse_cases
 from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred
+from acausal.language.formatting import kind_of
 from acausal.language.pending import PENDING, Pending, pending_for, truth
-from acausal.language.written import kind_of
 from acausal.symbols import scalars
 from acausal.units import DIMENSIONLESS, Dimension, parse
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.written import kind_of, short
+from acausal.language.formatting import kind_of, short
 
 # By the name of the class, as these are made of expressions.
 WORDS = {

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from acausal.errors import DeclarationError
-from acausal.language.written import short
+from acausal.language.formatting import short
 
 # numpy's functions by name, and what they are here; see `numpy_functions`.
 NUMPY_FUNCTIONS: dict[str, Callable[..., Any]] = {}

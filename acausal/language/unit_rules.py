@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import casadi as ca
 
 from acausal.errors import UnitsError
-from acausal.language.written import short
+from acausal.language.formatting import short
 from acausal.units import Dimension
 
 Unit = Dimension | tuple[Dimension | None, ...] | None

@@ -11,7 +11,7 @@ LONG = 60  # letters of an expression that are shown
 DEEP = 40  # operations inside each other that are followed
 
 
-def written(sx: ca.SX, shape: tuple[int, ...]) -> str:
+def formatted(sx: ca.SX, shape: tuple[int, ...]) -> str:
     """Return an expression of a shape as a formula, each shared part where it is used."""
     sx = ca.densify(sx)
     known: dict[int, str] = {}
