@@ -2,7 +2,7 @@
 
 import copyreg
 
-from acausal.language import shipped
+from acausal.language import pickling
 from acausal.language.component import Component, Connector, Model, Path, Record
 from acausal.language.condition import Condition
 from acausal.language.connection import (
@@ -66,7 +66,7 @@ from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
 
 # What expressions need of modules that are made of expressions.
-copyreg.pickle(Expr, shipped.reduced)
+copyreg.pickle(Expr, pickling.reduce_expression)
 NUMPY_FUNCTIONS.update(numpy_functions())
 
 __all__ = [
