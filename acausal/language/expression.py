@@ -13,8 +13,8 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
 from acausal.language.condition import Condition, undecided
-from acausal.language.entries import chosen
 from acausal.language.formatting import formatted, kind_of, short
+from acausal.language.indexing import selected_entries
 from acausal.language.no_expression import no_expression, number_of, ragged
 from acausal.language.quantities import refused
 from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
@@ -71,8 +71,8 @@ class Expr(Symbolic):
         return self.sx.shape[0]
 
     def __getitem__(self, index: Any) -> Expr:
-        places = chosen(self._shown, self.shape, index)
-        # Of a column: CasADi gives a row where entries of a row are chosen.
+        places = selected_entries(self._shown, self.shape, index)
+        # From a column: CasADi returns a row for entries of a row.
         sx = picked(vec(self.sx), places.ravel(order="F").tolist())
         if places.ndim == 2:
             sx = ca.reshape(sx, *places.shape)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.language.entries import chosen
 from acausal.language.expression import Expr
+from acausal.language.indexing import selected_entries
 
 INDICES: dict[tuple[int, ...], list[Any]] = {
     (4,): [0, -1, 3, slice(None), slice(1, 3), slice(None, None, -1), slice(-3, None), slice(0, 4, 2), slice(2, 2)],
@@ -31,7 +31,7 @@ CASES = [(shape, index) for shape, indices in INDICES.items() for index in indic
 @pytest.mark.parametrize(("shape", "index"), CASES)
 def test_places_are_those_of_numpy(shape, index):
     places = np.arange(int(np.prod(shape))).reshape(shape, order="F")
-    np.testing.assert_array_equal(chosen(lambda: "v", shape, index), places[index])
+    np.testing.assert_array_equal(selected_entries(lambda: "v", shape, index), places[index])
 
 
 @pytest.mark.parametrize(("shape", "index"), CASES)
@@ -49,10 +49,10 @@ def test_entries_of_an_expression_are_those_of_its_values(shape, index):
 )
 def test_entries_outside_are_refused(shape, index):
     with pytest.raises(ac.DeclarationError, match=r"`v\[.*\]` is outside v"):
-        chosen(lambda: "v", shape, index)
+        selected_entries(lambda: "v", shape, index)
 
 
 @pytest.mark.parametrize("index", [True, 1.0, "a", None, (0, 1.5)])
 def test_what_is_no_index_is_refused(index):
     with pytest.raises(ac.DeclarationError, match="selected by integers"):
-        chosen(lambda: "v", (3, 2), index)
+        selected_entries(lambda: "v", (3, 2), index)

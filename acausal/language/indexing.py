@@ -1,4 +1,4 @@
-"""Entries of a symbolic array, chosen as numpy chooses those of an array of numbers."""
+"""Indexing of symbolic arrays by the rules of numpy."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from acausal.errors import DeclarationError
 
 
-def chosen(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.ndarray:
-    """Return the places of the chosen entries, counted column by column, in the shape that they get.
+def selected_entries(show: Callable[[], str], shape: tuple[int, ...], index: Any) -> np.ndarray:
+    """Return the column-major positions of the selected entries, in the shape of the result.
 
     Parameters
     ----------
