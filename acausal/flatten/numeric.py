@@ -14,7 +14,7 @@ from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.fields import InitialValue
 from acausal.language.formatting import short
-from acausal.language.no_expression import decimal_point
+from acausal.language.invalid_operands import decimal_point
 from acausal.language.quantities import refused
 from acausal.language.symbolic import Symbolic
 from acausal.language.values import shown

@@ -15,7 +15,7 @@ from acausal.language import unit_rules
 from acausal.language.condition import Condition, undecided
 from acausal.language.formatting import formatted, kind_of, short
 from acausal.language.indexing import selected_entries
-from acausal.language.no_expression import no_expression, number_of, ragged
+from acausal.language.invalid_operands import invalid_operand, number_of, ragged
 from acausal.language.quantities import refused
 from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
 from acausal.language.unit_rules import Unit
@@ -197,7 +197,7 @@ def as_expr(value: Any) -> Expr:
         entries = [row.sx for row in rows]
         sx = ca.horzcat(*entries).T if inner else ca.vertcat(*entries)
         return Expr(sx, unit_rules.of_array(rows), shape=(len(rows), *inner))
-    raise DeclarationError(no_expression(value))
+    raise DeclarationError(invalid_operand(value))
 
 
 @lru_cache(maxsize=1024)

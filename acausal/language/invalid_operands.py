@@ -25,7 +25,7 @@ WORDS = {
 }
 
 
-def no_expression(value: Any) -> str:
+def invalid_operand(value: Any) -> str:
     """Return the message for a value that has no place in an expression."""
     what, mend = _described(value)
     return f"{what} cannot stand in an expression. {mend}"
