@@ -10,9 +10,9 @@ from typing import Any
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.checks import check_field
+from acausal.language.invalid_settings import refuse_misspelt_fields
 from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
-from acausal.language.refusals import refuse_misspelt_fields
 from acausal.language.source import body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown

@@ -14,9 +14,9 @@ from acausal.language import fields as f
 from acausal.language.arguments import refused, told
 from acausal.language.body import read_body
 from acausal.language.docstring import signature, with_fields
+from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
 from acausal.language.path import Path
-from acausal.language.refusals import refuse_attribute, refuse_value
 from acausal.language.signal import CONNECTING, Signal
 from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
 

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from acausal.language import fields as f
 from acausal.language.arguments import refused
-from acausal.language.refusals import refuse_path
+from acausal.language.invalid_settings import refuse_path
 
 
 class Path:
