@@ -9,7 +9,7 @@ from typing import Any
 
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language import fields as f
-from acausal.language.checks import check_field
+from acausal.language.field_checks import check_field
 from acausal.language.invalid_settings import refuse_misspelt_fields
 from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
