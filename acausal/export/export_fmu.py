@@ -24,7 +24,7 @@ from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import time

@@ -18,7 +18,7 @@ from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.structural import structural_value
 from acausal.language import fields as f
 from acausal.language import quantities, unit_rules
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time

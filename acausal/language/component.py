@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, cast, dataclass_transform
 from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
-from acausal.language.arguments import refused, told
 from acausal.language.body import read_body
+from acausal.language.call_arguments import refused, told
 from acausal.language.docstring import signature, with_fields
 from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.fields import Field

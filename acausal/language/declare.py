@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import brackets, told
+from acausal.language.call_arguments import brackets, told
 from acausal.language.fields import (
     DEFAULT,
     MISSING,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Equation, Expr, equation
 

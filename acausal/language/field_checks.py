@@ -11,7 +11,7 @@ import numpy as np
 from acausal.errors import AcausalError
 from acausal.language import data
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.invalid_operands import decimal_point
 from acausal.language.types import shape_of_annotation, wrong_type
 from acausal.language.values import shown

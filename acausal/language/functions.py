@@ -11,7 +11,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.condition import Condition, refuse_cases
 from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred

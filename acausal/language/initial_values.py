@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.fields import InitialValue
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.misspelt_fields import in_own_method, intended_name

@@ -10,7 +10,7 @@ from types import FunctionType
 from typing import Any
 
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.source import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown

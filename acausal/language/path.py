@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.invalid_settings import refuse_path
 
 

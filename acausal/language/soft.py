@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.expression import Equation
 
 

@@ -14,7 +14,7 @@ from weakref import WeakSet
 
 from acausal.errors import ConnectError, DeclarationError, user_line
 from acausal.garbage import uncollected
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 
 ENGINE = "acausal.language.component"
 CONNECTIONS = {"connect", "chain", "branch", "root", "potential_root"}

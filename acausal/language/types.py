@@ -8,7 +8,7 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any
 
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.nearest import likeliest
 
 if TYPE_CHECKING:

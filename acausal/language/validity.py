@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
-from acausal.language.arguments import told
+from acausal.language.call_arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.symbols import vec

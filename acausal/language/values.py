@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.formatting import in_code
 from acausal.nearest import likeliest
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError, caution
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.kept import Kept, keep

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.expression import Expr, as_expr
 from acausal.locks import alone
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, model_of, ready
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.compiled_step import CompiledStep, Step

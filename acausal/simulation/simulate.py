@@ -7,7 +7,7 @@ from typing import Any
 
 from acausal.compiler import CompiledModel, ready
 from acausal.errors import InitializationError, SimulationError, caution
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result

@@ -14,7 +14,7 @@ from acausal.export.dae import archive, tree
 from acausal.export.dae.export_dae import SHARED
 from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
-from acausal.language.arguments import fitting
+from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.reduce import ReducedModel

@@ -12,7 +12,7 @@ from acausal.flatten.component_tree import join, members, walk
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.structural import largest
 from acausal.language import fields as f
-from acausal.language.arguments import refused
+from acausal.language.call_arguments import refused
 from acausal.language.component import Component
 from acausal.language.data import same
 from acausal.result import Result
