@@ -13,7 +13,7 @@ from acausal.flatten.spanning_tree import Cut, spanning_tree
 from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.signal import CONNECTING, Wire
-from acausal.language.source import calls
+from acausal.language.source_code import calls
 from acausal.language.statement_kinds import misplaced, returned
 
 # The connectors of a connection set; the sign is -1 for one on the outside of its component.

@@ -16,7 +16,7 @@ from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
 from acausal.language.pending import PENDING
-from acausal.language.source import refuse_dropped, returns_nothing
+from acausal.language.source_code import refuse_dropped, returns_nothing
 from acausal.language.values import refuse_constructor, shown
 from acausal.nearest import missing
 

@@ -13,7 +13,7 @@ from acausal.language.field_checks import check_field
 from acausal.language.invalid_settings import refuse_misspelt_fields
 from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
-from acausal.language.source import body_line
+from acausal.language.source_code import body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
 

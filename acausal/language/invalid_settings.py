@@ -13,7 +13,7 @@ from acausal.language.call_arguments import told
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.misspelt_fields import in_own_method, intended_name
-from acausal.language.source import ENGINE
+from acausal.language.source_code import ENGINE
 from acausal.language.values import holds_parts, nearest_field, shown
 
 

@@ -12,7 +12,7 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from acausal.errors import PACKAGE
-from acausal.language.source import body_reads, may_read
+from acausal.language.source_code import body_reads, may_read
 
 # Attributes that `simulate` and the command line read from a model.
 SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")

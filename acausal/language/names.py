@@ -11,7 +11,7 @@ from typing import Any
 
 from acausal.language import fields as f
 from acausal.language.call_arguments import refused
-from acausal.language.source import ENGINE, body_line
+from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.values import shown
 

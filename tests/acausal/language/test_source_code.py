@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import acausal as ac
-from acausal.language.source import returns_nothing
+from acausal.language.source_code import returns_nothing
 
 HEAD = """
 from typing import overload
