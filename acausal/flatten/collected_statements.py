@@ -26,7 +26,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import Observed
 from acausal.language.pending import PENDING, Pending
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.symbols import scalars, stacked, vec
 from acausal.units import parse
 

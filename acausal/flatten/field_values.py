@@ -22,7 +22,7 @@ from acausal.language.call_arguments import refused
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.symbols import scalars
 from acausal.units import parse
 

@@ -17,7 +17,7 @@ from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
 from acausal.language.pending import PENDING
 from acausal.language.source_code import refuse_dropped, returns_nothing
-from acausal.language.values import refuse_constructor, shown
+from acausal.language.value_checks import refuse_constructor, shown
 from acausal.nearest import missing
 
 DEEPEST = 100  # parts inside parts; deeper, a component contains itself

@@ -17,7 +17,7 @@ from acausal.language.formatting import short
 from acausal.language.invalid_operands import decimal_point
 from acausal.language.quantities import refused
 from acausal.language.symbolic import Symbolic
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.units import in_si
 
 LARGEST = float(np.sqrt(np.finfo(float).max))

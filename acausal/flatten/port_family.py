@@ -10,7 +10,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 
 
 def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> dict[str, Connector]:

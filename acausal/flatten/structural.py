@@ -13,7 +13,7 @@ from acausal.flatten.origin import Origin, with_place
 from acausal.language import data
 from acausal.language import fields as f
 from acausal.language.component import Component
-from acausal.language.values import shown_or_kind
+from acausal.language.value_checks import shown_or_kind
 
 
 def structural_value(bound: Component, declared: f.Structural, given: Any, where: str) -> Any:

@@ -15,7 +15,7 @@ from acausal.language.misspelt_fields import SETTABLE
 from acausal.language.names import refuse_annotations, refuse_names, refuse_plain
 from acausal.language.source_code import body_line
 from acausal.language.types import shape_of_annotation
-from acausal.language.values import check_value, holds_parts, instance, instances, is_part_class, shown
+from acausal.language.value_checks import check_value, holds_parts, instance, instances, is_part_class, shown
 
 _ABSENT: Any = object()
 

@@ -18,7 +18,7 @@ from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
 from acausal.language.path import Path
 from acausal.language.signal import CONNECTING, Signal
-from acausal.language.values import check_value, refuse_decorator, unnamed_text, values_of_class
+from acausal.language.value_checks import check_value, refuse_decorator, unnamed_text, values_of_class
 
 
 class _Docstring:

@@ -14,7 +14,7 @@ from acausal.language import fields as f
 from acausal.language.call_arguments import refused
 from acausal.language.invalid_operands import decimal_point
 from acausal.language.types import shape_of_annotation, wrong_type
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.units import parse
 
 NUMBERS = (int, float, np.number, np.ndarray)

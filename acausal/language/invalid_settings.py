@@ -14,7 +14,7 @@ from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.misspelt_fields import in_own_method, intended_name
 from acausal.language.source_code import ENGINE
-from acausal.language.values import holds_parts, nearest_field, shown
+from acausal.language.value_checks import holds_parts, nearest_field, shown
 
 
 def refuse_value(component: Any, name: str, value: Any) -> str:

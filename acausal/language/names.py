@@ -13,7 +13,7 @@ from acausal.language import fields as f
 from acausal.language.call_arguments import refused
 from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 
 PLAIN = ("ends", "start_words", "without_soft")  # read by the engine, and no methods
 EXAMPLES = {

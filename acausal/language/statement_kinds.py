@@ -14,7 +14,7 @@ from acausal.language.expression import Equation, Expr
 from acausal.language.fields import InitialValue
 from acausal.language.set_valued import SetValued
 from acausal.language.validity import Expectation, Requirement, Separation
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 
 # Class of a statement, what it is called, and where it is yielded.
 STATEMENT_KINDS: dict[type, tuple[str, str]] = {

@@ -8,7 +8,7 @@ from pathlib import Path
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError
 from acausal.language.call_arguments import fitting
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.locks import alone
 from acausal.result.animated import Asked, write
 from acausal.result.lookup import Key

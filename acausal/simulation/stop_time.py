@@ -16,7 +16,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.pending import PENDING, Pending
-from acausal.language.values import shown
+from acausal.language.value_checks import shown
 from acausal.locks import alone
 from acausal.symbols import stacked
 
