@@ -14,7 +14,7 @@ from acausal.flatten.component_tree import walk
 from acausal.flatten.origin import Origin, stated
 from acausal.language.component import Component
 from acausal.language.statement_kinds import error_of, misplaced
-from acausal.language.validity import Requirement
+from acausal.language.validity_statements import Requirement
 from acausal.symbols import scalars, stacked
 
 Stated = tuple[Any, Origin]

@@ -63,7 +63,7 @@ from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import NUMPY_FUNCTIONS
 from acausal.language.types import Matrix33, Scalar, Vector3
-from acausal.language.validity import Expectation, Requirement, Separation, apart, expect, require
+from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
 
 # What expressions need of modules that are made of expressions.
 copyreg.pickle(Expr, pickling.reduce_expression)

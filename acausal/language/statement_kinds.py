@@ -13,7 +13,7 @@ from acausal.language.events import Reinit, When
 from acausal.language.expression import Equation, Expr
 from acausal.language.fields import InitialValue
 from acausal.language.set_valued import SetValued
-from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.language.value_checks import shown
 
 # Class of a statement, what it is called, and where it is yielded.

@@ -22,7 +22,7 @@ from acausal.language.call_arguments import fitting
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import feedback, initial, time
-from acausal.language.validity import Expectation, Separation
+from acausal.language.validity_statements import Expectation, Separation
 from acausal.locks import alone
 from acausal.result import check_writable
 from acausal.simulation.settings import declared_settings

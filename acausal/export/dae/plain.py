@@ -26,7 +26,7 @@ from acausal.flatten.origin import Origin
 from acausal.language import fields as f
 from acausal.language.condition import Condition, Joined
 from acausal.language.expression import Expr
-from acausal.language.validity import Expectation, Requirement, Separation
+from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.reduce import ReducedModel
 from acausal.reduce.constrain import Projections
 from acausal.structure import Plan

@@ -20,7 +20,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component, Connector, Model, Record
 from acausal.language.docstring import first_line
 from acausal.language.expression import Expr
-from acausal.language.validity import Requirement
+from acausal.language.validity_statements import Requirement
 from acausal.result.lookup import READABLE
 
 Add = Callable[[ca.SX | ca.DM], int]
