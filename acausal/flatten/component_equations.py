@@ -19,13 +19,13 @@ from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.template_reuse import TemplateReuse
 from acausal.language import fields as f
 from acausal.language.component import Component, Connector
-from acausal.language.events import When
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.pending import PENDING
 from acausal.language.quantities import plain
 from acausal.language.set_valued import SetValued
 from acausal.language.soft import Soft
 from acausal.language.statement_kinds import error_of, misplaced
+from acausal.language.when_statements import When
 from acausal.symbols import combined, dense, scalars, vec
 
 

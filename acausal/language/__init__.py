@@ -32,7 +32,6 @@ from acausal.language.declare import (
     structural,
     variable,
 )
-from acausal.language.events import When, reinit, when
 from acausal.language.expression import Equation, Expr, as_expr
 from acausal.language.fields import ALWAYS, AVOID, DEFAULT, NEVER, PREFER
 from acausal.language.functions import (
@@ -64,6 +63,7 @@ from acausal.language.sources import pulse, ramp, sine, step, time_table, trapez
 from acausal.language.symbolic import NUMPY_FUNCTIONS
 from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
+from acausal.language.when_statements import When, reinit, when
 
 # What expressions need of modules that are made of expressions.
 copyreg.pickle(Expr, pickling.reduce_expression)

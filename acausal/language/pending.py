@@ -11,7 +11,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.language.condition import Condition
-from acausal.language.events import When
+from acausal.language.when_statements import When
 from acausal.symbols import Distinct, vec
 
 

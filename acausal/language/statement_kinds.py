@@ -9,12 +9,12 @@ from acausal.errors import AcausalError, ConnectError, DeclarationError
 from acausal.language.component import Component
 from acausal.language.condition import Condition
 from acausal.language.connection import Branch, Connect, Root
-from acausal.language.events import Reinit, When
 from acausal.language.expression import Equation, Expr
 from acausal.language.fields import InitialValue
 from acausal.language.set_valued import SetValued
 from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.language.value_checks import shown
+from acausal.language.when_statements import Reinit, When
 
 # Class of a statement, what it is called, and where it is yielded.
 STATEMENT_KINDS: dict[type, tuple[str, str]] = {
