@@ -22,7 +22,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.expression import Equation, Expr, as_expr, equation
 from acausal.language.pending import PENDING
 from acausal.language.quantities import plain
-from acausal.language.set_valued import SetValued
+from acausal.language.set_valued_statement import SetValued
 from acausal.language.soft import Soft
 from acausal.language.statement_kinds import error_of, misplaced
 from acausal.language.when_statements import When

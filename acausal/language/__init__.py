@@ -57,7 +57,7 @@ from acausal.language.functions import (
 )
 from acausal.language.initial_values import fixed, guess
 from acausal.language.numpy_functions import numpy_functions
-from acausal.language.set_valued import SetValued, set_valued
+from acausal.language.set_valued_statement import SetValued, set_valued
 from acausal.language.soft import Soft, soft
 from acausal.language.sources import pulse, ramp, sine, step, time_table, trapezoid
 from acausal.language.symbolic import NUMPY_FUNCTIONS

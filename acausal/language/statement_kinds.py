@@ -11,7 +11,7 @@ from acausal.language.condition import Condition
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.expression import Equation, Expr
 from acausal.language.fields import InitialValue
-from acausal.language.set_valued import SetValued
+from acausal.language.set_valued_statement import SetValued
 from acausal.language.validity_statements import Expectation, Requirement, Separation
 from acausal.language.value_checks import shown
 from acausal.language.when_statements import Reinit, When
