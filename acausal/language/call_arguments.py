@@ -45,7 +45,7 @@ def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationErr
     return error
 
 
-def told(function: F) -> F:
+def checked_call(function: F) -> F:
     """Decorate a public function: an error names the line of the call, and wrong arguments are an error of ours."""
     checked = fitting(function)
 

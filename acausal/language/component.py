@@ -12,7 +12,7 @@ from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.body import read_body
-from acausal.language.call_arguments import refused, told
+from acausal.language.call_arguments import checked_call, refused
 from acausal.language.docstring import signature, with_fields
 from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
@@ -79,7 +79,7 @@ class Component(f.Template):
     _is_bound = False
     _in_loop = False
 
-    @told
+    @checked_call
     def __init_subclass__(cls, **kwargs: Any) -> None:
         try:
             super().__init_subclass__(**kwargs)
@@ -97,7 +97,7 @@ class Component(f.Template):
         refuse_decorator(cls)
         return super().__new__(cls)
 
-    @told
+    @checked_call
     def __init__(self, *unnamed: Any, **values: Any) -> None:
         if unnamed:
             raise DeclarationError(unnamed_text(type(self), unnamed, values))

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from acausal.errors import ConnectError
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.fields import Field
@@ -44,7 +44,7 @@ class Root:
     priority: int | None = None
 
 
-@told
+@checked_call
 def connect(a: Any, b: Any) -> Connect | Wire:
     """Join two ports: potentials become equal, flows sum to zero. Or give an output to an input.
 
@@ -66,7 +66,7 @@ def connect(a: Any, b: Any) -> Connect | Wire:
     return Connect(a, b)
 
 
-@told
+@checked_call
 def chain(*items: Any) -> list[Connect | Wire]:
     """Join each part's second end to the next one's first end.
 
@@ -82,31 +82,31 @@ def chain(*items: Any) -> list[Connect | Wire]:
     return [connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)]
 
 
-@told
+@checked_call
 def branch(a: Any, b: Any) -> Branch:
     """State that the component relates the over-determined records of two of its connectors."""
     return Branch(_port(a, "branch"), _port(b, "branch"))
 
 
-@told
+@checked_call
 def root(connector: Any) -> Root:
     """State that the component defines the over-determined record of this connector."""
     return Root(_port(connector, "root"))
 
 
-@told
+@checked_call
 def potential_root(connector: Any, priority: int = 0) -> Root:
     """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
     return Root(_port(connector, "potential_root"), priority)
 
 
-@told
+@checked_call
 def is_root(connector: Any) -> bool:
     """Return, in equations(), whether the connector was chosen as a root."""
     return connector._is_root
 
 
-@told
+@checked_call
 def rooted(a: Any, b: Any | None = None) -> bool:
     """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
     if b is not None:
@@ -114,14 +114,14 @@ def rooted(a: Any, b: Any | None = None) -> bool:
     return not any(parent._owner is a._owner for parent in a._parents)
 
 
-@told
+@checked_call
 def connected(port: Any) -> tuple[Component, ...]:
     """Return, in equations() and validity(), the other components whose ports are connected to a port."""
     owners = (other._owner for other in port._set if other._owner is not port._owner)
     return tuple(owner for owner in owners if owner is not None)
 
 
-@told
+@checked_call
 def in_loop(component: Any) -> bool:
     """Return, in equations(), whether the component is part of a closed loop of over-determined records."""
     return component._in_loop

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import brackets, told
+from acausal.language.call_arguments import brackets, checked_call
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
@@ -21,7 +21,7 @@ from acausal.language.fields import (
 )
 
 
-@told
+@checked_call
 def structural(
     description: str,
     *,
@@ -75,7 +75,7 @@ def structural(
     )
 
 
-@told
+@checked_call
 def effect(
     description: str,
     *,
@@ -103,7 +103,7 @@ def effect(
     return Structural(description, None, None, default, choices=allowed, effect=True, tries=tried, doc=doc)
 
 
-@told
+@checked_call
 def parameter(
     description: str,
     *,
@@ -136,7 +136,7 @@ def parameter(
     return Parameter(description, unit, shape, default, minimum=minimum, positive=positive, doc=doc)
 
 
-@told
+@checked_call
 def variable(
     description: str,
     *,
@@ -173,7 +173,7 @@ def variable(
     return Variable(description, unit, shape, start=start, fixed=fixed, select=select, nominal=nominal, root=root)
 
 
-@told
+@checked_call
 def discrete(description: str, *, unit: str | None = None, shape: Shape = None, start: Any = 0.0) -> Any:
     """Declare a discrete variable: constant except where `when` lets it jump by reinit(...).
 
@@ -191,7 +191,7 @@ def discrete(description: str, *, unit: str | None = None, shape: Shape = None, 
     return Variable(description, unit, shape, start=start, causality="discrete")
 
 
-@told
+@checked_call
 def input(
     description: str,
     *,
@@ -208,7 +208,7 @@ def input(
     return Variable(description, unit, shape, default, start=start, causality="input", doc=doc)
 
 
-@told
+@checked_call
 def output(
     description: str, *, unit: str | Sequence[str] | None = None, shape: Shape = None, nominal: Any = None
 ) -> Any:
@@ -216,13 +216,13 @@ def output(
     return Variable(description, unit, shape, nominal=nominal, causality="output")
 
 
-@told
+@checked_call
 def flow(description: str, *, unit: str | None = None, shape: Shape = None) -> Any:
     """Declare a flow variable of a connector: the flows into the components of a connection set sum to zero."""
     return Variable(description, unit, shape, flow=True)
 
 
-@told
+@checked_call
 def port(connector: Any, description: str = "") -> Any:
     """Declare a port: `port(Frame)`, or as decorator of a method that returns a connector or None.
 
@@ -236,31 +236,31 @@ def port(connector: Any, description: str = "") -> Any:
     return Part(description or getattr(connector, "__doc__", None) or "", make=connector, is_port=True)
 
 
-@told
+@checked_call
 def ports(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes ports from structural values, a dict of connectors by name: `body.tip` for "tip"."""
     return Family(_described(make, "ports"), make=make, is_port=True)
 
 
-@told
+@checked_call
 def part(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a part from structural values; None leaves the part out."""
     return Part(_described(make, "part"), make=make)
 
 
-@told
+@checked_call
 def parts(make: Callable[[Any], Any]) -> Any:
     """Decorate a method that makes a list of parts from structural values."""
     return Part(_described(make, "parts"), make=make, many=True)
 
 
-@told
+@checked_call
 def observed(compute: Callable[[Any], Any]) -> Any:
     """Decorate a method that returns an expression: readable in results like a variable, at no cost during the run."""
     return Observed(_described(compute, "observed"), compute=compute)
 
 
-@told
+@checked_call
 def outer(cls: type) -> Any:
     """Declare a reference to the one component of class `cls` in the model, such as the World."""
     if not isinstance(cls, type):

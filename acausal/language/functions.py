@@ -11,7 +11,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError, UnitsError
 from acausal.language import unit_rules
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition, refuse_cases
 from acausal.language.expression import Expr, as_expr, entrywise, is_deferred
 from acausal.language.fields import Deferred
@@ -35,7 +35,7 @@ def _deferrable(function: Callable[..., Any]) -> Callable[..., Any]:
             return Deferred(call, arguments)
         return function(*arguments)
 
-    return told(call)
+    return checked_call(call)
 
 
 def _elementary(name: str, operate: Callable[[ca.SX], ca.SX]) -> Callable[[Any], Any]:
@@ -124,7 +124,7 @@ def cross(a: Any, b: Any) -> Any:
     return Expr(ca.cross(a.sx, b.sx), unit_rules.of_product(a, b) if one else None)
 
 
-@told
+@checked_call
 def quantity(value: Any, unit: str) -> Expr:
     """Return a constant with a unit, where a number alone takes the unit that the equation asks for.
 
@@ -147,7 +147,7 @@ def quantity(value: Any, unit: str) -> Expr:
     return Expr(number.sx, parse(unit), shape=number.shape)
 
 
-@told
+@checked_call
 def der(x: Any) -> Any:
     """Time derivative of an expression.
 
@@ -171,7 +171,7 @@ def der(x: Any) -> Any:
     return Expr(placeholder, unit, f"der({x.name})" if x.name else "", x.shape)
 
 
-@told
+@checked_call
 def piecewise(*cases: Any, smooth: bool = False) -> Any:
     """Value of the first case whose condition holds.
 

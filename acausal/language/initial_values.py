@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.fields import InitialValue
 
 
-@told
+@checked_call
 def fixed(value: Any, *, nominal: Any = None) -> Any:
     """Start value that holds at the start: `Revolute(phi=fixed(0.1))`, `Body(v_0=fixed((1, None, guess(2))))`.
 
@@ -23,7 +23,7 @@ def fixed(value: Any, *, nominal: Any = None) -> Any:
     return InitialValue(value, True, nominal)
 
 
-@told
+@checked_call
 def guess(value: Any, *, nominal: Any = None) -> Any:
     """Start value that only helps to find consistent initial values: `Revolute(w=guess(2))`.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import fields as f
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr
 from acausal.language.misspelt_fields import in_own_method, intended_name
@@ -67,7 +67,7 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
     return f"`{path}` cannot be set on a model. {' '.join(ways)}"
 
 
-@told
+@checked_call
 def refuse_attribute(component: Any, name: str, value: Any) -> None:
     """Raise DeclarationError for an attribute that is intended as a part or a field, or that nothing would read.
 

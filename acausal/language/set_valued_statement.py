@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import der
 
@@ -25,7 +25,7 @@ class SetValued:
     slip: Expr
 
 
-@told
+@checked_call
 def set_valued(speed: Any, *, limit: Any, mode: Any, offset: Any, shared: Any, share: Any, slip: Any) -> SetValued:
     """Declare a force set-valued: where a speed rests, it takes any value up to a limit.
 

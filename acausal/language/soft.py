@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.expression import Equation
 
 
@@ -13,7 +13,7 @@ class Soft(Equation):
     """An initial equation that closed loops override, see `soft`."""
 
 
-@told
+@checked_call
 def soft(condition: Any) -> Soft:
     """Let closed loops override an initial equation; yield it in initial_equations().
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language import unit_rules
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
 from acausal.language.expression import Expr, as_expr
 from acausal.symbols import vec
@@ -63,7 +63,7 @@ class Separation:
     text: str
 
 
-@told
+@checked_call
 def require(subject: Any, problem: str | Callable[[np.ndarray], str], warning: bool = False) -> Requirement:
     """State what must hold; yield it in requirements().
 
@@ -91,7 +91,7 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str], warning: b
     return Requirement(subject, problem, warning)
 
 
-@told
+@checked_call
 def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
     """State that something neglected should stay small in a run; yield it in validity().
 
@@ -114,7 +114,7 @@ def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
     return Expectation(part, whole, share, text)
 
 
-@told
+@checked_call
 def apart(offset: Any, rate: Any, effect: Any, text: str) -> Separation:
     """State that two points must not meet in a run while something acts along their line; yield it in validity().
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import told
+from acausal.language.call_arguments import checked_call
 from acausal.language.condition import Condition
 from acausal.language.expression import Equation, Expr, equation
 
@@ -28,7 +28,7 @@ class When:
     at_start: bool
 
 
-@told
+@checked_call
 def reinit(variable: Any, value: Any) -> Reinit:
     """Let a variable jump, inside when().
 
@@ -47,7 +47,7 @@ def reinit(variable: Any, value: Any) -> Reinit:
     return Reinit(same.lhs, same.rhs)
 
 
-@told
+@checked_call
 def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
     """State what happens at each instant at which a condition becomes true; yield it in equations().
 
