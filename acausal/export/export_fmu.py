@@ -24,7 +24,7 @@ from acausal.export.description import Description, Variable, is_solved
 from acausal.export.given import Role, given
 from acausal.export.reach import Reach
 from acausal.export.table import TIME, Table
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import time
@@ -37,7 +37,7 @@ from acausal.solve.run import sizes_of_run
 from acausal.symbols import picked, scalars, stacked
 
 
-@fitting
+@checked_arguments
 @alone
 def export_fmu(
     model: Component | CompiledModel,

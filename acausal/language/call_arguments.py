@@ -47,7 +47,7 @@ def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationErr
 
 def checked_call(function: F) -> F:
     """Decorate a public function: an error names the line of the call, and wrong arguments are an error of ours."""
-    checked = fitting(function)
+    checked = checked_arguments(function)
 
     @wraps(function)
     def call(*given: Any, **named: Any) -> Any:
@@ -60,7 +60,7 @@ def checked_call(function: F) -> F:
     return call  # type: ignore[return-value]
 
 
-def fitting(function: F) -> F:
+def checked_arguments(function: F) -> F:
     """Decorate a public function that runs models, or a method: wrong arguments are an error of ours, with the line."""
 
     @wraps(function)

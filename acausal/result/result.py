@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError, caution
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result.kept import Kept, keep
@@ -146,7 +146,7 @@ class Result:
     def _ipython_key_completions_(self) -> list[str]:
         return list(self)
 
-    @fitting
+    @checked_arguments
     @alone
     def series(self, *keys: Key) -> list[Series]:
         """Return scalars with name and unit; arrays entry by entry, `name[0]`, `name[1]`, ...
@@ -174,7 +174,7 @@ class Result:
             s.name: float(self.time[k]) for s in self.series(*keys) for k in np.flatnonzero(~np.isfinite(s.values))[:1]
         }
 
-    @fitting
+    @checked_arguments
     def to_csv(self, path: str | Path, *keys: Key) -> None:
         """Write a table, `time` first, then the outputs or `keys`, with all digits.
 
@@ -185,14 +185,14 @@ class Result:
         """
         write_csv(path, self._columns(keys))
 
-    @fitting
+    @checked_arguments
     def to_dataframe(self, *keys: Key) -> pd.DataFrame:
         """Return a table, `time` first, then the outputs or `keys`."""
         import pandas as pd
 
         return pd.DataFrame(self._columns(keys))
 
-    @fitting
+    @checked_arguments
     @alone
     def plot(self, *keys: Key, path: str | Path | None = None, show: bool | None = None) -> Figure:
         """Draw the outputs or `keys` over time, one axes for each unit.
@@ -226,7 +226,7 @@ class Result:
         """Return what a key means, of the model or beside it."""
         return find(self._more if self._more and self._beside(key) else self.tree, key)
 
-    @fitting
+    @checked_arguments
     @alone
     def animate(
         self,

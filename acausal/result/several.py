@@ -7,7 +7,7 @@ from pathlib import Path
 
 from acausal.animation.frames import FRAMES
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.value_checks import shown
 from acausal.locks import alone
 from acausal.result.animated import Asked, write
@@ -15,7 +15,7 @@ from acausal.result.lookup import Key
 from acausal.result.result import Result
 
 
-@fitting
+@checked_arguments
 @alone
 def animate(
     results: Mapping[str, Result],

@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal.compiler.call import Call
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.expression import Expr, as_expr
 from acausal.locks import alone
 
@@ -51,7 +51,7 @@ class CompiledStep:
     [0.5, 0.25]
     """
 
-    @fitting
+    @checked_arguments
     @alone
     def __init__(self, step: Step, states: int, inputs: int) -> None:
         began = clock.perf_counter()

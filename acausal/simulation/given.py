@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.compiler import CompiledModel, model_of, ready
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
@@ -19,7 +19,7 @@ from acausal.solve.given import evaluator_of
 from acausal.units import parse
 
 
-@fitting
+@checked_arguments
 @alone
 def result_of(
     time: Any,

@@ -14,7 +14,7 @@ from acausal.compiler import CompiledModel, ready
 from acausal.compiler.call import Call
 from acausal.errors import InitializationError
 from acausal.flatten.model_inputs import inputs_of
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.policy import POLICY
@@ -89,7 +89,7 @@ class Linearization:
         return np.linalg.eig(self.A)
 
 
-@fitting
+@checked_arguments
 @alone
 def linearize(
     model: Component | CompiledModel,

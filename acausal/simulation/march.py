@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.locks import alone
 from acausal.policy import POLICY
 from acausal.simulation.compiled_step import CompiledStep, Step
@@ -41,7 +41,7 @@ class March:
     seconds: float
 
 
-@fitting
+@checked_arguments
 @alone
 def march(
     step: Step,

@@ -7,7 +7,7 @@ from typing import Any
 
 from acausal.compiler import CompiledModel, ready
 from acausal.errors import InitializationError, SimulationError, caution
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.locks import alone
 from acausal.result import Result
@@ -18,7 +18,7 @@ from acausal.solve.integrate.settings import Progress
 from acausal.solve.run import Task, run
 
 
-@fitting
+@checked_arguments
 @alone
 def simulate(
     model: Component | CompiledModel,

@@ -18,7 +18,7 @@ from acausal.export.dae.base_modelica import base_modelica
 from acausal.export.dae.expressions import NAMES, Writer
 from acausal.export.dae.plain import encoded
 from acausal.export.dae.shown import shown
-from acausal.language.call_arguments import fitting
+from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import feedback, initial, time
@@ -31,7 +31,7 @@ from acausal.simulation.settings import declared_settings
 SHARED = {"time": time, "initial": initial, "feedback": feedback}
 
 
-@fitting
+@checked_arguments
 @alone
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
