@@ -26,17 +26,17 @@ class _Thread(local):
 _THREAD = _Thread()
 
 
-def _alone_in_child() -> None:
+def _reset_in_child() -> None:
     Signals.forget()
     LOCK.release()
 
 
 if hasattr(os, "register_at_fork"):
     # A child has no other threads: one that held the lock would hold it forever there.
-    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=_alone_in_child)
+    os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=_reset_in_child)
 
 
-def alone(function: Callable[P, R]) -> Callable[P, R]:
+def exclusive(function: Callable[P, R]) -> Callable[P, R]:
     """Let one thread at a time into all functions marked so, and no interrupt be lost in them; they may call each other.
 
     Parameters
@@ -57,7 +57,7 @@ def alone(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def apart(function: Callable[[], R]) -> R:
+def unlocked(function: Callable[[], R]) -> R:
     """Call what shares nothing with other threads, which may enter meanwhile; interrupts wait, see `Signals.waiting`.
 
     An entry that another one called lets none in: its caller may be amid an evaluation, or have changed what is of the whole

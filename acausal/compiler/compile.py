@@ -20,13 +20,13 @@ from acausal.flatten import flatten
 from acausal.garbage import uncollected
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.reduce import plan_of, reduce
 from acausal.reduce.explain import UNCONNECTED
 
 
 @checked_arguments
-@alone
+@exclusive
 @uncollected()
 def compile(
     model: Component, parameters: Mapping[str, Any] | None = None, *, free: Collection[str] = ()

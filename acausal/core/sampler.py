@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal.core.library import RequestData, loaded
 from acausal.core.sampled import Sampled
-from acausal.locks import apart
+from acausal.locks import unlocked
 
 
 class Back(IntEnum):
@@ -224,6 +224,6 @@ class Sampler:
         self._peak[:] = -np.inf
         request.end, request.most, request.density = end, steps, density
         here = (array.ctypes.data for array in (x, z, c, truth))
-        back = apart(lambda: self._library.ac_sampler_go(self._memory, byref(request), byref(state), *here))
+        back = unlocked(lambda: self._library.ac_sampler_go(self._memory, byref(request), byref(state), *here))
         times, x, z, c, events, work = (array[: state.rows].copy() for array in self._found)
         return Samples(Back(back), times[:, 0], x, z, c, events[:, 0], work, truth > 0, self._peak.copy(), state)

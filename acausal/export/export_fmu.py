@@ -28,7 +28,7 @@ from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import time
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.asked import planned
 from acausal.simulation.settings import settled
@@ -38,7 +38,7 @@ from acausal.symbols import picked, scalars, stacked
 
 
 @checked_arguments
-@alone
+@exclusive
 def export_fmu(
     model: Component | CompiledModel,
     path: str | Path,

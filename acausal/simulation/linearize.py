@@ -16,7 +16,7 @@ from acausal.errors import InitializationError
 from acausal.flatten.model_inputs import inputs_of
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.linear_point import check_point
 from acausal.simulation.settings import check_number, settled
@@ -90,7 +90,7 @@ class Linearization:
 
 
 @checked_arguments
-@alone
+@exclusive
 def linearize(
     model: Component | CompiledModel,
     *,

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.language.call_arguments import checked_arguments
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.policy import POLICY
 from acausal.simulation.compiled_step import CompiledStep, Step
 from acausal.solve.integrate.settings import Progress
@@ -42,7 +42,7 @@ class March:
 
 
 @checked_arguments
-@alone
+@exclusive
 def march(
     step: Step,
     start: Any,

@@ -9,7 +9,7 @@ from acausal.compiler import CompiledModel, ready
 from acausal.errors import InitializationError, SimulationError, caution
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.result import Result
 from acausal.simulation.accuracy import reach
 from acausal.simulation.asked import planned
@@ -19,7 +19,7 @@ from acausal.solve.run import Task, run
 
 
 @checked_arguments
-@alone
+@exclusive
 def simulate(
     model: Component | CompiledModel,
     *,

@@ -23,7 +23,7 @@ from acausal.language.component import Component
 from acausal.language.docstring import first_line
 from acausal.language.functions import feedback, initial, time
 from acausal.language.validity_statements import Expectation, Separation
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.result import check_writable
 from acausal.simulation.settings import declared_settings
 
@@ -32,7 +32,7 @@ SHARED = {"time": time, "initial": initial, "feedback": feedback}
 
 
 @checked_arguments
-@alone
+@exclusive
 def export_dae(
     model: Component | CompiledModel, path: str | Path, *, parameters: Mapping[str, Any] | None = None
 ) -> None:

@@ -16,13 +16,13 @@ from acausal.export.dae.expressions import FLOAT, INT, NAMES, Operations, Reader
 from acausal.export.dae.plain import decoded
 from acausal.language.call_arguments import checked_arguments
 from acausal.language.component import Component
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.reduce import ReducedModel
 from acausal.result import document
 
 
 @checked_arguments
-@alone
+@exclusive
 def load_dae(path: str | Path) -> CompiledModel:
     """Read a model that `export_dae` wrote; its classes are not needed.
 

@@ -17,13 +17,13 @@ import cloudpickle
 from acausal.errors import DeclarationError
 from acausal.language.fields import MISSING, Template
 from acausal.language.pickling import deserialize, serialize
-from acausal.locks import alone
+from acausal.locks import exclusive
 from acausal.study.measuring.unsendable import unsendable
 
 UNSENDABLE = (TypeError, AttributeError, ValueError, RecursionError, pickle.PicklingError)
 
 
-@alone
+@exclusive
 def pack(model: Any, home: str = "") -> bytes:
     """Turn a model that is not built, or values that are given to one, into bytes.
 
