@@ -81,14 +81,14 @@ class SimulationError(AcausalError):
         self.result = result
 
     def __str__(self) -> str:
-        return self.said("is in error.result")
+        return self.text("is in error.result")
 
-    def said(self, where: str = "") -> str:
+    def text(self, where: str = "") -> str:
         """Return the message, and where what was computed is found: "is in error.result"."""
-        text = super().__str__()
+        message = super().__str__()
         if not where or self.result is None or not self.begun:
-            return text
-        return f"{text}\n{self.kept} {where}."
+            return message
+        return f"{message}\n{self.kept} {where}."
 
 
 class UnitsError(AcausalError):

@@ -78,7 +78,7 @@ class Runs:
             except SimulationError as failure:
                 found = failure
             self.results[numerics] = found
-            self._note(numerics, *((found, "") if isinstance(found, Result) else (found.result, found.said())))
+            self._note(numerics, *((found, "") if isinstance(found, Result) else (found.result, found.text())))
         return self.results[numerics]
 
     def sizes(self, number: int) -> dict[str, int]:
