@@ -5,9 +5,9 @@ integrates them.
 """
 
 # ruff: noqa: E402 - the rest takes a second to load, and may be interrupted meanwhile
-from acausal.interrupts import heed
+from acausal.interrupts import shorten_loading_interrupts
 
-heed()
+shorten_loading_interrupts()
 
 from typing import TYPE_CHECKING, Any
 

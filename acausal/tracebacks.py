@@ -34,7 +34,7 @@ def install() -> None:
         shell.set_custom_exc((AcausalError,), _show_in_notebook)
 
 
-def written(error: BaseException, trace: TracebackType | None) -> str:
+def user_traceback(error: BaseException, trace: TracebackType | None) -> str:
     """Return the traceback of an error with the user's frames alone; with all where there are none.
 
     Parameters
@@ -52,7 +52,7 @@ def written(error: BaseException, trace: TracebackType | None) -> str:
 
 def _show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if isinstance(error, AcausalError) and os.environ.get(SETTING) != "full":
-        sys.stderr.write(written(error, trace))
+        sys.stderr.write(user_traceback(error, trace))
     else:
         sys.__excepthook__(kind, error, trace)
         if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in NAMES and (hidden := shadowed()):
@@ -65,4 +65,4 @@ def _show_in_notebook(
     if os.environ.get(SETTING) == "full":
         shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
     else:
-        sys.stderr.write(written(error, trace))
+        sys.stderr.write(user_traceback(error, trace))
