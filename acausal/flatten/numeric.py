@@ -15,7 +15,7 @@ from acausal.language.expression import Expr
 from acausal.language.fields import InitialValue
 from acausal.language.formatting import short
 from acausal.language.invalid_operands import decimal_point
-from acausal.language.quantities import refused
+from acausal.language.quantities import misplaced_quantity
 from acausal.language.symbolic import Symbolic
 from acausal.language.value_checks import shown
 from acausal.units import in_si
@@ -44,7 +44,7 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
     """
     if type(value) is float and not shape and -LARGEST <= value <= LARGEST:
         return np.array(value)
-    if wrong := refused(value):
+    if wrong := misplaced_quantity(value):
         raise DeclarationError(f"{where} is {wrong}")
     single = shape == () or (shape is None and not _is_listed(value))
     try:

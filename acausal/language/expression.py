@@ -16,7 +16,7 @@ from acausal.language.condition import Condition, undecided
 from acausal.language.formatting import formatted, kind_of, short
 from acausal.language.indexing import selected_entries
 from acausal.language.invalid_operands import invalid_operand, number_of, ragged
-from acausal.language.quantities import refused
+from acausal.language.quantities import misplaced_quantity
 from acausal.language.symbolic import NUMPY_FUNCTIONS, Symbolic
 from acausal.language.unit_rules import Unit
 from acausal.symbols import combined, picked, vec
@@ -180,7 +180,7 @@ def as_expr(value: Any) -> Expr:
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
         return _number(number_of(value))
-    if wrong := refused(value):
+    if wrong := misplaced_quantity(value):
         raise DeclarationError(f"here stands {wrong}")
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value

@@ -62,7 +62,7 @@ def is_quantity(value: Any) -> bool:
     return any(hasattr(value, n) for n in ("magnitude", "value")) and any(hasattr(value, u) for u in ("units", "unit"))
 
 
-def refused(value: Any) -> str:
+def misplaced_quantity(value: Any) -> str:
     """Return the message for a quantity where no field tells the unit, "" for other values."""
     if isinstance(value, np.ma.MaskedArray):
         return masked(value)
