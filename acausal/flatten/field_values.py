@@ -18,7 +18,7 @@ from acausal.flatten.origin import Origin, value_origin, with_place
 from acausal.flatten.structural import structural_value
 from acausal.language import fields as f
 from acausal.language import quantities, unit_rules
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.component import Component
 from acausal.language.expression import Expr, as_expr
 from acausal.language.functions import time
@@ -235,7 +235,9 @@ def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:
     fits = isinstance(shape, tuple) and all(isinstance(n, sizes) and not isinstance(n, bool) and n >= 0 for n in shape)
     if not fits or len(shape) > 2:
         path = join(owner._path, declared.name)
-        raise refused(f"the shape of `{path}` is {shown(shape)}; a vector has (3,), a matrix (3, 3).", declared.where)
+        raise declaration_error(
+            f"the shape of `{path}` is {shown(shape)}; a vector has (3,), a matrix (3, 3).", declared.where
+        )
     return tuple(int(n) for n in shape)
 
 

@@ -38,7 +38,7 @@ SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "metho
 MARKS = ("part", "parts", "ports", "observed")
 
 
-def refused(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:
+def declaration_error(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:
     """Return an error with the line that it is about, that of the statement being executed if none is given."""
     error = kind(text)
     error.line = line or user_line()
@@ -69,7 +69,7 @@ def checked_arguments(function: F) -> F:
             return function(*given, **named)
         except TypeError:
             if wrong := _misfit(function, given, named):
-                raise refused(wrong) from None
+                raise declaration_error(wrong) from None
             raise
 
     return call  # type: ignore[return-value]

@@ -12,7 +12,7 @@ from acausal.errors import PACKAGE, DeclarationError
 from acausal.language import declare
 from acausal.language import fields as f
 from acausal.language.body import read_body
-from acausal.language.call_arguments import checked_call, refused
+from acausal.language.call_arguments import checked_call, declaration_error
 from acausal.language.docstring import signature, with_fields
 from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
@@ -106,7 +106,7 @@ class Component(f.Template):
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self.fields or name in type(self).fields:
-            raise refused(refuse_value(self, name, value))
+            raise declaration_error(refuse_value(self, name, value))
         if name[0] != "_":
             refuse_attribute(self, name, value)
         object.__setattr__(self, name, value)

@@ -11,7 +11,7 @@ import numpy as np
 from acausal.errors import AcausalError
 from acausal.language import data
 from acausal.language import fields as f
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.invalid_operands import decimal_point
 from acausal.language.types import shape_of_annotation, wrong_type
 from acausal.language.value_checks import shown
@@ -37,7 +37,7 @@ def check_field(cls: Any, name: str, field: f.Field) -> None:
     except AcausalError as error:
         wrong = str(error)
     if wrong:
-        raise refused(f"{cls.__name__}.{name}: {wrong}", field.where)
+        raise declaration_error(f"{cls.__name__}.{name}: {wrong}", field.where)
 
 
 def _wrong(cls: Any, name: str, field: f.Field) -> str:

@@ -10,7 +10,7 @@ from types import FunctionType
 from typing import Any
 
 from acausal.language import fields as f
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.value_checks import shown
@@ -46,7 +46,7 @@ def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
     for name, value in said.items():
         wrong = _reserved(cls, name, value, engine)
         if wrong:
-            raise refused(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
+            raise declaration_error(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
 
 
 def refuse_annotations(cls: Any) -> None:
@@ -56,7 +56,7 @@ def refuse_annotations(cls: Any) -> None:
             if name in cls.fields or hasattr(cls, name):
                 continue
             if _is_call(inspect.get_annotations(base)[name]):
-                raise refused(
+                raise declaration_error(
                     f"{base.__name__}.{name} has no value: a `:` stands where `=` is meant. Write `{name} = ...`, or "
                     f"`{name}: Scalar = ...` for a field.",
                     base._line,
@@ -65,7 +65,7 @@ def refuse_annotations(cls: Any) -> None:
                 continue
             kind = inspect.get_annotations(base)[name]
             kind = kind if isinstance(kind, str) else kind.__name__
-            raise refused(
+            raise declaration_error(
                 f'{base.__name__}.{name} has a type, but is not declared: write `{name}: {kind} = variable("...")`, or '
                 "parameter, input, output.",
                 base._line,
@@ -92,7 +92,7 @@ def refuse_plain(cls: Any, name: str, value: Any) -> None:
             f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
             f"constant stands without the type, `{name} = {shown(value)}`"
         )
-    raise refused(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
+    raise declaration_error(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
 
 
 def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from acausal.language import fields as f
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.invalid_settings import refuse_path
 
 
@@ -27,7 +27,7 @@ class Path:
         return Path(f"{self._path}.{name}", getattr(self._class, name, None))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        raise refused(refuse_path(f"{self._path}.{name}", self._class, name, value))
+        raise declaration_error(refuse_path(f"{self._path}.{name}", self._class, name, value))
 
     def __getitem__(self, index: Any) -> Path:
         known = isinstance(self._make, list) and isinstance(index, int) and -len(self._make) <= index < len(self._make)
@@ -37,7 +37,7 @@ class Path:
         whole = (
             "its list" if not isinstance(self._make, f.Field) or isinstance(self._make, f.Part) else "the whole array"
         )
-        raise refused(
+        raise declaration_error(
             f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, `{self._name}=...`."
         )
 

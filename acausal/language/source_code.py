@@ -14,7 +14,7 @@ from weakref import WeakSet
 
 from acausal.errors import ConnectError, DeclarationError, user_line
 from acausal.garbage import uncollected
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 
 ENGINE = "acausal.language.component"
 CONNECTIONS = {"connect", "chain", "branch", "root", "potential_root"}
@@ -79,7 +79,7 @@ def _refuse(cls: Any) -> None:
     name, file = cls.__name__, cls._line.rpartition(":")[0]
     bodies = _class(name, cls._line)
     for again, first, second in (slip for body in bodies for slip in _twice(body.body)):
-        raise refused(
+        raise declaration_error(
             f"{name}.{again} is written twice in the class body, so that only the last is kept: the first is in line "
             f"{first}. Give one of them another name, or remove it.",
             f"{file}:{second}",
@@ -92,7 +92,7 @@ def _refuse(cls: Any) -> None:
                 mend = "Yield it in equations()." if isinstance(node, ast.ClassDef) else "Write `yield` before it."
                 kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
                 text = f"{name}: {what} has no effect, as it is not yielded. {mend}"
-                raise refused(text, f"{path}:{part.lineno}", kind)
+                raise declaration_error(text, f"{path}:{part.lineno}", kind)
 
 
 def _class(name: str, where: str) -> list[Any]:

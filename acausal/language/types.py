@@ -8,7 +8,7 @@ import re
 import sys
 from typing import TYPE_CHECKING, Any
 
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.nearest import likeliest
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ else:
     class _Type:
         def __new__(cls, *_: Any, **__: Any) -> Any:
             name = cls.__name__
-            raise refused(
+            raise declaration_error(
                 f'{name} is the type of a field and takes no value: `x: {name} = variable("...")`, or parameter(...).'
             )
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
-from acausal.language.call_arguments import refused
+from acausal.language.call_arguments import declaration_error
 from acausal.language.formatting import in_code
 from acausal.nearest import likeliest
 
@@ -79,7 +79,7 @@ def values_of_class(cls: Any, name: str, value: Any) -> str:
 def refuse_decorator(cls: Any) -> None:
     """Raise DeclarationError for a class whose constructor was written by @dataclass or the like."""
     if hasattr(cls, "__dataclass_fields__") or hasattr(cls, "__attrs_attrs__"):
-        raise refused(
+        raise declaration_error(
             f"{cls.__name__} is marked @dataclass, which replaces the constructor that knows its fields. Leave the decorator "
             'out: a component class takes its fields as they stand, `k: Scalar = parameter("...", default=1)`.'
         )
@@ -90,7 +90,7 @@ def refuse_constructor(cls: Any) -> None:
     own = next((vars(base)["__init__"] for base in cls.__mro__ if "__init__" in vars(base)), None)
     code = getattr(own, "__code__", None)
     line = f"{code.co_filename}:{code.co_firstlineno}" if code else ""
-    raise refused(
+    raise declaration_error(
         f"the constructor of {cls.__name__} does not call super().__init__(), so that values given to it would be lost. Write "
         "`super().__init__(**values)` in it, or leave it out: fields need no constructor.",
         line,
