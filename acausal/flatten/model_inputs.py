@@ -12,7 +12,7 @@ from acausal.language import fields as f
 from acausal.language.component import Component
 from acausal.symbols import dense, scalars, vec
 
-MEND = (
+REMEDY = (
     "Pass it through a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
     "or an equation such as T * der(y) == {name} - y."
 )
@@ -34,7 +34,7 @@ def refuse_rates_of_inputs(raw: CollectedStatements) -> None:
     if found:
         raise DeclarationError(
             f"der() is applied to something that holds the input `{found[0]}`; its variation with time is unknown, so it has no "
-            f"derivative. {MEND.format(name=found[0])}"
+            f"derivative. {REMEDY.format(name=found[0])}"
         )
 
 

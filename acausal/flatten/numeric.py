@@ -54,11 +54,11 @@ def numeric(value: Any, shape: tuple[int, ...] | None, where: str, remedy: str =
     except (TypeError, ValueError):
         wanted = "a number" if single else "an array of numbers" + (f" of shape {shape}" if shape else "")
         si = in_si(value) if isinstance(value, str) and single else None
-        mend = (
+        hint = (
             f", in SI units without the unit: {si:.12g}" if si is not None else decimal_point(value) if single else ""
         )
-        more = f" {remedy}" if remedy and not mend else ""
-        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{mend}.{more}") from None
+        more = f" {remedy}" if remedy and not hint else ""
+        raise DeclarationError(f"{where} is {_written(value)}; it must be {wanted}{hint}.{more}") from None
     except OverflowError:
         raise DeclarationError(f"{where} has more than 300 digits; it must be finite.") from None
     if shape is not None and array.shape != shape:

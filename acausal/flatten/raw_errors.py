@@ -16,7 +16,7 @@ from acausal.language.symbolic import FUNCTIONS
 from acausal.nearest import likeliest
 
 PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
-MENDS = {
+REMEDIES = {
     NoneType: "It is a part or port that does not exist here, or the value of a method without `return`: use it only where it "
     "is not None.",
     list: "One of its entries is named by its number: self.links[0], or all of them by a loop.",
@@ -60,15 +60,15 @@ def in_words(error: Exception) -> str:
             f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
         )
     if isinstance(error, AttributeError) and type(error.obj) in PARTS:
-        return f"{PARTS[type(error.obj)]} has no `{error.name}`. {MENDS[type(error.obj)]}"
+        return f"{PARTS[type(error.obj)]} has no `{error.name}`. {REMEDIES[type(error.obj)]}"
     if isinstance(error, NotImplementedError) and len(error.args) != 1:
         return _not_implemented(error)
     if isinstance(error, AssertionError):
         last = traceback.extract_tb(error.__traceback__)[-1]
         return f"`{last.line}` does not hold{f': {error}' if str(error) else '.'}"
-    for pattern, mend in RAW:
+    for pattern, remedy in RAW:
         if re.search(pattern, str(error)):
-            return mend
+            return remedy
     foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
     if foreign:
         return _of_casadi(foreign[1], error)

@@ -71,10 +71,12 @@ def refuse_late_fields(cls: Any) -> None:
         late = {n: v for n, v in vars(base).items() if n[0] != "_" and base._as_read.get(n, _ABSENT) is not v}
         for name, value in late.items():
             if name in base.fields or isinstance(value, f.Field) or holds_parts(value):
-                mend = f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
+                remedy = (
+                    f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
+                )
                 raise DeclarationError(
                     f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
-                    f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {mend}."
+                    f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {remedy}."
                 )
         refuse_misspelt_fields(base, late, base.fields)
     refuse_annotations(cls)

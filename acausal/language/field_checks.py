@@ -140,8 +140,8 @@ def _wrong_value(field: f.Field) -> str:
     if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
         if isinstance(default, str) and decimal_point(default):
             return f"default={shown(default)} must be a number{decimal_point(default)}."
-        mend = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
-        return f"default={shown(default)} must be a number.{mend}"
+        remedy = ' Text and switches are structural: structural("...", default=...).' * isinstance(default, str | bool)
+        return f"default={shown(default)} must be a number.{remedy}"
     if isinstance(field, f.Structural) and (wrong := _wrong_class(field)):
         return wrong
     choices = field.choices if isinstance(field, f.Structural) else None

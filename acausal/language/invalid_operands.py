@@ -27,8 +27,8 @@ WORDS = {
 
 def invalid_operand(value: Any) -> str:
     """Return the message for a value that has no place in an expression."""
-    what, mend = _described(value)
-    return f"{what} cannot stand in an expression. {mend}"
+    what, remedy = _described(value)
+    return f"{what} cannot stand in an expression. {remedy}"
 
 
 def number_of(value: Any) -> float:
@@ -47,7 +47,7 @@ def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
 
 
 def decimal_point(value: Any) -> str:
-    """Return the mend where a comma was intended as decimal point, as in 1,5 and "1,5"; "" where it was not."""
+    """Return the remedy where a comma was intended as decimal point, as in 1,5 and "1,5"; "" where it was not."""
     parts = value.split(",") if isinstance(value, str) else value if isinstance(value, tuple) else ()
     texts = [str(part).strip() for part in parts]
     meant = len(texts) == 2 and re.fullmatch(r"[-+]?\d*", texts[0]) and re.match(r"\d+", texts[1])

@@ -86,13 +86,13 @@ def refuse_plain(cls: Any, name: str, value: Any) -> None:
     kind = annotation if isinstance(annotation, str) else annotation.__name__  # type: ignore[union-attr]
     if inspect.isfunction(value):
         word = value.__name__
-        mend = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
+        remedy = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
     else:
-        mend = (
+        remedy = (
             f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
             f"constant stands without the type, `{name} = {shown(value)}`"
         )
-    raise declaration_error(f"{cls.__name__}.{name}: {mend}.", body_line(cls, name))
+    raise declaration_error(f"{cls.__name__}.{name}: {remedy}.", body_line(cls, name))
 
 
 def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str:

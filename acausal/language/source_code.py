@@ -89,9 +89,9 @@ def _refuse(cls: Any) -> None:
     for path, node in [*((file, body) for body in bodies), *methods]:
         for part in _statements(node.body) if not isinstance(node, ast.Lambda) else ():
             if what := _dropped(part):
-                mend = "Yield it in equations()." if isinstance(node, ast.ClassDef) else "Write `yield` before it."
+                remedy = "Yield it in equations()." if isinstance(node, ast.ClassDef) else "Write `yield` before it."
                 kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
-                text = f"{name}: {what} has no effect, as it is not yielded. {mend}"
+                text = f"{name}: {what} has no effect, as it is not yielded. {remedy}"
                 raise declaration_error(text, f"{path}:{part.lineno}", kind)
 
 

@@ -62,8 +62,8 @@ def misplaced(statement: Any, method: str) -> str:
     if isinstance(first, Condition | Equation) and method in BARE:
         word = "an equation" if isinstance(first, Equation) else "a bare inequality"
         return f"{method}() yields {word}; write {BARE[method]}."
-    what, mend = _described(statement, method)
-    return f"{method}() yields {what}; yield {takes}.{f' {mend}' if mend else ''}"
+    what, remedy = _described(statement, method)
+    return f"{method}() yields {what}; yield {takes}.{f' {remedy}' if remedy else ''}"
 
 
 def error_of(statement: Any) -> type[AcausalError]:
@@ -77,11 +77,11 @@ def _described(statement: Any, method: str) -> tuple[str, str]:
     if isinstance(statement, bool):
         if method == "connections":
             return f"{statement}", "Ports are joined by connect(a, b), not by `==`."
-        mend = "Its `==` compares plain values or parts: one side must be a variable, self.x or self.part.x."
-        return f"{statement}", mend
+        remedy = "Its `==` compares plain values or parts: one side must be a variable, self.x or self.part.x."
+        return f"{statement}", remedy
     if isinstance(statement, Condition):
-        mend = 'What must hold is yielded in requirements(): require(a < b, "..."); what happens then: when(a < b, reinit(...)).'
-        return "an inequality", mend
+        remedy = 'What must hold is yielded in requirements(): require(a < b, "..."); what happens then: when(a < b, reinit(...)).'
+        return "an inequality", remedy
     if isinstance(statement, Reinit):
         return "reinit(...) alone", "Say when it happens: when(condition, reinit(variable, value))."
     if isinstance(statement, InitialValue):

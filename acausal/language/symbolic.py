@@ -110,8 +110,8 @@ class Symbolic:
         return counterpart(*arguments)  # type: ignore[misc]
 
     def _refuse_numpy(self, name: str) -> Any:
-        mend = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"
-        raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {mend}.")
+        remedy = INSTEAD.get(name) or f"acausal has {', '.join(FUNCTIONS)}, abs, min by piecewise, and sum(v)"
+        raise DeclarationError(f"numpy's `{name}` takes numbers, and {self._shown()} {self._lacks}. Write {remedy}.")
 
     def _shown(self) -> str:
         return short(self)

@@ -78,11 +78,11 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
             f"{kind} is one number; with shape={shape} leave the type out, `{name} = {field}(...)`." if listed else ""
         )
     if kind in _WHOLE:
-        mend = f"`{name}: {kind} = structural(...)`"
-        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {mend}."
+        remedy = f"`{name}: {kind} = structural(...)`"
+        return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {remedy}."
     if kind in _LISTED:
-        mend = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
-        return f"the type {kind} does not tell how many numbers: write {mend}." if shape is None else ""
+        remedy = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
+        return f"the type {kind} does not tell how many numbers: write {remedy}." if shape is None else ""
     if kind in _NEITHER or _is_component(cls, kind):
         what = (
             ""

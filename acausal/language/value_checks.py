@@ -155,10 +155,10 @@ def _check_part(where: str, value: Any, field: f.Part) -> Any:
         raise DeclarationError(f"{where} is a list of parts; give a list: {field.name}=[{value!r}].")
     if value is None or isinstance(value, f.Template):
         return value
-    what, mend = "a part", f"give a list: {field.name}=[...]" if isinstance(value, dict | set) else "give a component"
+    what, remedy = "a part", f"give a list: {field.name}=[...]" if isinstance(value, dict | set) else "give a component"
     if field.is_port:
-        what, mend = "a port", "it is connected, connect(...) or chain(...), and takes no value"
-    raise DeclarationError(f"{where} is {what}; {mend}, not {shown(value)}.")
+        what, remedy = "a port", "it is connected, connect(...) or chain(...), and takes no value"
+    raise DeclarationError(f"{where} is {what}; {remedy}, not {shown(value)}.")
 
 
 def _described(cls: Any, word: str) -> list[str]:

@@ -48,10 +48,10 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
     residuals = scalars(flat.equations.residuals)
     lines += wrong_kinds(flat.tree, [residuals[e] for part in over for e in part.equations if e < len(residuals)])
     if over and under and not _hints(flat, under):
-        stated, mend = _determined(flat, over[0])
-        if OUT not in mend:
-            mend = f"One of the first equations should probably contain {_one_of(flat, under)}."
-        return "\n".join([*lines, *stated, *_undetermined(flat, under), mend])
+        stated, remedy = _determined(flat, over[0])
+        if OUT not in remedy:
+            remedy = f"One of the first equations should probably contain {_one_of(flat, under)}."
+        return "\n".join([*lines, *stated, *_undetermined(flat, under), remedy])
     if over:
         lines += _too_many(flat, over[0])
     if under:
@@ -66,19 +66,19 @@ def _one_of(flat: FlatModel, part: Subsystem) -> str:
 
 
 def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
-    """Equations that determine too few unknowns, and the mend."""
-    lines, mend = _determined(flat, part)
+    """Equations that determine too few unknowns, and the remedy."""
+    lines, remedy = _determined(flat, part)
     if any("(inherited from " in line for line in lines):
-        mend += (
+        remedy += (
             " What is inherited comes by `yield from super().equations()`; leave that out where all of it is replaced."
         )
     if flat.loops.cuts:
-        mend += " Where rigid parts close a loop, their lengths cannot all be prescribed: add a joint or a spring."
-    return [*lines, mend]
+        remedy += " Where rigid parts close a loop, their lengths cannot all be prescribed: add a joint or a spring."
+    return [*lines, remedy]
 
 
 def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
-    """Equations that determine too few unknowns, the user's own first where parts state the others; and the mend."""
+    """Equations that determine too few unknowns, the user's own first where parts state the others; and the remedy."""
     origins = flat.equations.origins
     rows = [e for e in part.equations if e < len(origins)]
     bases = {str(origins[e]): base for e in rows if (base := _inherited(flat, origins[e]))}
@@ -97,8 +97,8 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
         one = len(users) == 1
         head = "This equation has" if one else "One of these equations has"
         held = f"These already determine what {'it holds' if one else 'they hold'}:"
-        mend = "Remove it." if one else rivals or "Remove one of yours."
-        return [f"{head} no unknown left to determine:", *users, held, *others], mend
+        remedy = "Remove it." if one else rivals or "Remove one of yours."
+        return [f"{head} no unknown left to determine:", *users, held, *others], remedy
     if not n:
         return ["One of these equations has no unknown left to determine:", *(users or others)], "Remove one of them."
     count = f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):"
@@ -117,7 +117,7 @@ def _rivals(users: Iterable[Origin]) -> str:
 
 
 def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str], str]:
-    """Equations that hold only what is known before, and the mend."""
+    """Equations that hold only what is known before, and the remedy."""
     head = "This equation determines nothing:" if len(lines) == 1 else "These equations determine nothing:"
     residuals, own = scalars(flat.equations.residuals), flat.parameters
     inside = {s.element_hash() for e in rows for s in ca.symvar(residuals[e])}
@@ -133,12 +133,12 @@ def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str
         for name in held
     ]
     first = f"{', '.join(what[:SHORT])}. Declare"
-    mend = (
+    remedy = (
         f"{first} it variable(...) if the equation is to determine it; or remove the equation."
         if len(held) == 1
         else f"{first} the one that is to follow from this variable(...); or remove the equation."
     )
-    return [head, *lines], mend
+    return [head, *lines], remedy
 
 
 def _together(parts: tuple[Subsystem, ...]) -> Subsystem:
@@ -155,26 +155,26 @@ def _undetermined(flat: FlatModel, part: Subsystem) -> list[str]:
 
 
 def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
-    """What nothing determines, the likely cause first, and the mend."""
+    """What nothing determines, the likely cause first, and the remedy."""
     hints = _hints(flat, part)
     lines = [*hints, *_undetermined(flat, part)]
     if not hints and (repeats := _repeats(flat)):
         return [*lines, *repeats]
     ports = any(line.startswith(UNCONNECTED) for line in hints)
-    mend = (
+    remedy = (
         "Connect the part, or give it what is missing"
         if ports
         else "Give the inputs"
         if hints
         else "Add the missing equation"
     )
-    mend += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
+    remedy += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
-    return [*lines, mend + zero]
+    return [*lines, remedy + zero]
 
 
 def _repeats(flat: FlatModel) -> list[str]:
-    """Equations of which one repeats what the others say, the user's own where there are several; and the mend."""
+    """Equations of which one repeats what the others say, the user's own where there are several; and the remedy."""
     found = flat.equations.repeats()
     if not found:
         return []
@@ -183,12 +183,12 @@ def _repeats(flat: FlatModel) -> list[str]:
         ((own, [o for o in own if is_stated_by_user(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
     )
     lines = _lines(users if len(users) > 1 else [*users, *(o for o in stated if o not in users)], {})
-    mend = _rivals(users) or "Replace one of them, or take out a part that determines the same as another."
-    return ["One of these equations repeats what the others say, and determines nothing:", *lines, mend]
+    remedy = _rivals(users) or "Replace one of them, or take out a part that determines the same as another."
+    return ["One of these equations repeats what the others say, and determines nothing:", *lines, remedy]
 
 
 def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
-    """Equations that give together only what constrains a motion, and the mend."""
+    """Equations that give together only what constrains a motion, and the remedy."""
     names, known = flat.unknowns.names, [v for v in part.variables if v < len(flat.unknowns.names)]
     return [
         f"The motion is constrained through {', '.join(f'`{names[v]}`' for v in known[:MOST])}, "

@@ -6,7 +6,7 @@ import casadi as ca
 
 from acausal.errors import DeclarationError
 from acausal.flatten import FlatModel
-from acausal.flatten.model_inputs import MEND, inputs_of
+from acausal.flatten.model_inputs import REMEDY, inputs_of
 from acausal.structure import Plan
 from acausal.symbols import scalars
 
@@ -25,5 +25,5 @@ def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
         if found:
             raise DeclarationError(
                 f"{flat.equations.origins[equation]}: this equation prescribes a motion through the input `{found[0]}`, whose "
-                f"derivatives are needed too; its variation with time is unknown, so it has none. {MEND.format(name=found[0])}"
+                f"derivatives are needed too; its variation with time is unknown, so it has none. {REMEDY.format(name=found[0])}"
             )
