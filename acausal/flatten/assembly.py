@@ -159,7 +159,7 @@ class Assembly:
             defines=tuple(defines.get(r, -1) for r in left.rows),
             initial=self._initial(*eliminated),
             redundant=tuple(self.origins[r] for r in left.done.redundant),
-            givers=lambda k: self._givers(self._source(left.rows[k], left.done), left.done),
+            eliminated_by=lambda k: self._eliminating(self._source(left.rows[k], left.done), left.done),
             repeats=lambda: self._repeats(left.done),
         )
 
@@ -168,19 +168,21 @@ class Assembly:
         n = self.residuals.numel()
         return Source(row) if row < n else done.left[row - n][1]
 
-    def _givers(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
+    def _eliminating(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
         """Equations that removed the unknowns of a residual, those of the whole model first."""
         place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))}
         entries, found = scalars(self.residuals), [source]
         for row, derivatives in found:
             inside = (*(place.get(s.element_hash(), -1) for s in ca.symvar(entries[row])), *derivatives)
-            found += dict.fromkeys(done.givers[k] for k in inside if k in done.givers and done.givers[k] not in found)
+            found += dict.fromkeys(
+                done.eliminated_by[k] for k in inside if k in done.eliminated_by and done.eliminated_by[k] not in found
+            )
         return tuple(sorted((self.origins[s.row] for s in found[1:]), key=lambda o: bool(o.path)))
 
     def _repeats(self, done: Simplification) -> tuple[tuple[Origin, ...], ...]:
         """Redundant equations that close no loop, each followed by those that gave its unknowns."""
         own = [*(Source(row) for row in done.redundant if row not in self.substitutes), *done.repeated]
-        return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._givers(s, done)))) for s in own)
+        return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._eliminating(s, done)))) for s in own)
 
     def _parameters(self) -> FlatParameters:
         own = self.raw.build.parameters
@@ -293,6 +295,6 @@ class Assembly:
     def _refuse_contradictions(self, done: Simplification) -> None:
         if done.contradictions:
             wrong = [(self.origins[source.row], value) for source, value in done.contradictions]
-            others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._givers(source, done))
+            others = dict.fromkeys(o for source, _ in done.contradictions[:5] for o in self._eliminating(source, done))
             kinds = wrong_kinds(self.raw.build.root, [self.residuals[source.row] for source, _ in done.contradictions])
             raise UnbalancedModelError("\n".join([*kinds, contradiction_text(self.raw.build.root, wrong, others)]))

@@ -139,7 +139,7 @@ class FlatEquations:
         Fixed start values and initial equations.
     redundant : tuple of Origin
         Redundant equations.
-    givers : callable
+    eliminated_by : callable
         From a residual to the equations that gave the unknowns that were removed from it.
     repeats : callable
         Redundant equations that close no loop, each followed by those that gave its unknowns.
@@ -150,7 +150,7 @@ class FlatEquations:
     defines: tuple[int, ...]
     initial: tuple[Initial, ...]
     redundant: tuple[Origin, ...]
-    givers: Callable[[int], tuple[Origin, ...]]
+    eliminated_by: Callable[[int], tuple[Origin, ...]]
     repeats: Callable[[], tuple[tuple[Origin, ...], ...]]
 
 

@@ -34,7 +34,7 @@ class Simplification:
 
     `solved` gives the linear value of each removed unknown (in removed and remaining ones), `derivative` the chains
     among the remaining ones; `used` are residuals that removed an unknown,
-    `givers` those that gave each removed one, itself or by a derivative, `redundant` those that became 0 = 0, `kept`
+    `eliminated_by` those that gave each removed one, itself or by a derivative, `redundant` those that became 0 = 0, `kept`
     those replaced by `unknown - constant`; `left` holds derivatives of used residuals that removed no unknown, each with
     that residual, `repeated` those that became 0 = 0; `contradictions` can never hold.
     """
@@ -43,7 +43,7 @@ class Simplification:
     rank: list[int]
     solved: dict[int, Linear] = field(default_factory=dict)
     used: dict[int, int] = field(default_factory=dict)
-    givers: dict[int, Source] = field(default_factory=dict)
+    eliminated_by: dict[int, Source] = field(default_factory=dict)
     redundant: list[int] = field(default_factory=list)
     kept: dict[int, Linear] = field(default_factory=dict)
     left: list[tuple[Linear, Source]] = field(default_factory=list)
@@ -202,7 +202,7 @@ class Simplifier:
 
     def _replace(self, unknown: int, solution: Linear, source: Source) -> None:
         self.linear.solve(unknown, solution)
-        self.result.givers[unknown] = source
+        self.result.eliminated_by[unknown] = source
         upper, lower = self.up[unknown], self.down[unknown]
         self.up[unknown] = self.down[unknown] = -1
         other, c = solution[1][0] if solution[1] else (-1, 0.0)

@@ -83,15 +83,15 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     rows = [e for e in part.equations if e < len(origins)]
     bases = {str(origins[e]): base for e in rows if (base := _inherited(flat, origins[e]))}
     inside = [o for o in dict.fromkeys(origins[e] for e in rows) if o.kind != "root"]
-    givers = dict.fromkeys(o for e in rows for o in flat.equations.givers(e))
-    every = dict.fromkeys([*inside, *givers])
+    eliminating = dict.fromkeys(o for e in rows for o in flat.equations.eliminated_by(e))
+    every = dict.fromkeys([*inside, *eliminating])
     own = [o for o in every if is_stated_by_user(flat.tree, o)]
     users, rivals = _lines(own, bases), _rivals(own)
     n = len(part.variables)
     # Where unknowns are left, what parts gave of them is no more than how the equations were solved.
     stated = [o for o in (inside if n else every) if not is_stated_by_user(flat.tree, o)]
     others = _lines(stated, bases)
-    if not n and not givers:
+    if not n and not eliminating:
         return _known(flat, rows, _lines(inside, bases))
     if users and others:
         one = len(users) == 1

@@ -63,7 +63,7 @@ def _read(first: dict[str, Any], members: dict[str, bytes]) -> tuple[ReducedMode
     def decode(said: Any) -> Any:
         return decoded(said, expressions, more)
 
-    more: dict[str, dict[str, Any]] = {"FlatEquations": {"givers": lambda row: (), "repeats": lambda: ()}}
+    more: dict[str, dict[str, Any]] = {"FlatEquations": {"eliminated_by": lambda row: (), "repeats": lambda: ()}}
     root = tree.read(inside["tree"], decode)
     if not isinstance(root, Component):
         raise ValueError("there is no model")

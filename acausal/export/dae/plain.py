@@ -35,8 +35,8 @@ from acausal.structure.coordinate_projection import Constrained, Constraint, Pro
 from acausal.structure.system import System
 from acausal.units import BASES, Dimension
 
-# What is left out has no meaning without the classes of a model: `givers` and `repeats`, which explain models that cannot be
-# compiled; `tree`, which is written by itself.
+# Fields left out have no meaning without the classes of a model (`eliminated_by` and `repeats`, for errors of compilation) or
+# are written separately (`tree`).
 FIELDS: dict[type, str] = {
     Origin: "path kind where text",
     Initial: "residual text origin",
