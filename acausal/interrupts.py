@@ -1,4 +1,4 @@
-"""An interrupt while the command is still loading ends it in a word, not in a traceback."""
+"""A short message, instead of a traceback, for an interrupt while the command is loading."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import TracebackType
 
 
 def shorten_loading_interrupts() -> None:
-    """Tell of an interrupt in a word if this process is the `acausal` command, from the script or by `python -m`."""
+    """Print one line for an interrupt if this process is the `acausal` command (script or `python -m`)."""
     module = sys.argv[:1] == ["-m"] and "acausal" in sys.orig_argv
     if module or PurePath(sys.argv[0] if sys.argv else "").stem == "acausal":
         sys.excepthook = _report

@@ -1,6 +1,6 @@
-"""Uncaught errors of acausal in scripts and notebooks: the user's lines, without those of libraries and chained errors.
+"""Tracebacks of uncaught acausal errors in scripts and notebooks, reduced to the user's lines.
 
-The environment variable ACAUSAL_TRACEBACK=full, or a hook of someone else, shows all of them.
+The environment variable ACAUSAL_TRACEBACK=full, or an exception hook installed by others, keeps full tracebacks.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LIBRARIES = (
 
 
 def install() -> None:
-    """Show uncaught errors so from now on, unless someone else has a hook already."""
+    """Install the exception hooks, unless others are installed already."""
     if sys.excepthook is sys.__excepthook__:
         sys.excepthook = _show
     shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
@@ -35,12 +35,12 @@ def install() -> None:
 
 
 def user_traceback(error: BaseException, trace: TracebackType | None) -> str:
-    """Return the traceback of an error with the user's frames alone; with all where there are none.
+    """Return the traceback of an error with the user's frames only; with all frames if there are none of the user's.
 
     Parameters
     ----------
     error : BaseException
-        What was raised.
+        The exception.
     trace : traceback
         Its traceback.
     """
