@@ -1,4 +1,4 @@
-"""Choice of the conditions that complete a system, for instance at the start time."""
+"""Selection of conditions that complete a system, for instance at the start time."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from acausal.structure.matching import augment, maximum_matching
 
 @dataclass(frozen=True)
 class Completion:
-    """Which rows determine the variables.
+    """Conditions that complete a system, and those that do not.
 
     Parameters
     ----------
     used : tuple of int
-        Conditions that are needed, as positions in the list of conditions.
+        Positions of the conditions that are needed.
     surplus : tuple of int
-        Conditions that the others imply, or contradict.
+        Positions of conditions that the others imply or contradict.
     free : tuple of int
-        Variables that nothing determines.
+        Variables that remain undetermined.
 
     """
 
@@ -29,12 +29,12 @@ class Completion:
 
 
 def complete(equations: Rows, conditions: Rows, n_variables: int) -> Completion:
-    """Add conditions to equations, first come first served, as long as they determine one more variable.
+    """Add conditions to equations in order, each if it determines one more variable.
 
     Parameters
     ----------
     equations : rows
-        Variables of each equation; all of them hold.
+        Variables of each equation; all equations are used.
     conditions : rows
         Variables of each condition, in order of importance.
     n_variables : int

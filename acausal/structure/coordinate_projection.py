@@ -1,11 +1,10 @@
-"""Equations that must hold at several levels of differentiation, and the coordinates that are projected on them.
+"""Constraints that hold at several levels of differentiation, and projection of the coordinates on them.
 
-An equation that was differentiated, and that ties no variable to the others by a constant coefficient, constrains
-states: no fixed choice of dependent ones among them stays regular. All of them are integrated, as X, and what the
-equations hold is the projection x = X + D mu with a multiplier mu for each constraint (Eich 1993, coordinate projection,
-with the projection inside the system: its index is 1). D, one number for each coordinate and constraint, is chosen
-when numbers are known: columns of the constraint Jacobian give the projection along it, unit vectors make some
-coordinates follow from the others.
+An equation that was differentiated, and in which no variable has a constant coefficient, constrains states: no fixed
+choice of dependent states stays regular. All constrained states are integrated, as X, and the equations hold for the
+projection x = X + D mu with a multiplier mu for each constraint (Eich 1993, coordinate projection, with the projection
+inside the system, whose index is 1). D, one number for each coordinate and constraint, is chosen numerically: columns
+of the constraint Jacobian project orthogonally, unit vectors make some coordinates dependent.
 """
 
 from __future__ import annotations
@@ -21,18 +20,18 @@ from acausal.structure.states import StateSelection, select_states
 
 @dataclass(frozen=True)
 class Constraint:
-    """One equation at all its levels.
+    """A constraint at all levels of differentiation.
 
     Parameters
     ----------
     base : int
-        The equation of the system.
+        Equation of the original system.
     rows : tuple of int
-        The equation and its derivatives, the highest left out.
+        The equation and its derivatives except the highest.
     multipliers : tuple of int
-        Variable for each of the rows.
+        Multiplier of each row.
     top : int
-        The highest derivative.
+        The highest derivative of the equation.
     """
 
     base: int
@@ -48,11 +47,11 @@ class Projection:
     Parameters
     ----------
     coordinate, rate : int
-        Variable, and the one that is its time derivative.
+        The projected variable and its time derivative.
     state, state_rate : int
-        Integrated variable and its derivative.
+        The integrated variable and its time derivative.
     multipliers : tuple of int
-        Those of the constraints that hold the coordinate at the lowest level of it.
+        Multipliers of the rows that constrain the coordinate at its lowest level.
     """
 
     coordinate: int
@@ -64,18 +63,18 @@ class Projection:
 
 @dataclass(frozen=True)
 class Constrained:
-    """What constrains the states.
+    """Constraints on the states, and the projected coordinates.
 
     Parameters
     ----------
     constraints : tuple of Constraint
-        The equations.
+        The constraints.
     projections : tuple of Projection
-        The coordinates that they hold.
+        The projected coordinates.
     reached : tuple of int
-        Algebraic variables through which the constraints hold coordinates.
+        Algebraic variables on the paths from constraints to coordinates.
     following : tuple of (int, int)
-        (variable, equation) that follow explicitly from states alone, in order of evaluation.
+        (variable, equation) of variables that follow explicitly from states, in order of evaluation.
     """
 
     constraints: tuple[Constraint, ...] = ()
@@ -85,12 +84,12 @@ class Constrained:
 
 
 def constrain(extension: Extension) -> Constrained:
-    """Find the constraints, and add multipliers, projections and integrated variables.
+    """Find the constraints; add their multipliers, projections and integrated variables to the system.
 
     Raises
     ------
     StructuralSingularity
-        If equations hold none of the states.
+        If a constraint holds no state.
 
     """
     base_of = {e: base for base, levels in enumerate(extension.levels) for e in levels}
@@ -142,7 +141,7 @@ def _following(
 
 
 def _coordinates(extension: Extension, selection: StateSelection, rows: Iterable[int]) -> list[list[int]]:
-    """States that enter at each level, those left out whose derivative enters with them."""
+    """Return the states that first occur at each level, except those whose derivative occurs there too."""
     before: set[int] = set()
     found = []
     for row in rows:
@@ -154,7 +153,7 @@ def _coordinates(extension: Extension, selection: StateSelection, rows: Iterable
 
 
 def reach(start: Iterable[int], rows: list[tuple[int, ...]], equation_of: list[int]) -> set[int]:
-    """Variables on which others depend, through the equations of algebraic ones; themselves included."""
+    """Return the variables on which `start` depends through algebraic equations, `start` included."""
     seen = set(start)
     stack = list(seen)
     while stack:
@@ -169,17 +168,17 @@ def reach(start: Iterable[int], rows: list[tuple[int, ...]], equation_of: list[i
 
 
 def _lowest(holding: list[tuple[int, int]]) -> list[int]:
-    """Multipliers of the rows of the lowest level, those that are differentiated most often up to the top.
+    """Return the multipliers of the rows of the lowest level, which are differentiated most often up to the top.
 
-    One that holds a coordinate at its own level may depend on it at a higher one of another constraint, as a velocity does that
-    is resolved in the axes of a ball, whose place does not depend on how it is turned.
+    A coordinate may occur in a higher level of another constraint: the velocity of a ball, resolved in its axes, depends on its
+    orientation although its position does not.
     """
     lowest = max(order for order, _ in holding)
     return [multiplier for order, multiplier in holding if order == lowest]
 
 
 def _project(extension: Extension, x: int, multipliers: list[int]) -> Projection:
-    """Let an integrated variable take the place of the state x."""
+    """Replace the state x by an integrated variable."""
     rate = extension.derivative[x]
     state_rate = extension.add_variable()
     state = extension.add_variable(derivative=state_rate, preference=extension.preference[x])
