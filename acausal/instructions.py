@@ -10,8 +10,8 @@ import casadi as ca
 OUTPUT, INPUT, CONSTANT = ca.OP_OUTPUT, ca.OP_INPUT, ca.OP_CONST
 
 
-# Options of functions to be read: without reuse of work slots, each operation has its own slot. Otherwise the query of the
-# output slots would take a third of the reading time.
+# Options of functions to be read: without reuse of work slots, each operation has its own slot. Otherwise the query of
+# the output slots would take a third of the reading time.
 READABLE = {"live_variables": False}
 
 

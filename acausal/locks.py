@@ -60,8 +60,8 @@ def exclusive(function: Callable[P, R]) -> Callable[P, R]:
 def unlocked(function: Callable[[], R]) -> R:
     """Call a function that shares no state while the lock is released; interrupts are deferred, see `Signals.waiting`.
 
-    In a nested exclusive call the lock stays held: the outer call may be in the middle of an evaluation, or have changed
-    state of the process.
+    In a nested exclusive call the lock stays held: the outer call may be in the middle of an evaluation, or have
+    changed state of the process.
     """
     with Signals.waiting():
         if _THREAD.depth != 1:

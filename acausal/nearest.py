@@ -45,7 +45,7 @@ def likeliest(name: str, known: Iterable[str], share: float = NEAR) -> str:
 
 
 def _related(name: str, known: Iterable[str]) -> list[str]:
-    """Return names that contain `name`, then names that it contains, then names with common words; the nearest first."""
+    """Return names that contain `name`, names inside it and names with common words, in this order."""
     own, plain = _words(name), _plain(name)
     found = []
     for k in known:

@@ -1,4 +1,4 @@
-"""Interrupts during calls of external libraries, which swallow exceptions of handlers or report them as their own failure."""
+"""Interrupts during calls of external libraries, which swallow the exceptions of signal handlers."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ WATCHED = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGALRM") if
 class Signals:
     """Block at whose end an exception raised by a signal handler inside it is raised again.
 
-    Solvers report such an exception as their own failure, and CasADi ignores it while it converts arguments. Blocks may be
-    nested.
+    Solvers report such an exception as their own failure, and CasADi ignores it while it converts arguments. Blocks may
+    be nested.
     """
 
     _open: ClassVar[list[Signals]] = []
@@ -76,7 +76,7 @@ class Signals:
 
     @classmethod
     def heard(cls) -> None:
-        """Acknowledge the exceptions of handlers so far: the caller caught them and continues; blocks still end with them."""
+        """Acknowledge past exceptions of handlers, which the caller caught; blocks still end with them."""
         for block in cls._own():
             block._lost = None
 

@@ -1,7 +1,7 @@
 """Entries and columns of CasADi matrices.
 
-CasADi's overload resolution on each call takes ten times as long as the operation itself; the functions here avoid it for
-matrices that stay unchanged and for sums, products and quotients.
+CasADi's overload resolution on each call takes ten times as long as the operation itself; the functions here avoid it
+for matrices that stay unchanged and for sums, products and quotients.
 """
 
 from __future__ import annotations
@@ -48,11 +48,11 @@ def combined(left: ca.SX, operation: str, right: ca.SX) -> ca.SX:
 class Distinct:
     """Distinct scalar expressions, numbered in the order of their first appearance.
 
-    Equality is that of `casadi.is_equal`; only expressions with equal hash keys of their outer operations are compared, so that
-    n expressions take n comparisons, not n^2.
+    Equality is that of `casadi.is_equal`; only expressions with equal hash keys of their outer operations are compared,
+    so that n expressions take n comparisons, not n^2.
     """
 
-    # Depth in operations to which `casadi.is_equal` compares, and depth of the key: time - 0.1 and time - 0.2 differ at 1.
+    # Depth, in operations, of the comparison and of the key: time - 0.1 and time - 0.2 differ at depth 1.
     _COMPARED, _KEYED = 9, 3
 
     def __init__(self) -> None:

@@ -156,7 +156,7 @@ def parse(text: str) -> Dimension:
 
 
 def factors(text: str) -> Iterator[tuple[str, Exponent]]:
-    """Yield the symbols of a unit with their powers, negative after the slash; rad, which is dimensionless, is among them.
+    """Yield the symbols of a unit, the dimensionless rad included, with their powers: negative after the slash.
 
     Parameters
     ----------
@@ -269,6 +269,6 @@ for _name, _definition in {
 }.items():
     _SYMBOLS[_name] = parse(_definition)
 
-# Names in messages. N.m is right for a moment and for an energy, which have one dimension; Hz is left out because it would be
-# wrong for an angular velocity.
+# Names in messages. N.m is right for a moment and for an energy, which have one dimension; Hz is left out because it
+# would be wrong for an angular velocity.
 _NAMES = {parse(name): name for name in ("N", "N.m", "Pa", "W", "C", "V", "F", "Ohm", "H", "T", "Wb")}

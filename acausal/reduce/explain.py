@@ -1,4 +1,4 @@
-"""Explain a structural singularity in the user's words."""
+"""Error messages for structural singularities."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ DECLARED = "What an equation is to determine is declared variable(...)."
 
 
 def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
-    """Return the message: what is wrong, the smallest offending parts, the likely cause and the remedy.
+    """Return the message: the fault, the smallest singular parts, the likely cause and the remedy.
 
     Parameters
     ----------
     flat : FlatModel
         The model.
     singularity : StructuralSingularity
-        Its over- and under-determined parts.
+        Over- and under-determined parts of the model.
     surplus : int
-        Equations minus unknowns.
+        Number of equations minus number of unknowns.
     """
     if surplus > 0:
         head = f"the model has {surplus} more equation{_s(surplus)} than unknowns."
@@ -66,7 +66,7 @@ def _one_of(flat: FlatModel, part: Subsystem) -> str:
 
 
 def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
-    """Equations that determine too few unknowns, and the remedy."""
+    """Return the lines for an over-determined part, and the remedy."""
     lines, remedy = _determined(flat, part)
     if any("(inherited from " in line for line in lines):
         remedy += (
@@ -78,7 +78,7 @@ def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
 
 
 def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
-    """Equations that determine too few unknowns, the user's own first where parts state the others; and the remedy."""
+    """Return the lines for an over-determined part, the user's own equations first, and the remedy."""
     origins = flat.equations.origins
     rows = [e for e in part.equations if e < len(origins)]
     bases = {str(origins[e]): base for e in rows if (base := _inherited(flat, origins[e]))}
@@ -88,7 +88,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     own = [o for o in every if is_stated_by_user(flat.tree, o)]
     users, rivals = _lines(own, bases), _rivals(own)
     n = len(part.variables)
-    # Where unknowns are left, what parts gave of them is no more than how the equations were solved.
+    # If unknowns are left, the eliminating equations of parts only show the order of elimination.
     stated = [o for o in (inside if n else every) if not is_stated_by_user(flat.tree, o)]
     others = _lines(stated, bases)
     if not n and not eliminating:
@@ -109,7 +109,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
 
 
 def _rivals(users: Iterable[Origin]) -> str:
-    """Name the parts for which the user states all of these equations; "" where it is one part, or the model itself."""
+    """Return the parts to which all of these equations belong; "" for a single part, or the model itself."""
     names = [f"`{path}`" for path in dict.fromkeys(o.path for o in users)]
     if "``" in names or not 1 < len(names) <= MOST:
         return ""
@@ -117,7 +117,7 @@ def _rivals(users: Iterable[Origin]) -> str:
 
 
 def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str], str]:
-    """Equations that hold only what is known before, and the remedy."""
+    """Return the lines for equations that contain known values only, and the remedy."""
     head = "This equation determines nothing:" if len(lines) == 1 else "These equations determine nothing:"
     residuals, own = scalars(flat.equations.residuals), flat.parameters
     inside = {s.element_hash() for e in rows for s in ca.symvar(residuals[e])}
@@ -142,20 +142,20 @@ def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str
 
 
 def _together(parts: tuple[Subsystem, ...]) -> Subsystem:
-    """The smallest part; all that no equation holds, if it is one of these."""
+    """Return the smallest part, or all variables that no equation contains if there are any."""
     alone = [part for part in parts if not part.equations]
     return Subsystem.of((), (v for part in alone for v in part.variables)) if alone else parts[0]
 
 
 def _undetermined(flat: FlatModel, part: Subsystem) -> list[str]:
-    """What nothing determines, and what contains it."""
+    """Return the lines for an under-determined part: its unknowns, and the equations that contain them."""
     own = _equations(flat, part)
     lines = [f"Nothing determines {_names(flat, part)}."]
     return lines + (["Only these equations contain them:", *own] if own else [])
 
 
 def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
-    """What nothing determines, the likely cause first, and the remedy."""
+    """Return the lines for an under-determined part, the likely cause first, and the remedy."""
     hints = _hints(flat, part)
     lines = [*hints, *_undetermined(flat, part)]
     if not hints and (repeats := _repeats(flat)):
@@ -174,11 +174,11 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
 
 
 def _repeats(flat: FlatModel) -> list[str]:
-    """Equations of which one repeats what the others say, the user's own where there are several; and the remedy."""
+    """Return the lines for a group of equations of which one is redundant, and the remedy; [] without one."""
     found = flat.equations.repeats()
     if not found:
         return []
-    # A group to which the user contributes most holds the likely slip.
+    # The mistake is most likely in the group with most of the user's equations.
     stated, users = max(
         ((own, [o for o in own if is_stated_by_user(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
     )
@@ -188,7 +188,7 @@ def _repeats(flat: FlatModel) -> list[str]:
 
 
 def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
-    """Equations that give together only what constrains a motion, and the remedy."""
+    """Return the lines for a constraint through variables that have only a simultaneous solution, and the remedy."""
     names, known = flat.unknowns.names, [v for v in part.variables if v < len(flat.unknowns.names)]
     return [
         f"The motion is constrained through {', '.join(f'`{names[v]}`' for v in known[:MOST])}, "
@@ -199,7 +199,7 @@ def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
 
 
 def _inherited(flat: FlatModel, origin: Origin) -> str:
-    """The base class whose equations() states an equation, "" if the component's own class does."""
+    """Return the base class whose equations() states an equation, "" for the component's own class."""
     owner = next((c for c in walk(flat.tree) if c._path == origin.path), None)
     for cls in type(owner).__mro__[1:] if owner else ():
         code = getattr(vars(cls).get("equations"), "__code__", None)
@@ -210,7 +210,7 @@ def _inherited(flat: FlatModel, origin: Origin) -> str:
 
 
 def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
-    """Ports without a connection and inputs without a value, of the components that the unknowns belong to."""
+    """Return lines on unconnected ports and inputs without value of the components that have the unknowns."""
     names = [flat.unknowns.names[v].removeprefix("der(") for v in part.variables]
     ports = [p for p in flat.unconnected if any(n.startswith(f"{p}.") for n in names)]
     inputs = [
@@ -231,7 +231,7 @@ def _hints(flat: FlatModel, part: Subsystem) -> list[str]:
 
 
 def _holds(flat: FlatModel, part: Subsystem, expression: ca.SX) -> bool:
-    """Whether an expression of the model follows from unknowns of a part."""
+    """Return whether an expression of the model depends on unknowns of a part."""
     symbols = scalars(flat.unknowns.symbols)
     own = {symbols[v].element_hash() for v in part.variables if v < len(symbols)}
     left = ca.substitute([expression], [flat.unknowns.eliminated[0]], [flat.unknowns.eliminated[1]])[0]
@@ -239,11 +239,11 @@ def _holds(flat: FlatModel, part: Subsystem, expression: ca.SX) -> bool:
 
 
 def _names(flat: FlatModel, part: Subsystem) -> str:
-    """What a part determines, arrays as a whole; of many only a few, and the components that have them."""
+    """Return the names of the unknowns of a part, arrays as a whole; the first few of many, with their components."""
     known = flat.unknowns.names
     entries = [known[v] for v in part.variables if v < len(known)]
     whole = dict.fromkeys(re.sub(r"\[[\d,]+\](?=\)*$)", "", n) if len(entries) > SHORT else n for n in entries)
-    # Joints and bodies have names of their own for what their ports have.
+    # Prefer short paths: joints and bodies have their own names for variables of their ports.
     names = sorted(whole, key=lambda n: n.count("."))
     text = ", ".join(f"`{n}`" for n in names[:SHORT])
     more = len(names) - SHORT
@@ -258,13 +258,13 @@ def _names(flat: FlatModel, part: Subsystem) -> str:
 
 def _equations(flat: FlatModel, part: Subsystem) -> list[str]:
     origins = flat.equations.origins
-    # What the user wrote in the model itself is the likely slip.
+    # Equations of the model itself first: they are the user's, and the likely mistake.
     known = sorted((origins[e] for e in part.equations if e < len(origins)), key=lambda o: bool(o.path))
     return _lines([o for o in known if o.kind != "root"], {})
 
 
 def _lines(origins: list[Origin], bases: Mapping[str, str]) -> list[str]:
-    """List where equations are stated, some of many."""
+    """Return the places of equations, one a line; the first few of many."""
     written = dict.fromkeys(map(str, origins))
     rows = [f"  {line}{f' (inherited from {bases[line]})' if line in bases else ''}" for line in list(written)[:MOST]]
     more = len(written) - MOST

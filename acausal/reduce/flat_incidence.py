@@ -1,4 +1,4 @@
-"""Read the incidence of a flat model: what the structural passes see of it."""
+"""Incidence of a flat model, the input of the structural analysis."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from acausal.symbols import scalars
 
 
 @dataclass(frozen=True)
-class Linear:
-    """Jacobian of residuals: columns of each row, and the coefficients that are numbers or functions of parameters.
+class Incidence:
+    """Pattern of a Jacobian, and its coefficients that are numbers or functions of parameters.
 
-    `explicit` maps (row, column) to its coefficient. `cancelled` are columns by row whose unknowns stand in a residual that
-    does not depend on them, such as I w_1 w_2 - I w_2 w_1: it must be evaluated without them.
+    `rows` are the columns of each row; `explicit` maps (row, column) to its constant coefficient. `cancelled` are
+    columns by row whose unknowns occur in a residual that does not depend on them, such as I w_1 w_2 - I w_2 w_1: it
+    must be evaluated without them.
     """
 
     rows: tuple[tuple[int, ...], ...]
@@ -28,7 +29,7 @@ class Linear:
     cancelled: dict[int, list[int]]
 
 
-def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
+def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Incidence:
     """Return the incidence of `residuals` and their constant coefficients, from one sparse Jacobian.
 
     Parameters
@@ -36,9 +37,9 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
     residuals, unknowns : casadi.SX
         Columns.
     others : casadi.SX
-        What else a coefficient must not depend on: time, constants.
+        Further symbols on which a coefficient must not depend: time, constants.
     """
-    # Equal moments of inertia, each a product of its own, cancel where they are one.
+    # Without cse(), equal subexpressions such as two equal moments of inertia would not cancel.
     pattern = ca.jacobian(ca.cse(residuals), unknowns)
     J = ca.sparsify(pattern)
     entries: list[Any] = J.nonzeros()
@@ -55,11 +56,11 @@ def jacobian(residuals: ca.SX, unknowns: ca.SX, others: ca.SX) -> Linear:
         for i, j in zip(*pattern.sparsity().get_triplet(), strict=True):
             if j not in rows[i]:
                 cancelled.setdefault(i, []).append(j)
-    return Linear(tuple(map(tuple, rows)), explicit, cancelled)
+    return Incidence(tuple(map(tuple, rows)), explicit, cancelled)
 
 
-def system_of(flat: FlatModel) -> tuple[System, Linear]:
-    """Return the System of a flat model, and its Jacobian."""
+def system_of(flat: FlatModel) -> tuple[System, Incidence]:
+    """Return the System of a flat model, and the Jacobian of its residuals."""
     unknowns, constants = flat.unknowns, flat.discontinuities.constants
     linear = jacobian(flat.equations.residuals, unknowns.symbols, ca.vertcat(time.sx, initial.sx, constants))
     explicit: list[set[int]] = [set() for _ in linear.rows]
@@ -93,8 +94,8 @@ def system_of(flat: FlatModel) -> tuple[System, Linear]:
     return system, linear
 
 
-def _pivots(flat: FlatModel, linear: Linear) -> tuple[frozenset[int], ...]:
-    """Unknowns of each equation whose coefficient is not small beside others of the same unit, for the values when compiled."""
+def _pivots(flat: FlatModel, linear: Incidence) -> tuple[frozenset[int], ...]:
+    """Return the unknowns of each equation whose coefficient is not small relative to others of the same unit."""
     found: list[set[int]] = [set() for _ in linear.rows]
     given = [flat.parameters.symbols, feedback.sx]
     function = ca.Function("coefficients", given, [ca.vertcat(*linear.explicit.values())])
@@ -110,11 +111,11 @@ def _pivots(flat: FlatModel, linear: Linear) -> tuple[frozenset[int], ...]:
 
 
 def _closures(flat: FlatModel) -> dict[int, tuple[int, ...]]:
-    """Residual that closes a loop -> unknowns of the flow that works on it."""
+    """Return the unknowns of the flow that works on each residual that closes a loop."""
     if not flat.loops.closures:
         return {}
     index = {s.element_hash(): k for k, s in enumerate(scalars(flat.unknowns.symbols))}
-    # Constraints of parts that follow from one another share what works on them.
+    # Dependent constraints of parts share the flows that work on them.
     shared = ca.vertcat(*[flat.loops.closures[k].dual for k in flat.loops.of_parts])
     return {
         c.row: tuple(

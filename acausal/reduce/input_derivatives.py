@@ -1,4 +1,4 @@
-"""Inputs of the whole model in equations that are differentiated."""
+"""Check that index reduction needs no derivative of an input of the model."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from acausal.symbols import scalars
 
 
 def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
-    """Raise DeclarationError if the reduction of the index differentiates an equation that holds an input.
+    """Raise DeclarationError if index reduction differentiates an equation that contains an input of the model.
 
-    An input is a parameter here: its derivative would silently be 0.
+    An input of the model is a constant parameter: its derivative would silently be 0.
     """
     inputs = inputs_of(flat.tree)
     if not inputs:

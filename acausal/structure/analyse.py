@@ -21,7 +21,8 @@ def _reduce(system: System) -> tuple[Extension, Constrained, StateSelection]:
     extension = pantelides(system)
     constrained = constrain(extension)
     lower = extension.lower.difference(row for c in constrained.constraints for row in c.rows)
-    # Projected states stay states: otherwise a level of a projected coordinate could be algebraic although the level below is not.
+    # Projected states stay states: otherwise a level of a projected coordinate could be algebraic although the level
+    # below is not.
     integrated = {p.state for p in constrained.projections}
     selection = select_states(extension.system(), lower, integrated=integrated)
     if not selection.left:

@@ -170,8 +170,8 @@ def reach(start: Iterable[int], rows: list[tuple[int, ...]], equation_of: list[i
 def _lowest(holding: list[tuple[int, int]]) -> list[int]:
     """Return the multipliers of the rows of the lowest level, which are differentiated most often up to the top.
 
-    A coordinate may occur in a higher level of another constraint: the velocity of a ball, resolved in its axes, depends on its
-    orientation although its position does not.
+    A coordinate may occur in a higher level of another constraint: the velocity of a ball, resolved in its axes,
+    depends on its orientation although its position does not.
     """
     lowest = max(order for order, _ in holding)
     return [multiplier for order, multiplier in holding if order == lowest]

@@ -11,7 +11,7 @@ from acausal.structure.incidence import Rows
 
 @dataclass(frozen=True)
 class Level:
-    """Equations solved simultaneously for as many variables, both ascending; if `linear`, one Newton step solves them."""
+    """Equations solved simultaneously for as many variables, both ascending; linear ones in one Newton step."""
 
     equations: tuple[int, ...]
     variables: tuple[int, ...]

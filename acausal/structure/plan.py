@@ -34,8 +34,8 @@ class Plan:
     observed : tuple of tuple of int
         (variable, equation) that no state derivative needs, in order of evaluation.
     constrained : Constrained
-        Constraints that hold at several levels, and the projected coordinates; each projection appends two equations, in
-        this order, to the system.
+        Constraints that hold at several levels, and the projected coordinates; each projection appends two equations,
+        in this order, to the system.
 
     """
 

@@ -32,8 +32,8 @@ def select_states(
 ) -> StateSelection:
     """Match the equations; the unmatched variables are the states (dummy derivatives, Mattsson & Soderlind 1993).
 
-    The sets of variables that can be matched simultaneously are the independent sets of a matroid, so a greedy choice is
-    optimal. A variable may be algebraic only if its derivative is.
+    The sets of variables that can be matched simultaneously are the independent sets of a matroid, so a greedy choice
+    is optimal. A variable may be algebraic only if its derivative is.
 
     Parameters
     ----------

@@ -27,8 +27,8 @@ class System:
     monic : tuple of frozenset of int, optional
         Subset of `explicit` with coefficient 1 or -1, whose solution needs no division; default: all.
     pivots : tuple of frozenset of int, optional
-        Subset of `explicit` whose coefficient is not small relative to the others of its equation, so that it can determine
-        a dependent state; default: all.
+        Subset of `explicit` whose coefficient is not small relative to the others of its equation, so that it can
+        determine a dependent state; default: all.
     closures : mapping of int to tuple of int, optional
         Equations that close loops and may be redundant, with the variables of the substitute of each; they are
         differentiated as often as necessary, and hold at every level.
