@@ -1,4 +1,4 @@
-"""The language: what users write models with."""
+"""Modelling language: classes, fields, statements and functions of expressions."""
 
 import copyreg
 
@@ -65,7 +65,7 @@ from acausal.language.types import Matrix33, Scalar, Vector3
 from acausal.language.validity_statements import Expectation, Requirement, Separation, apart, expect, require
 from acausal.language.when_statements import When, reinit, when
 
-# What expressions need of modules that are made of expressions.
+# Registered here because these modules import the class of expressions.
 copyreg.pickle(Expr, pickling.reduce_expression)
 NUMPY_FUNCTIONS.update(numpy_functions())
 

@@ -1,4 +1,4 @@
-"""What a class body declares: new fields, parts in any form, and new values of inherited fields."""
+"""Reading of class bodies: new fields, parts, and new values of inherited fields."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _ABSENT: Any = object()
 
 
 def read_body(cls: Any) -> None:
-    """Give a class its `fields`, those of its bases and its own, and new values of inherited fields.
+    """Set the `fields` of a class, inherited and own ones, and its new values of inherited fields.
 
     Parameters
     ----------
     cls : Component class
-        A class whose body was executed.
+        Class whose body was executed.
     """
     fields: dict[str, f.Field] = {}
     settings: dict[str, Any] = {}
@@ -39,13 +39,13 @@ def read_body(cls: Any) -> None:
             plain = {name: v for name, v in plain.items() if name not in vars(base)["_own_fields"]}
         else:
             plain.update(vars(base))
-    # The values of a base that is not a component count as if they were declared here.
-    said = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
+    # Values of a base class that is no component count as values of this class body.
+    body = {name: value for name, value in plain.items() if name in fields} | dict(vars(cls))
     refuse_names(cls, vars(cls))
     own: dict[str, f.Field] = {}
     new: dict[str, Any] = {}
     cls._own_fields, cls._own_values, cls.fields = own, new, fields
-    for name, value in said.items():
+    for name, value in body.items():
         if not name.startswith("__"):
             try:
                 _read(cls, name, value, fields.get(name), own, new)
@@ -53,8 +53,8 @@ def read_body(cls: Any) -> None:
                 error.line = body_line(cls, name)
                 raise
     refuse_misspelt_fields(cls, {**plain, **vars(cls), **own}, fields)
-    for name in said.keys() & inspect.get_annotations(cls).keys() - fields.keys():
-        refuse_plain(cls, name, said[name])
+    for name in body.keys() & inspect.get_annotations(cls).keys() - fields.keys():
+        refuse_plain(cls, name, body[name])
     for name, field in own.items():
         if field.shape is None and not isinstance(field, f.Part | f.Outer):
             field.shape = shape_of_annotation(cls, name)
@@ -66,7 +66,7 @@ def read_body(cls: Any) -> None:
 
 
 def refuse_late_fields(cls: Any) -> None:
-    """Raise DeclarationError for what was set on a class, or one of its bases, after it was made: nothing reads it."""
+    """Raise DeclarationError for attributes set on a class, or a base, after its creation: they have no effect."""
     for base in (base for base in cls.__mro__ if "_as_read" in vars(base)):
         late = {n: v for n, v in vars(base).items() if n[0] != "_" and base._as_read.get(n, _ABSENT) is not v}
         for name, value in late.items():
@@ -85,21 +85,21 @@ def refuse_late_fields(cls: Any) -> None:
 def _read(
     cls: Any, name: str, value: Any, old: f.Field | None, own: dict[str, f.Field], settings: dict[str, Any]
 ) -> None:
-    """Read one attribute of a class body; `old` is the inherited field of this name."""
+    """Read one attribute of a class body; `old` is the inherited field of that name."""
     where = f"{cls.__name__}.{name}"
     if any(isinstance(getattr(value, inner, None), f.Field) for inner in ("__func__", "fget", "func")):
         raise DeclarationError(f"{where}: leave out @{type(value).__name__}: its mark stands alone above the method.")
     second = isinstance(value, f.Field) and _is_second_name(cls, value, name, own)
     if second and old is None and name in cls._settings and name not in SETTABLE:
-        return  # a setting that follows from a field
+        return  # a setting of the model that equals a field
     if isinstance(value, f.Field) and (value.name == name or not _has_value(old)):
         own[name] = value if value.name == name and value is not old else _named(copy(value), name)
         setattr(cls, name, own[name])
         if second and _has_value(value):
-            settings[name] = value  # the value of the first one, unless it has its own
+            settings[name] = value  # the value of the first field, unless it gets its own
     elif isinstance(value, f.Template):
         own[name] = f.Part("", make=value, is_port=value._is_port, name=name)
-        # A template gets its name from the class: under a second name it is a second one.
+        # A template gets its name from the class: a second name needs a copy.
         twice = any(v is value for base in cls.__mro__ for n, v in vars(base).items() if n != name)
         setattr(cls, name, copy(value) if twice else value)
     elif is_part_class(value) and (isinstance(old, f.Part) or _stands_for_a_part(cls, name, value)):
@@ -122,11 +122,11 @@ def _read(
             mark = "@observed" if isinstance(old, f.Observed) else "a name of its own"
             raise DeclarationError(f"{where} is a field of {cls.__name__}; give this method {mark}.")
         settings[name] = check_value(cls, name, value)
-        setattr(cls, name, copy(old))  # a path is read through it, as through the inherited one
+        setattr(cls, name, copy(old))  # it returns paths, as the inherited field does
 
 
 def _is_second_name(cls: Any, field: f.Field, name: str, own: dict[str, f.Field]) -> bool:
-    """Whether a field stands under another name in the class already."""
+    """Return whether a field already has another name in the class."""
     return field.name != name and any(known.get(field.name) is field for known in (own, cls.fields))
 
 
@@ -135,7 +135,7 @@ def _has_value(field: f.Field | None) -> bool:
 
 
 def _is_default(value: Any, old: f.Field) -> bool:
-    """Whether a function computes the value of a field, as `default=` takes one."""
+    """Return whether a value is a function for the default of a field, as in `default=`."""
     return isinstance(value, FunctionType) and isinstance(old, f.Parameter | f.Structural)
 
 
@@ -145,9 +145,9 @@ def _named(field: f.Field, name: str) -> f.Field:
 
 
 def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
-    """Whether `joint = Prismatic` means a part.
+    """Return whether a class in a class body, such as `joint = Prismatic`, declares a part.
 
-    It does not for a class that is defined here, a name like that of a class, and an attribute that is plain in a base
+    It does not if the class is defined in this body, if the name is capitalised, or if the attribute is plain in a base
     or annotated as a type.
     """
     here = value.__qualname__ == f"{cls.__qualname__}.{value.__name__}"
@@ -157,7 +157,7 @@ def _stands_for_a_part(cls: Any, name: str, value: Any) -> bool:
 
 
 def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
-    """What stands in place of an inherited part."""
+    """Return the part that replaces an inherited one."""
     if value is None:
         return f.Part(old.description, make=None, is_port=old.is_port, name=name)
     if isinstance(value, FunctionType):

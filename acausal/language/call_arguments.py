@@ -1,4 +1,4 @@
-"""Wrong arguments of the functions that a model is written with, in the user's words and with the line of the call."""
+"""Messages for wrong arguments of public functions, with the line of the call."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.language.formatting import short
 from acausal.nearest import likeliest
 
 F = TypeVar("F", bound=Callable[..., Any])
-# What users of other tools call an argument.
+# Names of arguments in other tools -> names here.
 MEANT = {
     "default": ("start", "value"),
     "value": ("default", "start"),
@@ -39,14 +39,14 @@ MARKS = ("part", "parts", "ports", "observed")
 
 
 def declaration_error(text: str, line: str = "", kind: type[AcausalError] = DeclarationError) -> AcausalError:
-    """Return an error with the line that it is about, that of the statement being executed if none is given."""
+    """Return an error with its line, by default that of the user's statement in execution."""
     error = kind(text)
     error.line = line or user_line()
     return error
 
 
 def checked_call(function: F) -> F:
-    """Decorate a public function: an error names the line of the call, and wrong arguments are an error of ours."""
+    """Decorate a function of the language: errors get the line of the call, wrong arguments a DeclarationError."""
     checked = checked_arguments(function)
 
     @wraps(function)
@@ -61,7 +61,7 @@ def checked_call(function: F) -> F:
 
 
 def checked_arguments(function: F) -> F:
-    """Decorate a public function that runs models, or a method: wrong arguments are an error of ours, with the line."""
+    """Decorate a function that runs models, or a method: wrong arguments raise DeclarationError with the line."""
 
     @wraps(function)
     def call(*given: Any, **named: Any) -> Any:
@@ -76,13 +76,13 @@ def checked_arguments(function: F) -> F:
 
 
 def brackets(mark: str) -> str:
-    """Return the message for a mark above a method that is called instead."""
+    """Return the message for a decorator of methods that is called with arguments."""
     form = "def ...(self): return ..."
     return f"@{mark} marks a method: it stands alone, without brackets, above `{form}`, whose docstring describes it."
 
 
 def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> str:
-    """Say what is wrong with the arguments of a call, "" if nothing is."""
+    """Return the message for wrong arguments of a call, "" for correct ones."""
     parameters = dict(inspect.signature(function).parameters)
     name = function.__name__
     if name in MARKS:

@@ -1,4 +1,4 @@
-"""Conditions: comparisons of expressions, as piecewise and when take them."""
+"""Conditions of piecewise and when: comparisons of expressions."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class Condition:
     Parameters
     ----------
     excess : Expr or field of a class body
-        A scalar.
+        Scalar, the event indicator.
     kind : "<" or "<="
         The relation.
     sides : (left, sign, right)
-        What is compared, for messages; () where that is not known.
+        Compared values, for messages; () if unknown.
     """
 
     def __init__(self, excess: Any, kind: str, sides: tuple[Any, ...] = ()) -> None:
@@ -30,12 +30,12 @@ class Condition:
         self.sides = sides
 
     def holds(self, excess: Any) -> Any:
-        """Whether it holds where its excess is a number, or entries of an array, or an expression."""
+        """Return whether the condition holds for an excess: a number, an array or an expression."""
         return excess < 0 if self.kind == "<" else excess <= 0
 
     @property
     def comparisons(self) -> list[Condition]:
-        """The comparisons that it is made of: itself, if it is not joined."""
+        """The comparisons of the condition: itself, if it is not joined."""
         return [self]
 
     def replaced(self, new: Callable[[Condition], Condition]) -> Condition:
@@ -78,14 +78,14 @@ class Condition:
 
 
 class Joined(Condition):
-    """Two conditions of which both must hold (`every`), or one.
+    """Conjunction (`every`) or disjunction of two conditions.
 
     Parameters
     ----------
     a, b : Condition
-        The two.
+        The conditions.
     every : bool
-        Whether both must hold.
+        True if both must hold, False if one is enough.
     """
 
     def __init__(self, a: Condition, b: Any, every: bool) -> None:
@@ -98,7 +98,7 @@ class Joined(Condition):
 
     @property
     def excess(self) -> Any:  # type: ignore[override]
-        """The greater of both if both must hold, the lesser if one is enough; deferred as long as one of them is."""
+        """The maximum of both for a conjunction, the minimum for a disjunction; deferred as long as one of them is."""
         a, b = self.a.excess, self.b.excess
         for x in (a, b):
             if getattr(x, "is_deferred", False) is True:
@@ -109,13 +109,13 @@ class Joined(Condition):
 
     @property
     def kind(self) -> str:  # type: ignore[override]
-        """The relation; where the two differ, the narrower one for both, the wider one for either."""
+        """The relation; if the two differ, the strict one for a conjunction, the other one for a disjunction."""
         kinds = {self.a.kind, self.b.kind}
         return ("<" if self.every else "<=") if len(kinds) == 2 else self.a.kind
 
     @property
     def comparisons(self) -> list[Condition]:
-        """The comparisons that it is made of, from left to right."""
+        """The comparisons of the condition, from left to right."""
         return [*self.a.comparisons, *self.b.comparisons]
 
     def replaced(self, new: Callable[[Condition], Condition]) -> Condition:
@@ -127,7 +127,7 @@ class Joined(Condition):
 
 
 def undecided(what: str) -> str:
-    """Return the message for a value that Python should decide on while the model is built."""
+    """Return the message for an expression whose truth value Python needs while the model is built."""
     return (
         f"{what} is not known while the model is built, so `if`, `and`, `or`, max() and min() cannot use it. Write "
         "piecewise((value, condition), ..., otherwise) or when(condition, ...), join conditions by & and |; where a parameter "
@@ -136,7 +136,7 @@ def undecided(what: str) -> str:
 
 
 def refuse_cases(cases: tuple[Any, ...]) -> None:
-    """Raise DeclarationError for what is no piecewise: pairs (value, condition), and at last the value otherwise."""
+    """Raise DeclarationError unless the cases are pairs (value, condition) followed by the value otherwise."""
     form = "piecewise((value, condition), ..., otherwise)"
     if not cases:
         raise DeclarationError(f"piecewise() is empty: write {form}.")

@@ -1,4 +1,4 @@
-"""Statements of connections(): what is joined, and how over-determined records are rooted."""
+"""Statements of connections(): connections, and branches and roots of over-determined records."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NOTHING = (
 
 @dataclass(frozen=True, eq=False)
 class Connect:
-    """Two ports are one point."""
+    """Connection of two ports."""
 
     a: Connector
     b: Connector
@@ -30,7 +30,7 @@ class Connect:
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """The component states how the record of `b` follows from that of `a` and back."""
+    """Relation between the records of two connectors of a component, stated by its equations."""
 
     a: Connector
     b: Connector
@@ -38,7 +38,7 @@ class Branch:
 
 @dataclass(frozen=True, eq=False)
 class Root:
-    """The component defines the record of this connector; priority None: it always does."""
+    """Connector whose record the component defines; always if the priority is None, else if it is chosen."""
 
     connector: Connector
     priority: int | None = None
@@ -46,12 +46,12 @@ class Root:
 
 @checked_call
 def connect(a: Any, b: Any) -> Connect | Wire:
-    """Join two ports: potentials become equal, flows sum to zero. Or give an output to an input.
+    """Connect two ports: potentials become equal, flows sum to zero. Or connect an output to an input.
 
     Raises
     ------
     ConnectError
-        If one of them is neither a port nor a signal, or their classes differ.
+        If an argument is neither a port nor a signal, or the classes differ.
     """
     if any(isinstance(end, Signal) for end in (a, b)) and all(isinstance(end, Signal | Expr) for end in (a, b)):
         return Wire(a, b)
@@ -68,12 +68,12 @@ def connect(a: Any, b: Any) -> Connect | Wire:
 
 @checked_call
 def chain(*items: Any) -> list[Connect | Wire]:
-    """Join each part's second end to the next one's first end.
+    """Connect the second end of each part to the first end of the next one.
 
     Parameters
     ----------
     *items : Component or Connector
-        Parts in order; a port may stand for a part at either end.
+        Parts in order; a port may replace a part.
     """
     if len(items) < 2:
         raise ConnectError("chain() joins at least two parts.")
@@ -96,7 +96,7 @@ def root(connector: Any) -> Root:
 
 @checked_call
 def potential_root(connector: Any, priority: int = 0) -> Root:
-    """State that the connector can be a root where no other is reached; the lowest priority is chosen first."""
+    """State that the connector can be a root if no other root is reached; the lowest priority is chosen first."""
     return Root(_port(connector, "potential_root"), priority)
 
 
@@ -108,7 +108,7 @@ def is_root(connector: Any) -> bool:
 
 @checked_call
 def rooted(a: Any, b: Any | None = None) -> bool:
-    """Return, in equations(), whether `a` is nearer to the root than the other end of its branch (than `b`)."""
+    """Return, in equations(), whether `a` is nearer to the root than `b`, or than the other end of its branch."""
     if b is not None:
         return a in b._parents
     return not any(parent._owner is a._owner for parent in a._parents)
@@ -140,7 +140,7 @@ def _port(item: Any, word: str) -> Connector:
 
 
 def _refuse_outsider(item: Any) -> None:
-    """Raise ConnectError for a part, or a port of one, that belongs to no built model."""
+    """Raise ConnectError for a part, or a port of a part, that is not in a built model."""
     loose = isinstance(item, Path | Field) or (isinstance(item, Component) and not item._is_bound)
     if loose and PENDING.get(None) is None:
         raise ConnectError(
@@ -172,7 +172,7 @@ def _refuse_outsider(item: Any) -> None:
 
 
 def _refuse_no_link(item: Any, place: int) -> None:
-    """Raise ConnectError for what is neither a part nor a port; `place` counts the arguments of chain() from 1."""
+    """Raise ConnectError for an argument of chain() that is neither a part nor a port; `place` counts from 1."""
     _refuse_outsider(item)
     if isinstance(item, list | tuple):
         raise ConnectError(

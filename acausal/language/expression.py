@@ -1,4 +1,4 @@
-"""Symbolic expressions: a CasADi SX matrix with a unit, and equations between two of them."""
+"""Symbolic expressions, CasADi SX matrices with a unit, and equations of them."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class Expr(Symbolic):
     sx : casadi.SX
         The expression; a scalar is 1 x 1, a vector n x 1.
     unit : Dimension, tuple of Dimension or None
-        Its unit, one for each row, or None where it is not known (as of numbers).
+        Unit, one for each row, or None if unknown (as for numbers).
     name : str
-        The path of a declared variable or parameter, for messages.
+        Path of a declared variable or parameter, for messages.
     shape : tuple of int, optional
-        Shape as numpy would give it: (), (n,) or (n, m). CasADi knows rows and columns only: where it is not given, one
-        entry is a scalar, and one column a vector.
+        Shape as in numpy: (), (n,) or (n, m). Default: one entry is a scalar, one column is a vector, as CasADi knows
+        rows and columns only.
     """
 
     __slots__ = ("name", "shape", "sx", "unit")
@@ -56,7 +56,7 @@ class Expr(Symbolic):
         return self
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Expr:
-        return self  # a symbol is itself by its identity
+        return self  # symbols are compared by identity
 
     @property
     def T(self) -> Expr:
@@ -175,7 +175,7 @@ class Equation:
 
 
 def as_expr(value: Any) -> Expr:
-    """Turn a number, a nested sequence of numbers and expressions, an array or an expression into an Expr."""
+    """Return a number, a nested sequence of numbers and expressions, an array or an expression as an Expr."""
     if isinstance(value, Expr):
         return value
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
@@ -213,7 +213,7 @@ def equation(lhs: Any, rhs: Any) -> Any:
     DeclarationError
         If the shapes differ.
     UnitsError
-        If the units certainly differ.
+        If the units differ for certain.
     """
     if is_deferred(lhs, rhs):
         raise DeclarationError("an equation is stated inside equations(), with self.<name>, not in the class body.")
@@ -231,12 +231,12 @@ def equation(lhs: Any, rhs: Any) -> Any:
 
 
 def is_deferred(*values: Any) -> bool:
-    """Return whether one of the values is a field of a class body, known only when the model is built."""
+    """Return whether a value is a field of a class body, evaluated when the model is built."""
     return any(getattr(value, "is_deferred", False) is True for value in values)
 
 
 def entrywise(a: Expr, symbol: str, b: Expr) -> tuple[int, ...]:
-    """Return the shape of an operation entry by entry, of two equal shapes or with a scalar.
+    """Return the shape of an entrywise operation on two equal shapes, or with a scalar.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a field is declared with, looked at when its class is made."""
+"""Checks of field declarations when a class is created."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NUMBERS = (int, float, np.number, np.ndarray)
 
 
 def check_field(cls: Any, name: str, field: f.Field) -> None:
-    """Raise DeclarationError, with the line of the field, for what cannot be meant by its arguments.
+    """Raise DeclarationError, with the line of the field, for invalid arguments of a declaration.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def check_field(cls: Any, name: str, field: f.Field) -> None:
     name : str
         Name of the field.
     field : Field
-        As it is declared.
+        The declared field.
     """
     try:
         wrong = _wrong(cls, name, field)
@@ -41,7 +41,7 @@ def check_field(cls: Any, name: str, field: f.Field) -> None:
 
 
 def _wrong(cls: Any, name: str, field: f.Field) -> str:
-    """Say what is wrong with a field, "" if nothing is."""
+    """Return the message for an invalid field, "" for a valid one."""
     if not isinstance(field.description, str):
         return f'the first argument describes the field in words, "...", and is {shown(field.description)}.'
     if isinstance(field, f.Part):
@@ -95,9 +95,9 @@ def _wrong_shape(cls: Any, name: str, field: f.Field) -> str:
     whole = isinstance(shape, tuple) and all(isinstance(n, int) and not isinstance(n, bool) and n >= 0 for n in shape)
     if not whole or not isinstance(shape, tuple) or len(shape) > 2:
         return f"shape={shown(shape)} is no shape: a vector has shape=(3,), a matrix shape=(3, 3)."
-    said = shape_of_annotation(cls, name)
-    if said is not None and said != shape:
-        return f"its type says shape {said}, its argument shape={shape}: leave out one of the two, `{name} = ...`."
+    annotated = shape_of_annotation(cls, name)
+    if annotated is not None and annotated != shape:
+        return f"its type says shape {annotated}, its argument shape={shape}: leave out one of the two, `{name} = ...`."
     return ""
 
 
@@ -127,7 +127,7 @@ def _is_record(cls: Any) -> bool:
 
 
 def _wrong_value(field: f.Field) -> str:
-    """What is wrong with the default and the bounds of a parameter."""
+    """Return the message for an invalid default or bound of a parameter, "" for valid ones."""
     default, least = field.default, getattr(field, "minimum", None)
     if isinstance(default, f.InitialValue):
         return f"a parameter has no start: write default={shown(default.value)}."
@@ -152,7 +152,7 @@ def _wrong_value(field: f.Field) -> str:
 
 
 def _wrong_class(field: f.Structural) -> str:
-    """What is wrong with the class and the bounds of a structural parameter."""
+    """Return the message for an invalid class or bound of a structural parameter, "" for valid ones."""
     cls, most, default = field.cls, field.maximum, field.default
     if cls is not None and not isinstance(cls, type):
         return f"cls={shown(cls)} must be a class, such as cls=int."
@@ -162,8 +162,8 @@ def _wrong_class(field: f.Structural) -> str:
         return f"the maximum depends on another field: write a function, maximum=lambda s: s.{shown(most)}."
     if most is not None and not inspect.isfunction(most) and not data.fits(most, float):
         return f"maximum={shown(most)} must be a number, or a function of the component."
-    said = default not in (None, f.MISSING) if isinstance(default, str | int | float | None) else False
-    if cls is not None and said and not (data.fits(default, cls) or (isinstance(default, str) and data.loads(cls))):
+    given = default not in (None, f.MISSING) if isinstance(default, str | int | float | None) else False
+    if cls is not None and given and not (data.fits(default, cls) or (isinstance(default, str) and data.loads(cls))):
         return f"default={shown(default)} must be {data.expected(cls, optional=False)}."
     return ""
 
@@ -194,7 +194,7 @@ def _wrong_part(field: f.Part) -> str:
 
 
 def _declared_by(field: f.Parameter | f.Variable) -> str:
-    """Return the function that declares a field."""
+    """Return the name of the function that declares a field."""
     if isinstance(field, f.Parameter):
         return "parameter"
     return "flow" if field.flow else field.causality or "variable"

@@ -1,4 +1,4 @@
-"""How expressions, values and shapes are written in messages."""
+"""Formatting of expressions, values and shapes in messages."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Any
 
 import casadi as ca
 
-LONG = 60  # letters of an expression that are shown
-DEEP = 40  # operations inside each other that are followed
+LONG = 60  # characters of an expression in a message
+DEEP = 40  # nesting depth of operations in a formula; deeper ones are "...", as the text grows exponentially
 
 
 def formatted(sx: ca.SX, shape: tuple[int, ...]) -> str:
-    """Return an expression of a shape as a formula, each shared part where it is used."""
+    """Return an expression as a formula, with shared subexpressions written out."""
     sx = ca.densify(sx)
     known: dict[int, str] = {}
     if not shape:
@@ -25,13 +25,13 @@ def formatted(sx: ca.SX, shape: tuple[int, ...]) -> str:
 
 
 def short(value: Any) -> str:
-    """Return an expression, the end of a long one left out."""
+    """Return the text of a value, truncated if it is long."""
     text = repr(value)
     return text if len(text) <= LONG else text[: LONG - 3] + "..."
 
 
 def in_code(text: str, otherwise: str) -> str:
-    """Return what Python writes for a value, something else where it is long or cannot stand in code."""
+    """Return the `repr` of a value if it is short and valid Python code, `otherwise` if not."""
     return text if len(text) <= LONG and "\n" not in text and not re.search(r"<\w", text) else otherwise
 
 

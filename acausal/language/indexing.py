@@ -16,16 +16,16 @@ def selected_entries(show: Callable[[], str], shape: tuple[int, ...], index: Any
     Parameters
     ----------
     show : function
-        Writes the array, for messages: a long text.
+        Returns the text of the array, for messages; called only for errors, as the text may be long.
     shape : tuple of int
-        Its shape; a scalar has one entry.
+        Shape of the array; a scalar has one entry.
     index : int, slice or tuple of them
-        What stands in brackets.
+        The index in brackets.
 
     Raises
     ------
     DeclarationError
-        If this is not an index, or lies outside the array.
+        If the index is invalid or outside the array.
     """
     indices = index if isinstance(index, tuple) else (index,)
     ends = [end for item in indices for end in _ends(item)]
@@ -35,7 +35,7 @@ def selected_entries(show: Callable[[], str], shape: tuple[int, ...], index: Any
             "built. Declare what "
             "selects them structural(...), or select with piecewise((value, condition), ..., otherwise)."
         )
-    # A scalar is its own entry 0, and a vector has one column.
+    # A scalar can be indexed by 0, and a vector has one column.
     whole = (*shape, 1) if len(indices) > len(shape) < 2 else shape
     fits = len(indices) <= len(whole) and all(
         -n <= end < n + isinstance(item, slice)
@@ -53,12 +53,12 @@ def _asked(shown: str, indices: tuple[Any, ...]) -> str:
 
 
 def _ends(item: Any) -> list[Any]:
-    """What must be an integer in an index."""
+    """Return the values of an index that must be integers."""
     return [e for e in (item.start, item.stop, item.step) if e is not None] if isinstance(item, slice) else [item]
 
 
 def _bounds(item: Any) -> list[int]:
-    """What must lie inside the array."""
+    """Return the values of an index that must lie inside the array."""
     return [e for e in (item.start, item.stop) if e is not None] if isinstance(item, slice) else [item]
 
 

@@ -1,4 +1,4 @@
-"""What stands in an expression and is none: what it is called, and what could be meant."""
+"""Messages for values that are invalid in expressions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from acausal.errors import DeclarationError
 from acausal.language.formatting import kind_of, short
 
-# By the name of the class, as these are made of expressions.
+# Keyed by class name, as these modules import the class of expressions: words for the value, remedy.
 WORDS = {
     "Equation": ("an equation", "State it alone: yield a == b."),
     "Condition": ("an inequality", "A condition chooses a value: piecewise((value, a < b), otherwise)."),
@@ -26,7 +26,7 @@ WORDS = {
 
 
 def invalid_operand(value: Any) -> str:
-    """Return the message for a value that has no place in an expression."""
+    """Return the message for a value that is invalid in an expression."""
     what, remedy = _described(value)
     return f"{what} cannot stand in an expression. {remedy}"
 
@@ -47,7 +47,7 @@ def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
 
 
 def decimal_point(value: Any) -> str:
-    """Return the remedy where a comma was intended as decimal point, as in 1,5 and "1,5"; "" where it was not."""
+    """Return the remedy for a decimal comma, as in 1,5 and "1,5"; "" for other values."""
     parts = value.split(",") if isinstance(value, str) else value if isinstance(value, tuple) else ()
     texts = [str(part).strip() for part in parts]
     meant = len(texts) == 2 and re.fullmatch(r"[-+]?\d*", texts[0]) and re.match(r"\d+", texts[1])
@@ -55,7 +55,7 @@ def decimal_point(value: Any) -> str:
 
 
 def _without_quotes(text: str) -> str:
-    """Return what is meant by a text: the number in it, or a variable of its name."""
+    """Return the remedy for a text: its number, or a variable of its name."""
     try:
         float(text)
     except ValueError:

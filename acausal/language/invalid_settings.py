@@ -1,4 +1,4 @@
-"""Settings that would be ignored, because a model is built from its class and the arguments of its constructor alone."""
+"""Messages for assignments without effect: a model is built from its class and its constructor arguments only."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from acausal.language.value_checks import holds_parts, nearest_field, shown
 
 
 def refuse_value(component: Any, name: str, value: Any) -> str:
-    """Return the message for a field that is set on an instance, with the ways that work.
+    """Return the message for an assignment to a field of an instance, with valid alternatives.
 
     Parameters
     ----------
     component : Component
-        A template, or a part of a built model.
+        Template, or part of a built model.
     name : str
-        The field.
+        Name of the field.
     value : object
-        What it should become.
+        Assigned value.
     """
     cls = type(component)
     field = component.fields[name] if name in component.fields else cls.fields[name]
@@ -43,18 +43,18 @@ def refuse_value(component: Any, name: str, value: Any) -> str:
 
 
 def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
-    """Return the message for a member of a part that is set on a model that is not built.
+    """Return the message for an assignment to a member of a part of a model that is not built.
 
     Parameters
     ----------
     path : str
-        The member: "tip.m".
+        Path of the member: "tip.m".
     cls : type, optional
-        The class that has it, if that is known.
+        Class of the part, if known.
     name : str
-        Its name there.
+        Name of the member in its part.
     value : object
-        What it should become.
+        Assigned value.
     """
     known, kind = getattr(cls, "fields", {}), getattr(cls, "__name__", "")
     if known and name not in known:
@@ -69,9 +69,9 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
 
 @checked_call
 def refuse_attribute(component: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for an attribute that is intended as a part or a field, or that nothing would read.
+    """Raise DeclarationError for an attribute that is meant as a part or a field, or that nothing reads.
 
-    Methods of the component itself, its constructor among them, may keep plain data of their own.
+    Methods and the constructor of the component itself may set plain attributes.
     """
     cls = type(component)
     if holds_parts(value) and not component._is_bound:
@@ -104,20 +104,20 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
         )
 
 
-def refuse_misspelt_fields(cls: Any, said: dict[str, Any], inherited: dict[str, f.Field]) -> None:
+def refuse_misspelt_fields(cls: Any, body: dict[str, Any], inherited: dict[str, f.Field]) -> None:
     """Raise DeclarationError for a name in a class body that resembles an inherited field, setting or method.
 
     Parameters
     ----------
     cls : Component class
         The class.
-    said : dict of str to object
-        What its body contains.
+    body : dict of str to object
+        Attributes in its body.
     inherited : dict of str to Field
-        The fields of its bases.
+        Fields of its bases.
     """
     annotations = inspect.get_annotations(cls)
-    new = {n: v for n, v in said.items() if n[0] != "_" and "ClassVar" not in str(annotations.get(n, ""))}
+    new = {n: v for n, v in body.items() if n[0] != "_" and "ClassVar" not in str(annotations.get(n, ""))}
     before = {n for base in cls.__bases__ if issubclass(base, f.Template) for n in dir(base)}
     for name, value in new.items():
         field = isinstance(value, f.Field) and not isinstance(value, f.Part)
@@ -133,7 +133,7 @@ def refuse_misspelt_fields(cls: Any, said: dict[str, Any], inherited: dict[str, 
 
 
 def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
-    """Names that could have been intended for a value."""
+    """Return the known names that fit the kind of a value."""
     if inspect.isfunction(value):
         bases = [base for base in cls.__mro__[1:] if base.__module__ == ENGINE]
         return [n for base in bases for n, v in vars(base).items() if inspect.isfunction(v) and n[0] != "_"]

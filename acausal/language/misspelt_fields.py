@@ -1,4 +1,4 @@
-"""Names that resemble fields: typing errors that Python takes for new attributes."""
+"""Misspelt fields and settings, which Python would accept as new attributes."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from acausal.language.source_code import body_reads, may_read
 
 # Attributes that `simulate` and the command line read from a model.
 SETTINGS = ("stop_time", "tolerance", "accuracy", "intervals", "initial", "method", "constraints", "max_order")
-SETTABLE = ("stop_time", "method")  # those that may be fields
-NEAR = 0.75
+SETTABLE = ("stop_time", "method")  # settings that may also be fields
+NEAR = 0.75  # least similarity ratio (difflib) of a misspelling; below it, names differ on purpose
 
 
 def intended_name(cls: Any, name: str, known: Iterable[str]) -> str | None:
-    """Return the known name that is intended by another one: similar to it, and nothing in the class reads the other one.
+    """Return the known name that a similar one stands for; None if there is none, or if the class reads the given name.
 
     Parameters
     ----------
     cls : Component class
-        The class, whose body may be under execution.
+        The class; its body may be in execution.
     name : str
-        What is not a field.
+        Name that is not a field.
     known : iterable of str
-        What could be meant.
+        Known names.
     """
     near = [(SequenceMatcher(None, name, other).ratio(), other) for other in known if _is_near(name, other)]
     return max(near)[1] if near and not _reads(cls, name) else None
 
 
 def in_own_method(component: Any, constructor: bool = False) -> bool:
-    """Whether a method of the component, or its constructor, is being executed: it may keep plain data of its own."""
+    """Return whether a method or the constructor of the component is in execution: it may set plain attributes."""
     codes = set() if constructor else set(_codes(type(component)))
     frame: Any = sys._getframe(2)
     while frame is not None:
@@ -52,7 +52,7 @@ def in_own_method(component: Any, constructor: bool = False) -> bool:
 
 
 def _is_near(name: str, other: str) -> bool:
-    """Whether one name is a misspelling of the other; an added ending, number or index is intended."""
+    """Return whether one name is a misspelling of the other; an added suffix, number or index is intended."""
     longer = name.startswith(other) and name != other + other[-1]
     if name.isupper() or longer or (name.endswith(other) and len(name) > len(other) + 1):
         return False
@@ -67,13 +67,13 @@ def _is_near(name: str, other: str) -> bool:
 
 
 def _reads(cls: Any, name: str) -> bool:
-    """Whether the body of a class reads a name, or a function in the class or its bases may."""
+    """Return whether the class body reads a name, or a function of the class or its bases may read it."""
     codes = (code for code in _codes(cls) if not code.co_filename.startswith(PACKAGE))
     return body_reads(cls, name) or any(may_read(code, name) for code in codes)
 
 
 def _codes(cls: Any) -> Iterator[CodeType]:
-    """Code of all functions in a class and its bases."""
+    """Yield the code objects of all functions in a class and its bases."""
     waiting: list[Any] = [value for base in cls.__mro__ for value in vars(base).values()]
     while waiting:
         item = waiting.pop()

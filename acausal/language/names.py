@@ -1,4 +1,4 @@
-"""Names in a class body that cannot mean what they seem to: those that the engine reads."""
+"""Reserved names in class bodies, and annotations that declare nothing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from acausal.language.source_code import ENGINE, body_line
 from acausal.language.types import shape_of_annotation
 from acausal.language.value_checks import shown
 
-PLAIN = ("ends", "start_words", "without_soft")  # read by the engine, and no methods
+PLAIN = ("ends", "start_words", "without_soft")  # reserved attributes that are no methods
 EXAMPLES = {
     "connections": "yield connect(self.a, self.b)",
     "equations": "yield self.x == ...",
@@ -27,15 +27,15 @@ EXAMPLES = {
 }
 
 
-def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
-    """Raise DeclarationError for a name of the engine that stands for something else.
+def refuse_names(cls: Any, body: Mapping[str, Any]) -> None:
+    """Raise DeclarationError for a reserved name with a value of another kind.
 
     Parameters
     ----------
     cls : Component class
-        A class whose body was executed.
-    said : mapping of str to object
-        What the body contains.
+        Class whose body was executed.
+    body : mapping of str to object
+        Attributes in the body.
     """
     if cls.__module__ == ENGINE:
         return
@@ -43,14 +43,14 @@ def refuse_names(cls: Any, said: Mapping[str, Any]) -> None:
     for base in cls.__mro__[:0:-1]:
         if base.__module__ in (ENGINE, f.__name__):
             engine |= vars(base)
-    for name, value in said.items():
+    for name, value in body.items():
         wrong = _reserved(cls, name, value, engine)
         if wrong:
             raise declaration_error(f"{cls.__name__}.{name}: {wrong}", body_line(cls, name))
 
 
 def refuse_annotations(cls: Any) -> None:
-    """Raise DeclarationError for an annotation that looks like a field, but declares none."""
+    """Raise DeclarationError for an annotation without a value that looks like a field."""
     for base in cls.__mro__:
         for name in inspect.get_annotations(base) if "_own_fields" in vars(base) else ():
             if name in cls.fields or hasattr(cls, name):
@@ -73,13 +73,13 @@ def refuse_annotations(cls: Any) -> None:
 
 
 def _is_call(annotation: Any) -> bool:
-    """Whether what makes a part or a field stands as a type."""
+    """Return whether an annotation is a part or a field, or the text of a call."""
     made = isinstance(annotation, f.Template | f.Field)
     return made or (isinstance(annotation, str) and re.match(r"[\w.]+\(", annotation) is not None)
 
 
 def refuse_plain(cls: Any, name: str, value: Any) -> None:
-    """Raise DeclarationError for a value that is annotated as a field, or a field that stands as an annotation."""
+    """Raise DeclarationError for a plain value that is annotated as a field."""
     annotation = inspect.get_annotations(cls).get(name)
     if isinstance(value, f.Field) or shape_of_annotation(cls, name) is None or isinstance(value, property):
         return
@@ -96,7 +96,7 @@ def refuse_plain(cls: Any, name: str, value: Any) -> None:
 
 
 def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str:
-    """Say why a name cannot stand for a value, "" if it can."""
+    """Return the message for a value of a reserved name, "" if it is valid."""
     field = isinstance(value, f.Field | f.Template)
     if name == "__post_init__":
         return (
@@ -128,7 +128,7 @@ def _arguments(method: FunctionType) -> tuple[str, ...]:
 
 
 def _takes(method: FunctionType, old: FunctionType) -> bool:
-    """Whether a method can be called like the one that it overrides."""
+    """Return whether a method takes the arguments of the method that it overrides."""
     try:
         inspect.signature(method).bind(*_arguments(old))
     except TypeError:

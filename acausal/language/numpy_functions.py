@@ -1,4 +1,4 @@
-"""What numpy's functions are for expressions, and for fields of a class body."""
+"""Counterparts of numpy functions for expressions and fields of a class body."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from acausal.language.fields import Deferred
 
 
 def numpy_functions() -> dict[str, Callable[..., Any]]:
-    """Return the function of this package for each of numpy's that has one, by numpy's name."""
+    """Return the counterparts of numpy functions by their numpy names."""
 
     def of(operate: Callable[..., Any]) -> Callable[..., Any]:
         def call(*values: Any) -> Any:
-            # Not the operator of an array, which would ask numpy again.
+            # Convert first: the operator of an array would call numpy again.
             return Deferred(operate, values) if is_deferred(*values) else operate(*map(as_expr, values))
 
         return call

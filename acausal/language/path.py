@@ -1,4 +1,4 @@
-"""Paths: members of a model that is not built."""
+"""Paths of members of a model that is not built."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from acausal.language.invalid_settings import refuse_path
 
 
 class Path:
-    """Name of a member of a model that is not built: `model.beam.frame_b.r_0`; results are read by it."""
+    """Path of a member of a model that is not built, `model.beam.frame_b.r_0`; a key of results."""
 
-    __iter__: ClassVar[None] = None  # or Python would go through [0], [1], ... without end
+    __iter__: ClassVar[None] = None  # otherwise Python would iterate over [0], [1], ... without end
     _path: str
     _make: Any
     _class: type

@@ -13,7 +13,7 @@ from acausal.language.functions import der
 
 @dataclass(frozen=True)
 class SetValued:
-    """A force that takes any value up to `limit` where `speed`, whose derivative is `rate`, rests; see `set_valued`."""
+    """A force of any value up to `limit` while `speed`, whose derivative is `rate`, is 0; see `set_valued`."""
 
     speed: Expr
     rate: Expr
@@ -27,32 +27,33 @@ class SetValued:
 
 @checked_call
 def set_valued(speed: Any, *, limit: Any, mode: Any, offset: Any, shared: Any, share: Any, slip: Any) -> SetValued:
-    """Declare a force set-valued: where a speed rests, it takes any value up to a limit.
+    """State a set-valued force law: while a speed is 0, the force takes any value up to a limit.
 
     Yield it in equations() beside the law of the force and the conditions at which its mode changes, as
-    `components.rotational.Slipping` does. All arguments but the speed and the limit are scalar discrete variables. At an
-    instant at which `mode` becomes 0 or leaves it, all such laws at rest are decided together, from the acceleration that each
-    force makes (Pfeiffer and Glocker 1996, Multibody Dynamics with Unilateral Contacts). Then a law
+    `components.rotational.Slipping` does. All arguments but the speed and the limit are scalar discrete variables. At
+    an event at which a `mode` becomes 0 or nonzero, all set-valued laws at rest are decided together, from the
+    accelerations that the forces cause (Pfeiffer and Glocker 1996, Multibody Dynamics with Unilateral Contacts). Then a
+    law
 
-    - sticks, `mode` 0 and `shared` 0: its speed stays as it is;
-    - rests while others keep it at rest, `mode` 0 and `shared` 1: its force is `share` times the limit;
-    - slides, `mode` 1 or -1, also where the force does not change the acceleration, as at a joint that the rest of a machine
-      carries through rest.
+    - sticks, `mode` 0 and `shared` 0: its speed is constant;
+    - is kept at rest by other laws, `mode` 0 and `shared` 1: its force is `share` times the limit;
+    - slides, `mode` 1 or -1; also if its force does not change the acceleration, as at a joint whose motion the rest of
+      the machine prescribes.
 
     Parameters
     ----------
     speed : Expr
         Speed that the force resists.
     limit : Expr
-        Greatest force at rest. Its product with the speed is a power.
+        Largest force at rest; its product with the speed is a power.
     mode : Expr
-        Sense of the speed, 1 or -1; 0 at rest.
+        Sign of the speed, 1 or -1; 0 at rest.
     offset : Expr
-        Speed at the last decision, 0 but for rounding.
+        Speed at the last decision, 0 except for round-off.
     shared, share : Expr
-        Whether the force is a share of the limit, and which, from -1 to 1.
+        1 if the force is a share of the limit, and that share, from -1 to 1.
     slip : Expr
-        Change of the speed beyond which a law with a share no longer rests; 0 until it is decided.
+        Change of the speed beyond which a law with a share is no longer at rest; 0 before its decision.
     """
     given = {"mode": mode, "offset": offset, "shared": shared, "share": share, "slip": slip}
     for name, value in given.items():

@@ -1,4 +1,4 @@
-"""Initial equations that closed loops override."""
+"""Soft initial equations, which closed loops override."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Soft(Equation):
 
 @checked_call
 def soft(condition: Any) -> Soft:
-    """Let closed loops override an initial equation; yield it in initial_equations().
+    """State an initial equation that closed loops override; yield it in initial_equations().
 
-    An elastic part starts undeformed, say, but for what it takes up of a loop that does not close with rigid parts.
+    For example, an elastic part starts undeformed, except for the deformation that closes a loop.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What only the text of a class or function shows: what it drops, writes twice, does not return, binds, reads and calls."""
+"""Analysis of the source code of classes and functions: duplicate names, statements without yield, missing returns."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _SOUND: WeakSet[type] = WeakSet()
 
 
 def refuse_dropped(cls: Any) -> None:
-    """Raise DeclarationError for what a class, or a base of it, drops: a name written twice, a statement not yielded.
+    """Raise DeclarationError for a duplicate name, or a statement that is not yielded, in a class or its bases.
 
     Parameters
     ----------
     cls : Component class
-        Where its text is not to be had, nothing is refused.
+        Without source code, nothing is checked.
     """
     for base in cls.__mro__:
         if "_line" in vars(base) and base.__module__ != ENGINE and base not in _SOUND:
@@ -39,25 +39,25 @@ def refuse_dropped(cls: Any) -> None:
 
 
 def returns_nothing(function: Any) -> bool:
-    """Whether a function makes something and returns None alone; False for what is no function, or has no text."""
+    """Return whether a function calls something and returns only None; False without source code."""
     code = getattr(function, "__code__", None)
     return code is not None and _loses(code)
 
 
 def body_line(cls: Any, name: str) -> str:
-    """File and line where a name is written in the class body that was just executed, "" if that is not known."""
+    """Return file and line of a name in the class body that was just executed, "" if unknown."""
     where = user_line()
     parts = [part for node in _class(cls.__name__, where) for part in _statements(node.body) if name in _bound(part)]
     return f"{where.rpartition(':')[0]}:{parts[0].lineno}" if parts else ""
 
 
 def body_reads(cls: Any, name: str) -> bool:
-    """Whether the body of a class, which may be under execution, reads a name; a class without a body does not."""
+    """Return whether the body of a class, which may be in execution, reads a name; False without source code."""
     return any(_reads(node.body, name) for node in _class(cls.__name__, vars(cls).get("_line") or user_line()))
 
 
 def may_read(code: CodeType, name: str) -> bool:
-    """Whether a function reads an attribute, or has its name as a text: getattr(self, "name"); True if it has no text."""
+    """Return whether a function may read an attribute, also by getattr(self, "name"); True without source code."""
     nodes = _function(code)
     return not nodes or any(
         (isinstance(n, ast.Attribute) and n.attr == name and not isinstance(n.ctx, ast.Store))
@@ -69,7 +69,7 @@ def may_read(code: CodeType, name: str) -> bool:
 
 
 def calls(function: Any, *words: str) -> str:
-    """Return the first of some statements that a function forms, "" if it forms none or has no text."""
+    """Return the first of some statements that a function calls, "" if none or without source code."""
     nodes = _function(function.__code__) if hasattr(function, "__code__") else []
     called = {_statement(n) for node in nodes for n in ast.walk(node) if isinstance(n, ast.Call)}
     return next((word for word in words if word in called), "")
@@ -96,18 +96,18 @@ def _refuse(cls: Any) -> None:
 
 
 def _class(name: str, where: str) -> list[Any]:
-    """What the text says of a class whose statement begins at a place."""
+    """Return the syntax trees of a class whose definition begins at a line."""
     file, _, line = where.rpartition(":")
     return _definitions(file).get((name, int(line)), [])
 
 
 def _function(code: CodeType) -> list[Any]:
-    """What the text says of a function; several may begin in one line."""
+    """Return the syntax trees of a function; several lambdas may begin in one line."""
     return _definitions(code.co_filename).get((code.co_name, code.co_firstlineno), [])
 
 
 def _definitions(file: str) -> Mapping[tuple[str, int], list[Any]]:
-    """Classes and functions of a file by name and first line, none if its text is not to be had."""
+    """Return the classes and functions of a file by name and first line; none without source code."""
     linecache.checkcache(file)
     return _definitions_in("".join(linecache.getlines(file)))
 
@@ -117,11 +117,11 @@ def _definitions_in(text: str) -> Mapping[tuple[str, int], list[Any]]:
     found = defaultdict[tuple[str, int], list[Any]](list)
     try:
         with uncollected(), warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # Python has told its own when it compiled the text
+            warnings.simplefilter("ignore")  # Python already gave its warnings when it compiled the file
             tree = ast.parse(text)
         for node in ast.walk(tree):
             if isinstance(node, DEFINITIONS | ast.Lambda):
-                # Python counts a function from its first decorator, a class from either.
+                # The first line of a function is that of its first decorator; that of a class is either one.
                 for line in {first.lineno for first in (node, *getattr(node, "decorator_list", ()))}:
                     found[getattr(node, "name", "<lambda>"), line].append(node)
     except (SyntaxError, ValueError):
@@ -147,7 +147,7 @@ def _blocks(node: Any) -> list[list[ast.stmt]]:
 
 
 def _dropped(node: ast.stmt) -> str:
-    """Return what a statement forms in vain, "" if nothing."""
+    """Return the text of an equation or statement that is not yielded, "" for other Python statements."""
     made = node.value if isinstance(node, ast.Expr) else None
     if isinstance(made, ast.Compare) and any(isinstance(op, ast.Eq) for op in made.ops):
         return "this equation, `... == ...`,"
@@ -156,13 +156,13 @@ def _dropped(node: ast.stmt) -> str:
 
 
 def _statement(call: ast.Call) -> str:
-    """Return the name of what is called, without the package."""
+    """Return the name of the called function, without the package."""
     return ast.unparse(call.func).removeprefix("acausal.").removeprefix("ac.")
 
 
 @lru_cache(maxsize=256)
 def _loses(code: CodeType) -> bool:
-    """Whether a function makes something and returns nothing but None."""
+    """Return whether a function calls something and returns only None."""
     inside = [part for node in _function(code) if not isinstance(node, ast.Lambda) for part in _statements(node.body)]
     returned = [node.value for node in inside if isinstance(node, ast.Return) and node.value]
     made = any(isinstance(node, ast.Expr | ast.Assign) and isinstance(node.value, ast.Call) for node in inside)
@@ -170,7 +170,7 @@ def _loses(code: CodeType) -> bool:
 
 
 def _twice(block: list[ast.stmt]) -> Iterator[tuple[str, int, int]]:
-    """Yield the names that a block of a class body binds again without reading them; another block is another case."""
+    """Yield names that a block of a class body rebinds without reading them, with both lines; branches are separate."""
     bound: dict[str, ast.stmt] = {}
     for node in block:
         blocks = _blocks(node)
@@ -186,7 +186,7 @@ def _twice(block: list[ast.stmt]) -> Iterator[tuple[str, int, int]]:
 
 
 def _bound(node: ast.stmt) -> list[str]:
-    """Names that a simple statement or a definition binds."""
+    """Return the names that a simple statement or a definition binds."""
     if isinstance(node, DEFINITIONS):
         return [] if any(ast.unparse(mark).endswith("overload") for mark in node.decorator_list) else [node.name]
     targets = node.targets if isinstance(node, ast.Assign) else []
@@ -196,7 +196,7 @@ def _bound(node: ast.stmt) -> list[str]:
 
 
 def _reads(block: list[ast.stmt], name: str) -> bool:
-    """Whether statements of a class body read a name; what stands inside a definition does not see it."""
+    """Return whether statements of a class body read a name; bodies of definitions do not see it."""
     roots: list[ast.AST] = []
     for node in block:
         is_definition = isinstance(node, DEFINITIONS)

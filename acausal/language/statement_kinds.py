@@ -1,4 +1,4 @@
-"""Which statement is yielded in which method, and what a wrong one is called."""
+"""Kinds of statements and their methods, and messages for misplaced statements."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from acausal.language.validity_statements import Expectation, Requirement, Separ
 from acausal.language.value_checks import shown
 from acausal.language.when_statements import Reinit, When
 
-# Class of a statement, what it is called, and where it is yielded.
+# Class of a statement -> its text in messages, and the method that yields it.
 STATEMENT_KINDS: dict[type, tuple[str, str]] = {
     Equation: ("an equation", "equations()"),
     When: ("when(...)", "equations()"),
@@ -43,12 +43,12 @@ BARE = {
 
 
 def misplaced(statement: Any, method: str) -> str:
-    """Return the message for what a method yields and should not.
+    """Return the message for a statement that a method must not yield.
 
     Parameters
     ----------
     statement : object
-        What is yielded.
+        The yielded statement.
     method : str
         Name of the method.
     """
@@ -67,13 +67,13 @@ def misplaced(statement: Any, method: str) -> str:
 
 
 def error_of(statement: Any) -> type[AcausalError]:
-    """Return the kind of error for a misplaced statement."""
+    """Return the class of the error for a misplaced statement."""
     first = statement[0] if isinstance(statement, list | tuple) and statement else statement
     return ConnectError if isinstance(first, Connect | Branch | Root) else DeclarationError
 
 
 def _described(statement: Any, method: str) -> tuple[str, str]:
-    """What a statement is called, and how it could be right."""
+    """Return the words for an invalid statement, and the remedy."""
     if isinstance(statement, bool):
         if method == "connections":
             return f"{statement}", "Ports are joined by connect(a, b), not by `==`."
@@ -100,7 +100,7 @@ def _described(statement: Any, method: str) -> tuple[str, str]:
 
 
 def returned(value: Any, method: str) -> str:
-    """Return the message for a method that returns instead of yielding."""
+    """Return the message for a method that returns statements instead of yielding them."""
     if value is None:
         return f"{method}() yields nothing: write `yield` before each statement, or leave the method out."
     word = next((word for kind, (word, _) in STATEMENT_KINDS.items() if isinstance(value, kind)), shown(value))

@@ -1,4 +1,4 @@
-"""What a symbol is not: a Python number or a numpy array. numpy's functions with a counterpart here are replaced by it."""
+"""Behaviour of symbols in Python and numpy: operations without meaning are errors, numpy functions are replaced."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from acausal.errors import DeclarationError
 from acausal.language.formatting import short
 
-# numpy's functions by name, and what they are here; see `numpy_functions`.
+# Name of a numpy function -> its counterpart for expressions; see `numpy_functions`.
 NUMPY_FUNCTIONS: dict[str, Callable[..., Any]] = {}
 
 
@@ -18,7 +18,7 @@ _STEPS = (
     "the steps as a discrete variable, when(condition, reinit(...)), or piecewise((value, condition), ..., otherwise)"
 )
 _TUPLE = "a vector as a tuple of its entries, (a, b, c)"
-# What stands in place of numpy's functions that have no counterpart.
+# Name of a numpy function without counterpart -> what to write instead.
 INSTEAD = {
     "norm": "sqrt(dot(v, v)) for the length of v",
     "hypot": "sqrt(a**2 + b**2)",
@@ -54,7 +54,7 @@ INSTEAD |= dict.fromkeys(("hstack", "vstack", "stack", "concatenate", "append", 
 
 
 class Symbolic:
-    """Base of expressions, and of fields in a class body."""
+    """Base class of expressions and of fields in a class body."""
 
     __slots__ = ()
     _lacks: ClassVar[str]

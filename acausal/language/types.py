@@ -1,4 +1,4 @@
-"""Annotations of fields: Scalar, Vector3, Matrix33. To a type checker they are anything that numbers can become."""
+"""Annotations of fields: Scalar, Vector3 and Matrix33; Any for type checkers."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ else:
 
 _BY_NAME = {"Scalar": (), "Vector3": (3,), "Matrix33": (3, 3)}
 _NO_TYPES = (tuple, list, int, float)
-_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a name, and what it holds or stands beside
+_READABLE = re.compile(r"[\s('\"]*[^\W\d][\w.]*\s*(\[|\||['\")]|$)")  # a type name, subscripted, in a union or quoted
 _REAL = ("float", "float64", "floating", "Real")
 _WHOLE = ("int", "bool", "str", "Literal", "Enum")
 _LISTED = ("list", "tuple", "ndarray", "Sequence", "Iterable", "array")
@@ -44,23 +44,23 @@ _NEITHER = ("dict", "set", "complex", "Mapping", "None", "NoneType", "type", "ob
 
 
 def shape_of_annotation(cls: type, name: str) -> tuple[int, ...] | None:
-    """Return the shape that the annotation of a field tells, or None."""
+    """Return the shape from the annotation of a field, or None."""
     return _BY_NAME.get(_type_name(cls, name))
 
 
 def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
-    """Say what is wrong with the annotation of a parameter or variable, "" if nothing is.
+    """Return the message for an invalid annotation of a parameter or variable, "" for a valid one.
 
     Parameters
     ----------
     cls : Component class
-        Its class.
+        Class of the field.
     name : str
-        The field.
+        Name of the field.
     shape : tuple of int or callable, optional
-        As it is declared.
+        Declared shape.
     field : str
-        The function that declares it.
+        Name of the function that declares it.
     """
     annotation = inspect.get_annotations(cls).get(name)
     if isinstance(annotation, _NO_TYPES) or (isinstance(annotation, str) and not _READABLE.match(annotation)):
@@ -96,7 +96,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
 
 
 def _type_name(cls: type, name: str) -> str:
-    """Name of the annotation of a field without what it holds, `list` for list[float]; what an alias stands for."""
+    """Return the type name in the annotation of a field, `list` for list[float]; aliases are resolved."""
     annotation = inspect.get_annotations(cls).get(name)
     text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
     text = text.partition("[")[0].rsplit(".", 1)[-1].strip()
@@ -110,5 +110,5 @@ def _is_component(cls: type, name: str) -> bool:
 
 
 def _names(cls: type) -> dict[str, Any]:
-    """What is known in the module of a class."""
+    """Return the names in the module of a class."""
     return vars(sys.modules[cls.__module__]) if cls.__module__ in sys.modules else {}

@@ -1,4 +1,4 @@
-"""Statements about where a component is right: what must hold, and what should stay small."""
+"""Statements on the validity of a component: requirements, small neglected quantities, separated points."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from acausal.symbols import vec
 
 @dataclass(frozen=True)
 class Requirement:
-    """A condition that must hold and what is wrong where it does not, or a function that checks the value of an expression.
+    """A required condition with its error text, or an expression with a function that checks its value.
 
-    What is only unusual is a warning.
+    A violation is an error, or a warning if `warning`.
     """
 
     subject: Condition | Expr
@@ -31,11 +31,11 @@ class Requirement:
 
     @cached_property
     def sx(self) -> ca.SX:
-        """What has to be evaluated, a column."""
+        """The expression to evaluate, a column."""
         return vec(self.subject.excess.sx if isinstance(self.subject, Condition) else self.subject.sx)
 
     def broken(self, value: np.ndarray) -> str:
-        """Return what is wrong with a value, "" if nothing is."""
+        """Return the error text for a value of `sx`, "" if the requirement holds."""
         if isinstance(self.subject, Condition):
             return "" if self.subject.holds(value[0]) else str(self.problem)
         assert callable(self.problem)
@@ -45,7 +45,7 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Expectation:
-    """What a component neglects, `part`, should stay below `share` of `whole`; otherwise `text` is a warning."""
+    """A neglected quantity `part` that should stay below `share` of `whole`; otherwise `text` is a warning."""
 
     part: Expr
     whole: Expr
@@ -55,7 +55,7 @@ class Expectation:
 
 @dataclass(frozen=True)
 class Separation:
-    """Points whose `offset` must not become 0 while an `effect` acts along their line; `rate` is that of its length."""
+    """Two points whose `offset`, of length rate `rate`, must not vanish while `effect` acts along it."""
 
     offset: Expr
     rate: Expr
@@ -65,18 +65,18 @@ class Separation:
 
 @checked_call
 def require(subject: Any, problem: str | Callable[[np.ndarray], str], warning: bool = False) -> Requirement:
-    """State what must hold; yield it in requirements().
+    """State a requirement; yield it in requirements().
 
     Parameters
     ----------
     subject : Condition or Expr
-        Comparison of two scalars, or an expression. Of parameters alone, it is checked when the model is compiled and
-        whenever they are changed; of variables, at the start of a simulation.
+        Comparison of two scalars, or an expression. With parameters only, it is checked when the model is compiled and
+        when they change; with variables, at the start of a simulation.
     problem : str or callable
-        What is wrong where the condition does not hold, and the remedy; of an expression, a function that is given its
-        value as an array and returns that, or "" if nothing is wrong.
+        Error text with the remedy, for a condition; for an expression, a function of its value, an array, that returns
+        the error text, or "" for a valid value.
     warning : bool, default False
-        True if values that break it are accepted with a warning; only of parameters alone.
+        True if a violation is only a warning; for parameters only.
 
     Examples
     --------
@@ -93,19 +93,19 @@ def require(subject: Any, problem: str | Callable[[np.ndarray], str], warning: b
 
 @checked_call
 def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
-    """State that something neglected should stay small in a run; yield it in validity().
+    """State that a neglected quantity should stay small in a run; yield it in validity().
 
-    Nothing of it is integrated: both are evaluated at the output points of a finished run, and a warning is given once if
-    the greatest magnitude of `part` exceeds `share` times that of `whole`.
+    Both are evaluated at the output points of a finished run; a warning is given if the largest magnitude of `part`
+    exceeds `share` times that of `whole`.
 
     Parameters
     ----------
     part, whole : Expr
-        Scalars of one unit; a part that is not a number, such as 0 / 0, counts as 0.
+        Scalars of one unit; a part of value nan, such as 0 / 0, counts as 0.
     share : float
-        What of the whole may be neglected.
+        Share of the whole that may be neglected.
     text : str
-        What is neglected, and the remedy.
+        Text of the warning: what is neglected, and the remedy.
     """
     part, whole = as_expr(part), as_expr(whole)
     if part.shape or whole.shape:
@@ -116,22 +116,22 @@ def expect(part: Any, whole: Any, share: float, text: str) -> Expectation:
 
 @checked_call
 def apart(offset: Any, rate: Any, effect: Any, text: str) -> Separation:
-    """State that two points must not meet in a run while something acts along their line; yield it in validity().
+    """State that two points must not coincide in a run while an effect acts along their line; yield it in validity().
 
-    Where they meet, the line has no direction, and what acts along it turns over. Nothing of it is integrated: a run in
-    which they met with an effect that is not 0 there ends with a SimulationError, and what came before is kept.
+    Where they coincide, the line has no direction, and the effect reverses. A run in which they coincided with a
+    nonzero effect ends with a SimulationError; its result up to there is kept.
 
     Parameters
     ----------
     offset : Expr
         Vector from one point to the other.
     rate : Expr
-        Derivative of its length.
+        Time derivative of the length of the offset.
     effect : Expr
-        What acts along the line, positive or negative. Its part proportional to `rate` may act where they meet, as the
-        rate turns over as well.
+        Force or other quantity along the line, of either sign. A part proportional to `rate` is allowed where the
+        points coincide, as the rate reverses as well.
     text : str
-        What is wrong, and the remedy.
+        Error text, with the remedy.
     """
     offset, rate, effect = as_expr(offset), as_expr(rate), as_expr(effect)
     if len(offset.shape) != 1 or rate.shape or effect.shape:

@@ -1,4 +1,4 @@
-"""Checks of the values given to fields, by the constructor or in a class body."""
+"""Checks of the values of fields, from the constructor or a class body."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from acausal.nearest import likeliest
 
 
 def check_value(cls: Any, name: str, value: Any) -> Any:
-    """Return the value for a field of a class, with parts in place of their classes.
+    """Return the checked value for a field of a class; classes of parts are instantiated.
 
     Raises
     ------
     DeclarationError
-        If the class has no such field, or the value cannot be of this field.
+        If the class has no such field, or the value is invalid for it.
     """
     field = cls.fields.get(name)
     where = f"{cls.__name__}.{name}"
@@ -47,13 +47,13 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
 
 
 def nearest_field(cls: Any, name: str) -> str:
-    """Return the remedy for a name that is not a field."""
+    """Return the remedy for a name that is no field."""
     near = likeliest(name, cls.fields) or next(iter(_described(cls, name)), "")
     return f"did you mean `{near}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
 
 def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
-    """Return the message for values that are given to a constructor without their names."""
+    """Return the message for positional arguments of a constructor."""
     if len(unnamed) == 1 and isinstance(unnamed[0], dict):
         return f"{cls.__name__} takes its values by name; from a dict, they are given by two stars: {cls.__name__}(**values)."
     kinds = (f.Part,) if any(isinstance(value, f.Template) for value in unnamed) else (f.Parameter, f.Structural)
@@ -67,7 +67,7 @@ def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) ->
 
 
 def values_of_class(cls: Any, name: str, value: Any) -> str:
-    """Return the message for a value in the brackets of a class statement."""
+    """Return the message for a keyword argument of a class statement."""
     known = isinstance(value, f.Template) or name in getattr(cls, "fields", {}) or name in cls._settings
     line = f"{name} = {shown(value)}" if known else f'{name}: Scalar = parameter("...", default={shown(value)})'
     bases = ", ".join(base.__name__ for base in cls.__bases__)
@@ -77,7 +77,7 @@ def values_of_class(cls: Any, name: str, value: Any) -> str:
 
 
 def refuse_decorator(cls: Any) -> None:
-    """Raise DeclarationError for a class whose constructor was written by @dataclass or the like."""
+    """Raise DeclarationError for a class with @dataclass or a similar decorator."""
     if hasattr(cls, "__dataclass_fields__") or hasattr(cls, "__attrs_attrs__"):
         raise declaration_error(
             f"{cls.__name__} is marked @dataclass, which replaces the constructor that knows its fields. Leave the decorator "
@@ -86,7 +86,7 @@ def refuse_decorator(cls: Any) -> None:
 
 
 def refuse_constructor(cls: Any) -> None:
-    """Raise DeclarationError for a class whose own constructor does not hand on what it is given."""
+    """Raise DeclarationError for a class whose constructor does not call super().__init__()."""
     own = next((vars(base)["__init__"] for base in cls.__mro__ if "__init__" in vars(base)), None)
     code = getattr(own, "__code__", None)
     line = f"{code.co_filename}:{code.co_firstlineno}" if code else ""
@@ -98,7 +98,7 @@ def refuse_constructor(cls: Any) -> None:
 
 
 def is_part_class(value: Any) -> bool:
-    """Whether a value is a component class, which stands for an instance made with no arguments."""
+    """Return whether a value is a component class, which stands for an instance without arguments."""
     return isinstance(value, type) and issubclass(value, f.Template)
 
 
@@ -124,7 +124,7 @@ def instances(items: Iterable[Any], where: str) -> list[Any]:
 
 
 def holds_parts(value: Any) -> bool:
-    """Whether a value is a component, or holds one at any depth."""
+    """Return whether a value is a component, or contains one at any depth."""
     if isinstance(value, f.Template) or is_part_class(value):
         return isinstance(value, f.Template)
     if isinstance(value, dict):
@@ -133,7 +133,7 @@ def holds_parts(value: Any) -> bool:
 
 
 def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
-    """Raise DeclarationError for fixed(...) or guess(...) around single entries of a value."""
+    """Raise DeclarationError for a list with entries fixed(...) or guess(...)."""
     first = next((entry for entry in entries if isinstance(entry, f.InitialValue)), None)
     if first is not None:
         word = "fixed" if first.fixed else "guess"
@@ -162,13 +162,13 @@ def _check_part(where: str, value: Any, field: f.Part) -> Any:
 
 
 def _described(cls: Any, word: str) -> list[str]:
-    """Fields whose description contains the word: `mass` for `m`."""
+    """Return the fields whose description contains a word: `m` for `mass`."""
     values = {name: field for name, field in cls.fields.items() if not isinstance(field, f.Part | f.Outer)}
     return [name for name, field in values.items() if word in field.description.lower().split()]
 
 
 def shown(value: Any, otherwise: str = "...") -> str:
-    """Return a value as it is written in code, something else where that is long."""
+    """Return a value as Python code, `otherwise` if the code is long."""
     if isinstance(value, f.InitialValue):
         return f"{'fixed' if value.fixed else 'guess'}({shown(value.value)})"
     if isinstance(value, f.Template):
@@ -180,6 +180,6 @@ def shown(value: Any, otherwise: str = "...") -> str:
 
 
 def shown_or_kind(value: Any) -> str:
-    """Return a value as it is written in code, its kind where that is long."""
+    """Return a value as Python code, its kind if the code is long."""
     kind = f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
     return shown(value, kind)

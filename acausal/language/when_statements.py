@@ -1,4 +1,4 @@
-"""Statements of what happens at an instant: `yield when(condition, reinit(variable, value), ...)`."""
+"""Event statements: `yield when(condition, reinit(variable, value), ...)`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from acausal.language.expression import Equation, Expr, equation
 
 @dataclass(frozen=True)
 class Reinit:
-    """A variable that jumps, and the value to which it jumps."""
+    """A variable and its value after an event."""
 
     variable: Expr
     value: Expr
@@ -21,7 +21,7 @@ class Reinit:
 
 @dataclass(frozen=True)
 class When:
-    """What happens when a condition becomes true."""
+    """Jumps of variables when a condition becomes true."""
 
     condition: Condition
     jumps: tuple[Reinit, ...]
@@ -30,14 +30,14 @@ class When:
 
 @checked_call
 def reinit(variable: Any, value: Any) -> Reinit:
-    """Let a variable jump, inside when().
+    """State the value of a variable after an event, inside when().
 
     Parameters
     ----------
     variable : Expr
         A state or a discrete variable.
     value : float or Expr
-        What it becomes, computed from the values just before the instant.
+        New value, computed from the values just before the event.
     """
     if not isinstance(variable, Expr) or not variable.name:
         raise DeclarationError(
@@ -49,16 +49,16 @@ def reinit(variable: Any, value: Any) -> Reinit:
 
 @checked_call
 def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
-    """State what happens at each instant at which a condition becomes true; yield it in equations().
+    """State the jumps at each event at which a condition becomes true; yield it in equations().
 
     Parameters
     ----------
     condition : Condition
         Comparison of two scalars, such as self.h < 0.
     *jumps : reinit(...)
-        All are computed from the values just before the instant.
+        Jumps, all computed from the values just before the event.
     at_start : bool
-        Whether it also happens at the start, where the condition holds there.
+        True if the jumps also take place at the start, if the condition holds there.
 
     Examples
     --------
