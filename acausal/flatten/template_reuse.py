@@ -1,9 +1,9 @@
-"""Hear components that are alike once, and write what they state in the symbols of each.
+"""Reuse of statements among equal components: one states its equations, the others substitute their symbols.
 
-Components are alike if they have one class, equal structural values and constants, and share symbols among their fields
-in the same places. One of them states its equations in symbols of no model; as a function of these, which CasADi writes
-out, the statements are those of each of the others. What depends on more than fields is heard from each: what requests
-switches or jumps, and what is wrong, so that messages are those of the component itself.
+Components are equal if they have one class, equal structural values and constants, and share symbols among their fields
+in the same places. One of them states its equations in new symbols; CasADi evaluates them, as a function of these
+symbols, for each of the others. Methods that request switches or jumps, or that raise an error, run for each component,
+so that messages name the component itself.
 """
 
 from __future__ import annotations
@@ -28,36 +28,36 @@ from acausal.language.pending import PENDING, Pending
 from acausal.language.soft import Soft
 from acausal.symbols import scalars, stacked, vec
 
-FEWEST = 4  # alike components for which preparing a function pays
-ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are no values of a component
+FEWEST = 4  # equal components for which a function pays
+ENGINE = {*vars(Component), *vars(Connector)}  # attributes that are no field values
 Stated = tuple[Any, Origin]
-Hear = Callable[[Component], Iterable[Stated]]
-_Entries = dict[int, tuple[int, ca.SX]]  # by their hash, with their places
+Run = Callable[[Component], Iterable[Stated]]
+_Entries = dict[int, tuple[int, ca.SX]]  # hash -> (position, entry)
 
 
 @dataclass(frozen=True)
-class _Look:
-    """Symbols of a component in the order that alike components have in common.
+class _Arguments:
+    """Symbols of a component, in an order that equal components have in common.
 
     Parameters
     ----------
     variables : list of Expr
-        Of the component and its parts.
+        Variables of the component and its parts.
     entries : list of casadi.SX
-        Entries of its other expressions that are no numbers, each once.
+        Symbolic entries of its other expressions, each once.
     """
 
     variables: list[Expr]
     entries: list[ca.SX]
 
     def symbols(self) -> list[ca.SX]:
-        """Arguments of the function of what alike components state."""
+        """Return the arguments of the function of a template."""
         return [*[v.sx for v in self.variables], *self.entries]
 
 
 @dataclass(frozen=True)
 class _Template:
-    """What alike components state, as a function of their symbols, of derivatives and of symbols common to all."""
+    """Statements of equal components as a function of their symbols, of derivatives and of common symbols."""
 
     kind: type
     stated: list[tuple[list[tuple[int, ...]], Origin]]
@@ -65,12 +65,12 @@ class _Template:
     common: ca.SX
     function: ca.Function
 
-    def of(self, component: Component, look: _Look) -> Iterator[Stated]:
-        """Yield what a component states."""
+    def of(self, component: Component, arguments: _Arguments) -> Iterator[Stated]:
+        """Yield the statements of a component."""
         if not self.stated and not self.shapes:
             return
         derivatives = [ca.SX.sym("der", *shape) for shape in self.shapes]
-        found = iter(self.function.call([*look.symbols(), *derivatives, self.common]))
+        found = iter(self.function.call([*arguments.symbols(), *derivatives, self.common]))
         PENDING.get().derivatives += [(d, next(found)) for d in derivatives]
         for shapes, origin in self.stated:
             place = Origin(component._path, origin.kind, origin.where, origin.text)
@@ -79,55 +79,55 @@ class _Template:
 
 
 class TemplateReuse:
-    """Components of a model by what they are like.
+    """Equal components of a model, and the templates of their statements.
 
     Parameters
     ----------
     components : iterable of Component
-        Bound, with their variables, each once.
+        Bound components with variables, each once.
     """
 
     def __init__(self, components: Iterable[Component]) -> None:
         components = list(components)
         classes = Counter(map(type, components))
         self._common: dict[int, dict[int, Hashable]] = {}
-        kinds: dict[Hashable, dict[int, _Look]] = {}
+        kinds: dict[Hashable, dict[int, _Arguments]] = {}
         for component in components:
-            if classes[type(component)] >= FEWEST and (found := self._look(component)):
+            if classes[type(component)] >= FEWEST and (found := self._key(component)):
                 kinds.setdefault(found[0], {})[id(component)] = found[1]
-        self._looks = {
-            place: (number, look)
-            for number, looks in enumerate(kinds.values())
-            if len(looks) >= FEWEST
-            for place, look in looks.items()
+        self._arguments = {
+            place: (number, arguments)
+            for number, members in enumerate(kinds.values())
+            if len(members) >= FEWEST
+            for place, arguments in members.items()
         }
         self._templates: dict[tuple[str, int], _Template | None] = {}
 
-    def statements(self, component: Component, method: str, kind: type, hear: Hear) -> Iterable[Stated]:
-        """Return what a component states in a method, with the place of each statement.
+    def statements(self, component: Component, method: str, kind: type, run: Run) -> Iterable[Stated]:
+        """Return the statements of a method of a component, each with its origin.
 
         Parameters
         ----------
         component : Component
-            Bound, with its variables.
+            Bound component with variables.
         method : str
-            The method.
+            Name of the method.
         kind : type
-            What it should state: Equation, Expr, or tuple of several of these.
-        hear : callable
+            Kind of its statements: Equation, Expr, or tuple of several of these.
+        run : callable
             Runs the method of a component.
         """
-        if id(component) not in self._looks:
-            return hear(component)
-        number, look = self._looks[id(component)]
+        if id(component) not in self._arguments:
+            return run(component)
+        number, arguments = self._arguments[id(component)]
         place = method, number
         if place not in self._templates:
-            self._templates[place] = _template(component, look, kind, hear)
+            self._templates[place] = _template(component, arguments, kind, run)
         template = self._templates[place]
-        return hear(component) if template is None else template.of(component, look)
+        return run(component) if template is None else template.of(component, arguments)
 
-    def _look(self, component: Component) -> tuple[Hashable, _Look] | None:
-        """What is equal for components that are alike, and the symbols of one; None if it has discrete variables."""
+    def _key(self, component: Component) -> tuple[Hashable, _Arguments] | None:
+        """Return a key, equal for equal components, and the symbols of one; None with discrete variables."""
         inside = list(walk(component))
         places = {id(c): k for k, c in enumerate(inside)}
         key, variables, entries, at = list[Hashable](), list[Expr](), _Entries(), dict[int, Hashable]()
@@ -136,7 +136,7 @@ class TemplateReuse:
                 if isinstance(declared, f.Outer):
                     at |= self._outside(vars(c)[name])
         for c in inside:
-            key += [type(c), c._in_loop, _standing(c, places)]
+            key += [type(c), c._in_loop, _position_in_tree(c, places)]
             for name, value in vars(c).items():
                 declared = c.fields.get(name)
                 if name in ENGINE:
@@ -155,30 +155,30 @@ class TemplateReuse:
                         at[id(value)] = len(variables)
                         variables.append(value)
                     key.append((value.unit, value.shape, at[id(value)]))
-        return tuple(key), _Look(variables, [entry for _, entry in entries.values()])
+        return tuple(key), _Arguments(variables, [entry for _, entry in entries.values()])
 
     def _outside(self, outer: Component) -> dict[int, Hashable]:
-        """Symbols of a component that others read, which stand for themselves."""
+        """Return keys of the symbols of an outer component, which are common to all."""
         if id(outer) not in self._common:
             values = (value for c in walk(outer) for value in vars(c).values())
             self._common[id(outer)] = {id(v): ("common", id(v)) for v in values if isinstance(v, Expr)}
         return self._common[id(outer)]
 
 
-def _standing(c: Component, places: dict[int, int]) -> Hashable:
-    """How a connector stands in the spanning tree, as far as the component that has it can see."""
+def _position_in_tree(c: Component, places: dict[int, int]) -> Hashable:
+    """Return the position of a connector in the spanning tree, as visible to its component."""
     if not isinstance(c, Connector):
         return None
     return c._is_root, tuple((places.get(id(p), -1), p._owner is c._owner) for p in c._parents)
 
 
 def _count(part: Any) -> Hashable:
-    """How many components a part is; they are looked at themselves."""
+    """Return the number of components of a part, whose own keys follow."""
     return len(part) if isinstance(part, list) else part is not None
 
 
 def _plain(value: Any) -> Hashable:
-    """What is equal for equal values alone; what cannot be compared is equal to itself."""
+    """Return a key of a value, equal for equal values; other objects are compared by identity."""
     if value is None or isinstance(value, bool | int | float | str):
         return type(value), repr(value)
     if type(value) is np.ndarray and value.dtype != object:
@@ -189,7 +189,7 @@ def _plain(value: Any) -> Hashable:
 
 
 def _datum(value: Any) -> Hashable:
-    """What is equal for equal structural values: by their own word where they are compared by more than their identity."""
+    """Return a key of a structural value, which is the value itself if its class defines a hash."""
     if type(value).__hash__ not in (None, object.__hash__) and not isinstance(value, tuple):
         with suppress(TypeError):  # a frozen record of arrays cannot be hashed
             hash(value)
@@ -198,7 +198,7 @@ def _datum(value: Any) -> Hashable:
 
 
 def _entries(sx: ca.SX, found: _Entries) -> Hashable:
-    """Numbers in a parameter, and the places of its other entries among those that were found before."""
+    """Return the numbers in a parameter, and the positions of its symbolic entries among those found before."""
     key: list[Hashable] = [sx.nnz()]
     for entry in scalars(sx):
         if entry.is_constant():
@@ -208,27 +208,29 @@ def _entries(sx: ca.SX, found: _Entries) -> Hashable:
     return tuple(key)
 
 
-def _template(component: Component, look: _Look, kind: type, hear: Hear) -> _Template | None:
-    """Hear a component in symbols of no model; None if what it states depends on more than these."""
-    own = _Look([_anew(v) for v in look.variables], [ca.SX.sym(f"p{k}") for k in range(len(look.entries))])
-    twins: dict[int, Any] = {id(c): copy(c) for c in walk(component)}
-    twins |= zip(map(id, look.variables), own.variables, strict=True)
-    entries = dict(zip((e.element_hash() for e in look.entries), own.entries, strict=True))
+def _template(component: Component, arguments: _Arguments, kind: type, run: Run) -> _Template | None:
+    """Return the statements of a component in new symbols; None if they depend on more than these."""
+    own = _Arguments(
+        [_new_symbol(v) for v in arguments.variables], [ca.SX.sym(f"p{k}") for k in range(len(arguments.entries))]
+    )
+    copies: dict[int, Any] = {id(c): copy(c) for c in walk(component)}
+    copies |= zip(map(id, arguments.variables), own.variables, strict=True)
+    entries = dict(zip((e.element_hash() for e in arguments.entries), own.entries, strict=True))
 
-    def twin(value: Any) -> Any:
+    def copied(value: Any) -> Any:
         if isinstance(value, list | tuple) and any(isinstance(v, Component) for v in value):
-            return type(value)(map(twin, value))
-        return twins.get(id(value), value)
+            return type(value)(map(copied, value))
+        return copies.get(id(value), value)
 
     for c in walk(component):
         for name, value in vars(c).items():
-            entered = isinstance(value, Expr) and not isinstance(c.fields.get(name), f.Variable)
-            vars(twins[id(c)])[name] = _renamed(value, entries) if entered else twin(value)
+            is_parameter = isinstance(value, Expr) and not isinstance(c.fields.get(name), f.Variable)
+            vars(copies[id(c)])[name] = _renamed(value, entries) if is_parameter else copied(value)
     pending = Pending()
     pending.varying = {s.element_hash() for v in own.variables for s in scalars(v.sx)}
     token = PENDING.set(pending)
     try:
-        stated = list(hear(twins[id(component)]))
+        stated = list(run(copies[id(component)]))
     except AcausalError:
         return None
     finally:
@@ -236,7 +238,7 @@ def _template(component: Component, look: _Look, kind: type, hear: Hear) -> _Tem
     return _function(stated, kind, own, pending)
 
 
-def _anew(variable: Expr) -> Expr:
+def _new_symbol(variable: Expr) -> Expr:
     return Expr(ca.SX.sym(variable.name, *variable.sx.shape), variable.unit, variable.name, variable.shape)
 
 
@@ -249,12 +251,12 @@ def _renamed(parameter: Expr, entries: dict[int, ca.SX]) -> Expr:
     return Expr(sx, parameter.unit, parameter.name, parameter.shape)
 
 
-def _function(stated: list[Stated], kind: type, own: _Look, pending: Pending) -> _Template | None:
-    """What was stated as a function of the symbols that it was stated in."""
+def _function(stated: list[Stated], kind: type, own: _Arguments, pending: Pending) -> _Template | None:
+    """Return statements as a function of the symbols of their component; None for unsuitable ones."""
     if pending.switches or pending.whens or pending.promises or not all(isinstance(s, kind) for s, _ in stated):
         return None
     if any(isinstance(s, Soft) for s, _ in stated):
-        return None  # few, and simple ones
+        return None  # soft equations are few and simple
     parts = [(s.lhs, s.rhs) if kind is Equation else (s,) if kind is Expr else s for s, _ in stated]
     if not all(isinstance(e, Expr) for exprs in parts for e in exprs):
         return None
