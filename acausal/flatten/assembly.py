@@ -1,4 +1,4 @@
-"""Simplify the equations of a model and put its FlatModel together."""
+"""Simplification of the equations of a model, and assembly of its FlatModel."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ from acausal.symbols import dense, picked, scalars, stacked
 
 @dataclass(frozen=True)
 class _Left:
-    """What the propagation leaves.
+    """Remaining unknowns and equations after the propagation.
 
     Parameters
     ----------
     done : Simplification
-        What it found.
+        Result of the propagation.
     values : list of Linear
-        What each unknown is, in remaining ones.
+        Value of each unknown in the remaining ones.
     unknowns, rows : list of int
         Unknowns and residuals that remain.
     present : set of int
-        Unknowns that occurred.
+        Unknowns that occurred in the equations.
     """
 
     done: Simplification
@@ -56,7 +56,7 @@ class _Left:
 
     @cached_property
     def place(self) -> dict[int, int]:
-        """Unknown -> its place among those that remain."""
+        """Unknown -> its position among the remaining ones."""
         return {k: n for n, k in enumerate(self.unknowns)}
 
 
@@ -66,13 +66,13 @@ class Assembly:
     Parameters
     ----------
     raw : CollectedStatements
-        What the components stated.
+        Statements of the components.
     chain : Derivatives
         Symbols of the variables and of their derivatives.
     resolved : callable
         Replaces placeholders of derivatives in a list of expressions.
     declared : dict of int to casadi.SX
-        Variables with a declared derivative that is not integrated.
+        Variables with a declared derivative that are not integrated.
     """
 
     def __init__(self, raw: CollectedStatements, chain: Derivatives, resolved: Any, declared: dict[int, ca.SX]) -> None:
@@ -91,7 +91,7 @@ class Assembly:
         self.origins += [self.origins[c.row] for c in closures]
 
     def flat_model(self) -> FlatModel:
-        """Simplify and assemble."""
+        """Return the simplified FlatModel."""
         left = self._simplified()
         done, removed = left.done, list(left.done.solved)
         was = picked(self.symbols, removed)
@@ -118,7 +118,7 @@ class Assembly:
         own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
         linear = LinearValues(self.symbols, given, self.residuals)
-        present = set(linear.input) | self._asked()
+        present = set(linear.input) | self._requested()
         units = unknown_units(self.raw, self.lower)
         done = Simplifier(linear, self._chains(present), self._rank(), self.substitutes, units, self.raw.kept).run()
         self._refuse_contradictions(done)
@@ -164,12 +164,12 @@ class Assembly:
         )
 
     def _source(self, row: int, done: Simplification) -> Source:
-        """What a row is: a residual, or a derivative that removed no unknown."""
+        """Return the source of a row: a residual, or a derivative that removed no unknown."""
         n = self.residuals.numel()
         return Source(row) if row < n else done.left[row - n][1]
 
     def _eliminating(self, source: Source, done: Simplification) -> tuple[Origin, ...]:
-        """Equations that removed the unknowns of a residual, those of the whole model first."""
+        """Return the equations that eliminated unknowns from a residual, those of the whole model first."""
         place = {s.element_hash(): k for k, s in enumerate(scalars(self.symbols))}
         entries, found = scalars(self.residuals), [source]
         for row, derivatives in found:
@@ -180,7 +180,7 @@ class Assembly:
         return tuple(sorted((self.origins[s.row] for s in found[1:]), key=lambda o: bool(o.path)))
 
     def _repeats(self, done: Simplification) -> tuple[tuple[Origin, ...], ...]:
-        """Redundant equations that close no loop, each followed by those that gave its unknowns."""
+        """Return the redundant equations that close no loop, each followed by those that eliminated its unknowns."""
         own = [*(Source(row) for row in done.redundant if row not in self.substitutes), *done.repeated]
         return tuple(tuple(dict.fromkeys((self.origins[s.row], *self._eliminating(s, done)))) for s in own)
 
@@ -208,25 +208,25 @@ class Assembly:
             "unknowns_simplified": len(left.unknowns),
         }
 
-    def _asked(self) -> set[int]:
-        """Derivatives that initial equations and energies hold; they are unknowns even where no equation holds them."""
+    def _requested(self) -> set[int]:
+        """Return the derivatives in initial equations and energies, which are unknowns even without an equation."""
         column = ca.vertcat(self.initial_residuals, *self.energies.values())
-        asked = {s.element_hash() for s in ca.symvar(column)}
+        inside = {s.element_hash() for s in ca.symvar(column)}
         derivatives = scalars(stacked(self.chain.levels[1:]))
-        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in asked}
+        return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in inside}
 
     def _rates(self, left: _Left) -> set[int]:
-        """Hashes of the unknowns with which a constraint of a part does not constrain by itself."""
+        """Return the hashes of unknowns whose presence makes an equation of a part no constraint."""
         found = [k for k in left.unknowns if k not in self.declared and left.done.derivative[k] < 0]
         return rates(picked(self.symbols, found), self.raw.declared, self.raw.index, self.declared)
 
     def _unused(self, done: Simplification) -> set[int]:
-        """Redundant residuals, and the substitutes of the others."""
+        """Return the redundant residuals, and the substitutes of the independent ones."""
         redundant = set(done.redundant)
         return redundant | {s for row, s in self.substitutes.items() if row not in redundant}
 
     def _chains(self, present: set[int]) -> list[int]:
-        """Unknown -> its derivative among the symbols, as far as a derivative occurs."""
+        """Return the derivative of each unknown, or -1 if none occurs."""
         derivative = [-1] * self.symbols.numel()
         for k, lower in reversed([*enumerate(self.lower, self.size)]):
             if k in present or derivative[k] >= 0:
@@ -241,7 +241,7 @@ class Assembly:
         return rank
 
     def _defines(self, left: _Left) -> dict[int, int]:
-        """Residual that remains -> the declared unknown on its left-hand side, by its own name or by that of an alias."""
+        """Return, for remaining residuals, the declared unknown on the left-hand side, itself or by an alias."""
         own: dict[int, int] = {}
         alias: dict[int, int] = {}
         rows, place, kept = set(left.rows), left.place, self.raw.kept
@@ -269,7 +269,7 @@ class Assembly:
         return own
 
     def _jumping(self) -> list[int]:
-        """Variables that jump at instants, which have to be states."""
+        """Return the continuous variables that jump at events, which must be states."""
         targets = [
             jump.target for guard in self.discontinuities.guards for jump in guard.jumps if jump.target.is_symbolic()
         ]
@@ -277,9 +277,9 @@ class Assembly:
         return [k for k in places if k >= 0]
 
     def _initial(self, was: ca.SX, becomes: ca.SX) -> tuple[Initial, ...]:
-        """Fixed start values, then the initial equations of components."""
+        """Return the fixed start values, then the initial equations of components."""
         fixed = [
-            (residual, (text, replace(Origin.of(a.owner), where=a.said)))
+            (residual, (text, replace(Origin.of(a.owner), where=a.start_line)))
             for a in self.raw.arrays
             for residual, text in a.conditions()
         ]

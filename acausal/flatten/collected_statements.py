@@ -1,4 +1,4 @@
-"""What the components of a model state, before anything is simplified."""
+"""Statements of all components of a model before simplification."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
 from acausal.flatten.origin import Origin, method_origin, stated, with_place
 from acausal.flatten.part_constraints import add_constraints
-from acausal.flatten.signal_connections import given_by_connections
+from acausal.flatten.signal_connections import connected_values
 from acausal.flatten.template_reuse import TemplateReuse
 from acausal.flatten.variables import VariableArray, create_variables
 from acausal.language import unit_rules
@@ -55,14 +55,14 @@ class CollectedStatements:
 
     @property
     def kept(self) -> set[int]:
-        """Variables whose derivative a part declares: an alias in place of one would be differentiated instead."""
+        """Variables with a derivative declared by a part; not eliminated, as an alias has no declared derivative."""
         return {self.index[s.element_hash()] for v, _ in self.declared_by_parts for s in scalars(v.sx)}
 
 
 def collect_statements(
     model: Component, overrides: Mapping[str, Any] | None, free: Collection[str] = ()
 ) -> CollectedStatements:
-    """Instantiate a model, connect it and collect everything that its components state."""
+    """Instantiate a model, connect it and collect the statements of its components."""
     pending = Pending()
     token = PENDING.set(pending)
     try:
@@ -76,8 +76,8 @@ def collect_statements(
         pending.varying = pending.discrete | index.keys()
         discrete_values = discrete_starts(discretes)
         pending.place(Origin.of(build.root, "a value of the class body"))
-        build.give_inputs(given_by_connections(graph.wires))
-        # Far more statements than any component needs, few enough to count them quickly.
+        build.give_inputs(connected_values(graph.wires))
+        # Limit against endless loops: far more statements than a component needs, but reached within seconds.
         most = 10_000 + 10 * len(index)
         leads = [group[0] for group in graph.same]
         parts = [c for c in components if not isinstance(c, Connector)]
@@ -88,7 +88,7 @@ def collect_statements(
         declared, by_parts = ([p for c in group for p in _derivatives(c, reuse)] for group in (leads, parts))
         energies = {name: _total(name, components, reuse) for name in ENERGIES}
         pending.place(Origin.of(build.root))
-        _look_at_observed(components)
+        _check_observed(components)
     finally:
         PENDING.reset(token)
     return CollectedStatements(
@@ -109,14 +109,14 @@ def collect_statements(
 
 
 def _derivatives(component: Component, reuse: TemplateReuse) -> Iterator[tuple[Expr, Expr]]:
-    """Yield the variables whose derivative a component declares, each with that."""
+    """Yield the variables with a derivative declared by a component, each with its derivative."""
     if getattr(type(component), DERIVATIVES) is not getattr(Component, DERIVATIVES):
         for pair, _ in reuse.statements(component, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES)):
             yield pair
 
 
 def _total(name: str, components: list[Component], reuse: TemplateReuse) -> ca.SX:
-    """Sum of an energy or a power over all components."""
+    """Return the sum of an energy or a power over all components."""
     total = as_expr(0.0)
     for component in components:
         if getattr(type(component), name) is not getattr(Component, name):
@@ -137,13 +137,13 @@ def _power(component: Component, name: str) -> Expr:
     if value.sx.is_constant() and not value.sx.is_regular():
         raise DeclarationError(f"{here}: {name}() is {value.sx}; it must be finite.")
     declared = Expr(value.sx, ENERGIES[name], f"{name}()")
-    if value.unit != ENERGIES[name] / MASS:  # that of a unit mass
+    if value.unit != ENERGIES[name] / MASS:  # the value of a unit mass
         with_place(lambda: unit_rules.common(declared, value, "its value"), here)
     return Expr(value.sx)
 
 
 def _no_power(name: str, value: Any) -> str:
-    """Return the message for what a method of an energy or a power returns instead of a scalar."""
+    """Return the message for an invalid value of an energy or a power."""
     unit = f"one scalar in {'J' if name == 'stored_energy' else 'W'}"
     if value is None:
         return f"{name}() returns nothing; write `return` before {unit}."
@@ -155,15 +155,15 @@ def _no_power(name: str, value: Any) -> str:
     return f"{name}() must return {unit}, not {'an equation' if isinstance(value, Equation) else what}."
 
 
-def _look_at_observed(components: list[Component]) -> None:
-    """Raise UnitsError for observed quantities whose units contradict each other, checked once for each class.
+def _check_observed(components: list[Component]) -> None:
+    """Raise UnitsError for observed quantities with contradictory units, once for each class.
 
-    Those of a library may be expensive to form: only classes in the file of the model's class are checked. Anything
-    else that is wrong with one is reported when it is read.
+    Only classes in the file of the model's class are checked, as those of libraries may be expensive to evaluate. Other
+    errors are reported when the quantity is read.
     """
     home = type(components[0]).__module__
     own = {type(c): c for c in reversed(components) if type(c).__module__ == home}
-    token = PENDING.set(Pending())  # what they request is not part of the model
+    token = PENDING.set(Pending())  # their requests are not part of the model
     try:
         for component in own.values():
             for name, declared in component.fields.items():

@@ -1,4 +1,4 @@
-"""Collect the equations of all components, each entry with its origin, and form the derivatives they request."""
+"""Collection of the equations of all components, each with its origin."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ from acausal.symbols import combined, dense, scalars, vec
 
 @dataclass(frozen=True)
 class Closure:
-    """A scalar residual that closes a loop, or a constraint that a part states, of which `cut` is None.
+    """A scalar residual that closes a loop, or, with `cut` None, a constraint of a part.
 
-    `dual` is the flow that does work on it: undetermined, and taken as 0, where the residual is redundant.
+    `dual` is the flow that does work on it; it is undetermined, and set to 0, if the residual is redundant.
     """
 
     row: int
@@ -46,8 +46,8 @@ class Closure:
 class Equations:
     """Scalar residuals with their origins.
 
-    `sides` keeps both sides of each array equation, `of_roots` tells those of roots, `owned` those of each component,
-    `soft` those that are soft.
+    `sides` contains both sides of each array equation; `of_roots`, `owned` and `soft` are the numbers of the array
+    equations of roots, of each component, and of soft initial equations.
     """
 
     residuals: list[ca.SX]
@@ -89,7 +89,9 @@ def collect(
             declared = component.fields[name]
             if isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue):
                 origin = Origin(component._path, type(component).__name__, component._origin, f"{name}=...")
-                with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v), o), origin)
+                with_place(
+                    lambda n=name, v=value, c=component, o=origin: found.add(_input_equation(c, n, v), o), origin
+                )
                 PENDING.get().place(origin)
     _take_defaults(found, defaults)
     first = len(found.sides)
@@ -104,17 +106,17 @@ def collect(
 
 
 def _take_defaults(found: Equations, defaults: list[DeferredInput]) -> None:
-    """Give inputs their defaults where no equation of what contains them has the input alone on one side."""
+    """Add default values of inputs, unless a containing component states the input alone on a side of an equation."""
     alone = _alone(found, slice(0, 2)) if defaults else {}
     for component, name, value, origin in defaults:
         own = getattr(component, name)
         if not any(_is_stated(s, component, alone) for s in scalars(own.sx)):
-            with_place(lambda n=name, v=value, c=component, o=origin: found.add(_given(c, n, v()), o), origin)
+            with_place(lambda n=name, v=value, c=component, o=origin: found.add(_input_equation(c, n, v()), o), origin)
             PENDING.get().place(origin)
 
 
 def _alone(found: Equations, sides: slice) -> dict[int, list[str]]:
-    """Paths of the parts that have a symbol alone on a side of an equation, or in an entry of it; 0 is left, 1 right."""
+    """Return, by symbol, the paths of components that state it alone on a side of an equation; 0 is left, 1 right."""
     alone: dict[int, list[str]] = {}
     for component, rows in found.owned:
         for side in (side for both in found.sides[rows.start : rows.stop] for side in both[sides]):
@@ -125,13 +127,13 @@ def _alone(found: Equations, sides: slice) -> dict[int, list[str]]:
 
 
 def _is_stated(symbol: ca.SX, component: Component, alone: dict[int, list[str]]) -> bool:
-    """Whether a part that contains a component has a symbol of it alone on a side."""
+    """Return whether a component that contains `component` states a symbol of it, alone on a side of an equation."""
     paths = alone.get(symbol.element_hash(), ())
     return any(path == "" or component._path.startswith(f"{path}.") for path in paths)
 
 
-def _given(component: Component, name: str, value: Any) -> Any:
-    """State that an input of a part is what it is given."""
+def _input_equation(component: Component, name: str, value: Any) -> Any:
+    """Return the equation of an input of a part and its value."""
     own = getattr(component, name)
     return equation(own, plain(value, own.unit, f"`{name}`"))
 
@@ -145,9 +147,9 @@ def collect_initial(components: list[Component], most: int, reuse: TemplateReuse
 
 
 def _close(graph: Graph, found: Equations) -> None:
-    """Add the residuals of all cuts; the flows that do work on each are all that one side of its connection sends across.
+    """Add the residuals of all cuts; the flow that works on each is the sum over one side of its connection.
 
-    Of both sides, the one with fewer flows tells.
+    The side with fewer flows is used.
     """
     groups = {id(c): group for group in graph.same for c in group}
     around = _around(graph)
@@ -173,7 +175,7 @@ def _close(graph: Graph, found: Equations) -> None:
 
 
 def _around(graph: Graph) -> list[list[Balance]]:
-    """For each cut the balances of flows that hold both of its ends."""
+    """Return, for each cut, the flow balances that contain both of its ends."""
     of: dict[int, list[Balance]] = {}
     for balance in graph.balances if graph.cuts else ():
         for connector, _ in balance:
@@ -183,7 +185,7 @@ def _around(graph: Graph) -> list[list[Balance]]:
 
 
 def _sent(a: Connector, across: list[tuple[Connector, int]]) -> Connector:
-    """Return a connector with the flows that its side of a connection sends across."""
+    """Return a copy of a connector with the sum of the flows of its side of a connection."""
     sent = copy(a)
     for name, declared in a.fields.items():
         if isinstance(declared, f.Variable) and declared.flow:
@@ -195,9 +197,9 @@ def _sent(a: Connector, across: list[tuple[Connector, int]]) -> Connector:
 def _side(
     end: Connector, beyond: Connector, ways: list[tuple[Connector, Connector]], groups: dict[int, tuple[Connector, ...]]
 ) -> set[int]:
-    """Identities of the connectors on one end's side of a cut, where the other cuts of its connection, `ways`, are closed.
+    """Return the identities of the connectors on one side of a cut.
 
-    The potentials of a group are those of one connector.
+    The other cuts of the connection set, `ways`, count as connected; connectors of a group share their potentials.
     """
     side, other = list(groups[id(end)]), groups[id(beyond)]
     for connector in side:
@@ -208,10 +210,10 @@ def _side(
 
 
 def _balance(balance: Balance, found: Equations, stated: dict[int, list[str]]) -> None:
-    """Let the flows of a set sum to zero, but for those of an unconnected connector that an equation outside states."""
+    """Add the flow balance of a connection set; flows of an unconnected connector may be stated outside instead."""
     first, outside = balance[0]
     if len(balance) == 1 and (outside < 0 or first._owner is None):
-        return  # nothing inside uses this port of a composite, or the component itself does
+        return  # an outside port without inside connection, or a port of the whole model
     text = " + ".join(c._path for c, _ in balance) if len(balance) > 1 else f"{first._path} is not connected"
     for same in zip(*(walk(c) for c, _ in balance), strict=True):
         for name, declared in same[0].fields.items():

@@ -1,4 +1,4 @@
-"""The tree of bound components and the paths in it."""
+"""Traversal of the tree of bound components, and their paths."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def members(component: Component) -> Iterator[Component]:
 
 
 def walk(component: Component) -> Iterator[Component]:
-    """Yield a bound component, its parts and theirs."""
+    """Yield a bound component and, recursively, its parts and ports."""
     yield component
     for member in members(component):
         yield from walk(member)

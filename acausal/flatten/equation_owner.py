@@ -1,4 +1,4 @@
-"""Whose an equation is: the user's model states it, or a part does; and equations that contradict each other."""
+"""Ownership of equations by the user's model or by parts, and messages on contradictions."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from acausal.errors import PACKAGE
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
 
-MOST = 5
+MOST = 5  # equations listed in a message
 
 
 def is_stated_by_user(tree: Component, origin: Origin) -> bool:
-    """Return whether an equation is stated in a file of the model's own classes, where the likely slip is.
+    """Return whether an equation is stated in a file of the model's own classes, where a mistake is most likely.
 
     Parameters
     ----------
     tree : Component
-        The model.
+        Bound model.
     origin : Origin
-        Of the equation.
+        Origin of the equation.
     """
     methods = [value for c in type(tree).__mro__ for value in vars(c).values() if isinstance(value, FunctionType)]
     files = {method.__code__.co_filename for method in methods}
@@ -28,16 +28,16 @@ def is_stated_by_user(tree: Component, origin: Origin) -> bool:
 
 
 def contradiction_text(tree: Component, wrong: list[tuple[Origin, float]], others: Iterable[Origin]) -> str:
-    """Say which equations contradict each other whatever their unknowns are, the user's own first.
+    """Return the message for equations that contradict each other for all values of their unknowns, the user's first.
 
     Parameters
     ----------
     tree : Component
-        The model.
+        Bound model.
     wrong : list of (Origin, float)
-        Equations in which no unknown is left, and by how much their sides differ.
+        Equations without remaining unknowns, and the difference of their sides.
     others : iterable of Origin
-        What gave their unknowns.
+        Equations that eliminated their unknowns.
     """
     own = {origin: f": its sides differ by {value:.6g}" for origin, value in wrong[:MOST]}
     every = own | {origin: "" for origin in others if origin not in own}

@@ -1,4 +1,4 @@
-"""Fields of another kind than equations take them for: discrete variables, and fields in place of inherited ones."""
+"""Hints for unbalanced models: discrete variables in equations, and overridden fields of another kind."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from acausal.symbols import scalars
 
 
 def wrong_kinds(tree: Component, residuals: Iterable[ca.SX]) -> list[str]:
-    """Name discrete variables in some equations, and fields whose kind a class has changed, where a model is unbalanced.
+    """Return hints on discrete variables in some equations, and on fields whose kind a class has changed.
 
     Parameters
     ----------
     tree : Component
-        The model.
+        Bound model.
     residuals : iterable of casadi.SX
         Equations that determine too few unknowns.
     """
@@ -39,7 +39,7 @@ def _discrete(component: Component, inside: set[int]) -> Iterator[str]:
 
 
 def _changed(component: Component) -> Iterator[str]:
-    """Variables that a class replaces by parameters, and the other way round."""
+    """Yield hints on variables that a class overrides by parameters, and vice versa."""
     cls = type(component)
     for name, field in component.fields.items():
         for base in cls.__mro__[1:]:
@@ -53,7 +53,7 @@ def _changed(component: Component) -> Iterator[str]:
 
 
 def _kind(field: f.Field) -> str:
-    """Word for a field that equations hold, "" for others and for inputs, which may become parameters."""
+    """Return the kind of a field in equations; "" for other fields, and for inputs, which may become parameters."""
     if isinstance(field, f.Variable):
         return "variable" if field.causality != "input" else ""
     if isinstance(field, f.Structural):

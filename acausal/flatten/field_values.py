@@ -1,4 +1,4 @@
-"""Values of the fields of a bound component: given by path, constructor or class, or by default."""
+"""Values of the fields of a bound component: by path, constructor, class body or default."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from acausal.symbols import scalars
 from acausal.units import parse
 
 _TIME = time.sx.element_hash()
-# Component, field, what forms its value, and where it is stated.
+# Component, field, function that returns its value, and origin.
 DeferredInput = tuple[Component, str, Callable[[], Any], Origin]
 
 
 @dataclass
 class Parameters:
-    """The free parameters of a model: scalar symbols with their values, and every bound that must hold.
+    """Free parameters of a model, scalar symbols with values, and the limits of all parameters.
 
-    `structural_zeros` are the entries that were exactly 0 and have no symbol; `bound` are the paths of parameters
-    that follow others.
+    `structural_zeros` are the names of entries that are exactly 0 and have no symbol; `bound` are the paths of
+    parameters that depend on others.
     """
 
     names: list[str] = field(default_factory=list)
@@ -48,23 +48,23 @@ class Parameters:
 
 
 class FieldValues:
-    """Gives bound components the values of their structural parameters, parameters and inputs at the top.
+    """Evaluation of structural parameters, parameters and top-level inputs of bound components.
 
-    A value is formed when it is needed: defaults may use each other in any order, but not in a circle.
+    Values are formed on demand: defaults may use each other in any order, but not in a cycle.
 
     Parameters
     ----------
     overrides : mapping of str to value, optional
-        Values by path that replace those of the model; those that were used are taken out.
+        Values by path, instead of those in the model; used ones are removed.
     free : collection of str
-        Parameters, or entries of them, that have a symbol even if they are 0; `kept` says which of them there are.
+        Parameters, or entries of them, that keep a symbol even if they are 0; `kept` collects those that exist.
 
     Attributes
     ----------
     late : list of (Component, str, callable, Origin)
-        Inputs of parts whose values may hold variables: they are formed when these exist.
+        Inputs of parts whose values may contain variables; they are evaluated when these exist.
     defaults : list of (Component, str, callable, Origin)
-        Inputs of parts that have a default, likewise.
+        Inputs of parts with a default, likewise.
     """
 
     def __init__(self, overrides: Mapping[str, Any] | None, free: Collection[str] = ()) -> None:
@@ -76,7 +76,7 @@ class FieldValues:
         self._open: list[tuple[Component, str]] = []
 
     def fill(self, bound: Component, owner: Component | None) -> None:
-        """Set the structural parameters and parameters of a component, and its inputs if it is the whole model."""
+        """Set the structural parameters and parameters of a component, and the inputs of the whole model."""
         own = vars(bound)
         own["_demand"] = lambda name: self._value(bound, name)
         for kind in (f.Structural, f.Parameter):
@@ -119,16 +119,16 @@ class FieldValues:
         return own[name]
 
     def _of_class(self, bound: Component, name: str) -> Any:
-        """Value that a class body gives to an inherited field."""
+        """Return the value of an inherited field from a class body."""
         return self._evaluated(bound, name, bound._class_values[name])
 
     def _evaluated(self, bound: Component, name: str, value: Any) -> Any:
-        """Value of a default, or of what stands in its place."""
+        """Return the evaluated default of a field, or its value from a class body."""
 
         def call() -> Any:
             return f.evaluate(value(bound) if callable(value) else value, bound)
 
-        # An error in a default that another one needs is located by that one.
+        # The outermost default locates an error in a default that it needs.
         return call() if len(self._open) > 1 else with_place(call, value_origin(bound, name, text=f"default of {name}"))
 
     def _specified(self, bound: Component, name: str, declared: f.Field) -> Any:
@@ -181,7 +181,7 @@ class FieldValues:
         return expression
 
     def _top_input(self, bound: Component, name: str, declared: f.Variable) -> None:
-        """An input at the top of the model is a parameter, whatever its value."""
+        """Set an input of the whole model, which is a free parameter whatever its value."""
         shape, unit = shape_of(declared, bound), unit_of(declared, bound)
         where = f"`{name}` of {self._origin(bound, name).owner}"
         given = self.overrides.pop(name, vars(bound)["_values"].pop(name, self._start(bound, name, declared)))
@@ -195,16 +195,16 @@ class FieldValues:
         vars(bound)[name] = self._free(name, np.broadcast_to(value, shape), unit, fold=False)
 
     def _start(self, bound: Component, name: str, declared: f.Variable) -> Any:
-        """Value of an input at the top that is not given."""
+        """Return the default value of an input of the whole model."""
         default = declared.default
         return declared.start if default is f.MISSING else self._evaluated(bound, name, default)
 
     def _origin(self, bound: Component, name: str) -> Origin:
-        """Where the value of a field is written."""
+        """Return the origin of the value of a field."""
         return value_origin(bound, name, by_path=join(bound._path, name) in self.overrides)
 
     def _free(self, path: str, value: np.ndarray, unit: Any, fold: bool = True) -> Expr:
-        """Make a symbol for each entry that is not exactly 0."""
+        """Return a parameter with a symbol for each entry that is not exactly 0."""
         entries = []
         for index in np.ndindex(value.shape):
             name = path + (f"[{','.join(map(str, index))}]" if index else "")
@@ -224,12 +224,12 @@ class FieldValues:
 
 
 def takes_variables(declared: f.Field | None, value: Any) -> bool:
-    """True if the value of a field of a part may hold variables: that of an input, not a start value."""
+    """Return whether the value of a field of a part may contain variables: the value of an input, no start value."""
     return isinstance(declared, f.Variable) and not isinstance(value, f.InitialValue)
 
 
 def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:
-    """Return the shape that a field declares, that of a scalar where it declares none."""
+    """Return the declared shape of a field, by default that of a scalar."""
     shape = declared.shape(owner) if callable(declared.shape) else declared.shape or ()
     sizes = (int, np.integer)
     fits = isinstance(shape, tuple) and all(isinstance(n, sizes) and not isinstance(n, bool) and n >= 0 for n in shape)
@@ -242,7 +242,7 @@ def shape_of(declared: f.Field, owner: Component) -> tuple[int, ...]:
 
 
 def unit_of(declared: f.Field, owner: Component) -> Any:
-    """Return the Dimension, or tuple of them, that a field declares; None where it declares none."""
+    """Return the declared unit of a field, a Dimension or a tuple of them, or None."""
     unit = declared.unit(owner) if callable(declared.unit) else declared.unit
     if unit is None or isinstance(unit, str):
         return None if unit is None else parse(unit)
@@ -250,14 +250,14 @@ def unit_of(declared: f.Field, owner: Component) -> Any:
 
 
 def _zeros_of(bound: Component) -> str:
-    """Name the parameters of a component that are 0."""
+    """Return text with the parameters of a component that are 0."""
     known = [(n, vars(bound).get(n)) for n, d in bound.fields.items() if isinstance(d, f.Parameter)]
     names = [f"`{n}`" for n, value in known if isinstance(value, Expr) and value.sx.is_zero()]
     return f", here {' or '.join(names)}" if names else ""
 
 
 def law_of_input(model: Component, name: str) -> str:
-    """Say how an input of a model that changes with time is given: in a run of the model it is one value."""
+    """Return the remedy for an input that varies in time: an input of the whole model is constant in a run."""
     kind = type(model).__name__
     return f"A law is given where {kind} is a part: `class Whole(Model): part = {kind}({name}=...)`."
 

@@ -1,4 +1,4 @@
-"""What switches and jumps in a model."""
+"""Collection of the discontinuities of a model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from acausal.symbols import vec
 
 
 def discontinuities(raw: CollectedStatements, resolved: Any) -> FlatDiscontinuities:
-    """Return what switches and jumps; `resolved` replaces placeholders of derivatives in a list of expressions."""
+    """Return the discontinuities; `resolved` replaces placeholders of derivatives in a list of expressions."""
     return FlatDiscontinuities(
         tuple(switch for switch, _ in raw.pending.switches),
         guards(raw.pending, raw.discretes, resolved),

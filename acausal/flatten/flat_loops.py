@@ -1,4 +1,4 @@
-"""What became of the equations that close loops."""
+"""Closed loops of a flat model, and their redundant equations."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ def loops_of(
     substitutes: dict[int, int],
     rates: set[int],
 ) -> FlatLoops:
-    """Return the loops of a model and the residuals that close them.
+    """Return the loops of a model and their closures.
 
     Parameters
     ----------
     raw : CollectedStatements
-        What the components stated.
+        Statements of the components.
     redundant : set of int
         Redundant residuals.
     values : list of Linear
-        What each unknown is.
+        Value of each unknown.
     rows : list of int
         Residuals that remain.
     residuals : casadi.SX
         All residuals in remaining unknowns.
     substitutes : dict of int to int
-        Residual that closes a loop -> row of the flow that works on it.
+        Residual of a closure -> row of the flow that works on it.
     rates : set of int
-        Hashes of the unknowns without a derivative, or whose derivative an equation states. A constraint of a part that holds
-        one does not constrain by itself.
+        Hashes of the unknowns without a derivative, or whose derivative an equation states; an equation of a part that
+        contains one is no constraint.
     """
     place = {r: n for n, r in enumerate(rows)}
     entries = scalars(residuals)
@@ -85,5 +85,5 @@ def _loop(
 
 
 def _moves(part: Any) -> bool:
-    """Whether a component has variables that it offers as states."""
+    """Return whether a component has variables that are preferred as states."""
     return any(isinstance(d, f.Variable) and d.select > 0 for d in part.fields.values())

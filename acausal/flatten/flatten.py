@@ -1,4 +1,4 @@
-"""flatten(): from a model to its FlatModel."""
+"""Flattening of a model to its FlatModel."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from acausal.symbols import scalars
 
 
 def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: Collection[str] = ()) -> FlatModel:
-    """Flatten a model: instantiate, connect, collect the equations, propagate constants and aliases.
+    """Return the flat model: instantiate, connect, collect the equations, propagate constants and aliases.
 
     Parameters
     ----------
     model : Component
         The model as constructed.
     overrides : mapping of str to value, optional
-        Parameters and structural parameters by path that replace those of the model.
+        Values of parameters and structural parameters by path, instead of those in the model.
     free : collection of str
-        Parameters that stay in the equations even if they are 0.
+        Parameters that keep a symbol even if they are 0.
 
     Returns
     -------
@@ -37,7 +37,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     Raises
     ------
     DeclarationError, ConnectError, UnitsError
-        Where the model is wrong, with component and line.
+        For errors in the model, with component and line.
     """
     raw = collect_statements(model, overrides, free)
     refuse_opaque_expressions(raw)
@@ -60,7 +60,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
 
 
 def _declared(raw: CollectedStatements) -> dict[int, ca.SX]:
-    """Index of each variable with a declared derivative -> that derivative."""
+    """Return the declared derivatives by the positions of their variables."""
     return {
         raw.index[s.element_hash()]: e
         for variable, derivative in (*raw.declared, *raw.declared_by_parts)
@@ -69,7 +69,7 @@ def _declared(raw: CollectedStatements) -> dict[int, ca.SX]:
 
 
 def _integrated(raw: CollectedStatements, declared: dict[int, ca.SX]) -> list[int]:
-    """Declared variables of chosen roots that no root equation defines."""
+    """Return the variables of chosen roots with a declared derivative that no root equation defines."""
     if not raw.graph.roots:
         return []
     found: set[int] = set()
@@ -81,6 +81,6 @@ def _integrated(raw: CollectedStatements, declared: dict[int, ca.SX]) -> list[in
 
 
 def _bare(raw: CollectedStatements, side: ca.SX) -> list[int]:
-    """Indices of the variables if a side of an equation is nothing but variables."""
+    """Return the positions of the variables on a side of an equation, [] if it contains other expressions."""
     indices = [raw.index.get(s.element_hash(), -1) for s in scalars(side)]
     return indices if -1 not in indices else []

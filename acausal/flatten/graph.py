@@ -1,4 +1,4 @@
-"""Graph of connections: which potentials are one variable, which flows balance, where records are cut and rooted."""
+"""Connection graph: connection sets, flow balances, spanning tree, cuts and roots."""
 
 from __future__ import annotations
 
@@ -16,26 +16,28 @@ from acausal.language.signal import CONNECTING, Wire
 from acausal.language.source_code import calls
 from acausal.language.statement_kinds import misplaced, returned
 
-# The connectors of a connection set; the sign is -1 for one on the outside of its component.
+# The connectors of a connection set with their signs, -1 for an outside connector.
 Balance = tuple[tuple[Connector, int], ...]
 
 
 @dataclass(frozen=True)
 class Graph:
-    """What the connections of a model say.
+    """Evaluated connections of a model.
 
     Parameters
     ----------
     same : list of tuple of Connector
-        Connectors whose potentials are one variable.
+        Connectors with common potentials.
     balances : list of tuple of (Connector, int)
         Connection sets: the signed flows of each sum to zero.
     cuts : list of Cut
         Connections that close a loop and keep the residual of an over-determined record.
     roots : list of Connector
-        Potential roots that were chosen.
+        Chosen potential roots.
     unconnected : tuple of str
-        Ports of parts that nothing is connected to.
+        Unconnected ports of parts.
+    wires : list of (Component, Wire, str)
+        Signal connections with their component and line.
     """
 
     same: list[tuple[Connector, ...]]
@@ -47,7 +49,7 @@ class Graph:
 
 
 def build_graph(components: list[Component]) -> Graph:
-    """Collect the statements of all connections() and derive sets, spanning tree, cuts and roots."""
+    """Collect the statements of all connections(); return connection sets, cuts and roots."""
     connects: list[tuple[Component, Connect, str]] = []
     branches: list[Branch] = []
     roots: list[Root] = []
@@ -91,7 +93,7 @@ def build_graph(components: list[Component]) -> Graph:
 
 
 def _connecting(component: Component) -> list[tuple[Any, Origin]]:
-    """Return the statements of a component; meanwhile its inputs and outputs, and those of its parts, are signals."""
+    """Return the statements of a component; while they are formed, inputs and outputs are signals."""
     token = CONNECTING.set(True)
     try:
         return list(_statements(component))
@@ -100,21 +102,21 @@ def _connecting(component: Component) -> list[tuple[Any, Origin]]:
 
 
 def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
-    """Yield each statement with its place."""
+    """Return the statements with their origins."""
     if type(component).connections is Component.connections:
         return iter(())
     here = method_origin(component, "connections")
-    said = with_place(component.connections, here)
-    if said is None:
-        raise ConnectError(f"{here}: {returned(said, 'connections')}")
-    return entries(said if isinstance(said, _SEVERAL) else (said,), here, "connections", nested=_SEVERAL)
+    found = with_place(component.connections, here)
+    if found is None:
+        raise ConnectError(f"{here}: {returned(found, 'connections')}")
+    return entries(found if isinstance(found, _SEVERAL) else (found,), here, "connections", nested=_SEVERAL)
 
 
-_SEVERAL = (Iterator, list, tuple)  # not all that Python can go through: an entry of a string is a string
+_SEVERAL = (Iterator, list, tuple)  # no other iterables: iterating over a string gives strings again
 
 
 def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
-    """Refuse ports of another built model."""
+    """Raise ConnectError for a port of another built model."""
     for port in (statement.connector,) if isinstance(statement, Root) else (statement.a, statement.b):
         if id(port) not in own:
             raise ConnectError(
@@ -124,7 +126,7 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
 
 
 def _refuse_elsewhere(components: list[Component]) -> None:
-    """Where something is not connected: refuse connections that are stated in equations()."""
+    """Raise ConnectError for connections in equations(), the likely reason for an unconnected part."""
     for component in components:
         word = calls(type(component).equations, "connect", "chain")
         if word:
@@ -148,7 +150,7 @@ def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
 
 
 def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
-    """Sets of members that pairs join (Galler & Fischer 1964)."""
+    """Return the sets of members joined by pairs (union-find, Galler & Fischer 1964)."""
     above = {member: member for member in (*members, *chain.from_iterable(pairs))}
 
     def top(member: Any) -> Any:
@@ -167,9 +169,9 @@ def _sets(members: list[Any], pairs: list[tuple[Any, Any]]) -> list[set[Any]]:
 def _balances(
     connectors: list[Connector], connects: list[tuple[Component, Connect, str]], order: dict[int, int]
 ) -> list[Balance]:
-    """Flow balance of every connection set; an outside connector counts negatively, an unconnected one is a set alone.
+    """Return the flow balance of every connection set (Modelica specification, 9.2).
 
-    Modelica specification, 9.2.
+    Outside connectors have negative signs; an unconnected connector is a set of its own.
     """
     joined = [((s.a, s.a._owner is component), (s.b, s.b._owner is component)) for component, s, _ in connects]
     faces = _sets([(c, False) for c in connectors], joined)

@@ -1,4 +1,4 @@
-"""Instantiate: from templates to a tree of bound components with values, parameters, parts and ports."""
+"""Instantiation of templates: a tree of bound components with values, parameters, parts and ports."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from acausal.language.source_code import refuse_dropped, returns_nothing
 from acausal.language.value_checks import refuse_constructor, shown
 from acausal.nearest import missing
 
-DEEPEST = 100  # parts inside parts; deeper, a component contains itself
+DEEPEST = 100  # nesting depth of parts: deeper means that a component contains itself
 
 
 class Instantiation:
-    """The tree of bound components of one model.
+    """Tree of bound components of a model.
 
     Parameters
     ----------
     template : Component
-        The model as the user constructed it.
+        Model from the user.
     overrides : mapping of str to value
-        Values by path that replace those of the model.
+        Values by path, instead of those in the model.
     free : collection of str
-        Parameters that stay in the equations even if they are 0.
+        Parameters that keep a symbol even if they are 0.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class Instantiation:
             raise DeclarationError(not_settable(name, self.root, self.settable()))
 
     def settable(self) -> list[str]:
-        """Paths of all structural parameters and parameters."""
+        """Return the paths of all structural parameters and parameters."""
         return [
             join(component._path, name)
             for component in self.components
@@ -65,14 +65,14 @@ class Instantiation:
         ]
 
     def give_inputs(self, connected: list[DeferredInput]) -> None:
-        """Give the inputs of parts their values, now that the variables exist which these may hold."""
+        """Set the inputs of parts; the variables that their values may contain must exist."""
         for bound, name, value, origin in (*self._field_values.late, *connected):
             vars(bound)["_values"][name] = with_place(value, origin)
             PENDING.get().place(origin)
 
     @property
     def defaults(self) -> list[DeferredInput]:
-        """Inputs of parts with a default that are not given; an equation of what contains the part may give them."""
+        """Inputs of parts that may need their default: an equation of a containing component may state them instead."""
         return [entry for entry in self._field_values.defaults if entry[1] not in entry[0]._values]
 
     def _build(self, template: Component, path: str, owner: Component | None) -> Component:
@@ -88,7 +88,7 @@ class Instantiation:
             self._refuse_nest(here)
         bound = cls.__new__(cls)
         own = vars(bound)
-        own.update(vars(template))  # what a constructor of the user's own has set
+        own.update(vars(template))  # attributes set by a constructor of the user
         own.update(_is_bound=True, _path=path, _origin=template._origin)
         own["_values"] = values = dict(template._values)
         for name, value in template._values.items():
@@ -108,7 +108,7 @@ class Instantiation:
         return bound
 
     def _refuse_nest(self, here: Origin) -> None:
-        """Name the classes on the way to a part that is too deep."""
+        """Raise DeclarationError for a part that is too deep, with the classes on its path."""
         kinds = {c._path: type(c).__name__ for c in self.components}
         names = here.path.split(".")
         way = [kinds.get(".".join(names[:k]), "") for k in range(len(names))]
@@ -143,7 +143,7 @@ class Instantiation:
             vars(bound)[port] = self._member(bound, template, join(bound._path, port))
 
     def _made(self, bound: Component, declared: f.Part, place: Origin) -> Any:
-        """Template, list of templates or None that the class provides."""
+        """Return the template, list of templates or None from the class."""
         make: Any = declared.make
         if make is None or isinstance(make, Component | list):
             return make
@@ -188,7 +188,7 @@ class Instantiation:
 
 
 def _check(component: Component) -> None:
-    """Check a component; what it refuses itself is wrong where it is constructed."""
+    """Check a component; errors raised by its own check() get the line of its construction."""
     try:
         component.check()
     except AcausalError as error:
@@ -198,18 +198,18 @@ def _check(component: Component) -> None:
 
 
 def _refuse_lost(declared: f.Part, place: Origin) -> None:
-    """Refuse a method marked @part that makes something and returns nothing: None alone leaves the part out."""
+    """Raise DeclarationError for a method marked @part without `return`; only an explicit None leaves the part out."""
     if returns_nothing(declared.make):
         raise DeclarationError(f"{place}: this method returns nothing; write `return` before the part.")
 
 
 def unknown_name(name: str, known: list[str], kind: str = "") -> str:
-    """Return the message for a name that does not exist, with the nearest that do."""
+    """Return the message for an unknown name, with similar ones."""
     return f"there is no `{name}` in the model{missing(name, known, kind)}"
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:
-    """Return the message for a name that is not a parameter."""
+    """Return the message for a name that is no parameter."""
     for component in walk(root):
         for own, declared in component.fields.items():
             if isinstance(declared, f.Variable) and name == join(component._path, own):

@@ -1,8 +1,8 @@
-"""Linear values of a symbolic expression, kept up to date while unknowns turn out to be constants or aliases.
+"""Linear values of expressions, updated while unknowns are replaced by constants and aliases.
 
-The expression is read once as a list of elementary operations. Each operation carries a value: c0 + c1 x of one
-unknown, a sum of two such terms, or None where it is anything else. CasADi folds constants when an expression is built,
-but not when an unknown in it becomes known later; a worklist over these operations does, in linear time.
+An expression is read once as a list of elementary operations. The value of each operation is c0 + c1 x + c2 y with at
+most two unknowns, or None for other expressions. CasADi folds constants when an expression is built, but not when an
+unknown becomes known later; a worklist over these operations does so in linear time.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ _SCALE = {ca.OP_NEG: -1.0, ca.OP_TWICE: 2.0, ca.OP_ASSIGN: 1.0}
 
 
 class LinearValues:
-    """Operations of `residuals` with the linear value of each in terms of the unknowns.
+    """Operations of residuals, each with its linear value in the unknowns.
 
     Parameters
     ----------
     unknowns, others, residuals : casadi.SX
-        Columns; `others` are parameters, time and everything else that is not solved for.
+        Columns; `others` are parameters, time and all other symbols that are no unknowns.
     """
 
     def __init__(self, unknowns: ca.SX, others: ca.SX, residuals: ca.SX) -> None:
         read = read_instructions(ca.Function("residuals", [unknowns, others], [residuals], READABLE))
         self.args, self.constant, self.residual = read.arguments, read.constant, read.results[0]
-        # Of the two arguments, only the elements of the first are unknown.
+        # The first of the two arguments contains the unknowns.
         self.unknown = {node: element for node, (argument, element) in read.place.items() if argument == 0}
         self.op = [
             ca.OP_PARAMETER if op == ca.OP_INPUT and k not in self.unknown else op for k, op in enumerate(read.op)
@@ -86,7 +86,7 @@ class LinearValues:
         return (_UNARY[op](a[0]), ()) if op in _UNARY else None
 
     def resolve(self, value: Linear) -> Linear:
-        """Replace solved unknowns, following chains of aliases to their end."""
+        """Return a value with solved unknowns replaced, along chains of aliases."""
         c0, terms = value
         for unknown, _ in terms:
             if unknown in self.solved:
@@ -104,7 +104,7 @@ class LinearValues:
         return result
 
     def solve(self, unknown: int, solution: Linear) -> None:
-        """Record what an unknown is, and redirect the aliases that led to it."""
+        """Record the value of an unknown, and redirect its aliases."""
         self.solved[unknown] = solution
         led_here = [unknown, *self.followers.pop(unknown, [])]
         self._stale.extend(self.input[u] for u in led_here if u in self.input)
@@ -112,7 +112,7 @@ class LinearValues:
             self.followers.setdefault(other, []).extend(led_here)
 
     def update(self) -> list[int]:
-        """Evaluate everything that depends on newly solved unknowns; return the residuals whose value changed."""
+        """Evaluate all operations that depend on newly solved unknowns; return the residuals whose value changed."""
         queue = sorted(set(self._stale))
         self._stale = []
         queued = set(queue)
@@ -133,7 +133,7 @@ class LinearValues:
 
 
 def scale(value: Linear, factor: float) -> Linear:
-    """Multiply a linear value by a number."""
+    """Return a linear value times a number."""
     if factor == 1:
         return value
     if factor == 0:
@@ -170,10 +170,10 @@ def _product(a: Linear | None, b: Linear | None, divide: bool) -> Linear | None:
 
 
 def expressions(values: list[Linear], unknowns: ca.SX) -> ca.SX:
-    """Return linear values in terms of the unknowns, a column."""
+    """Return linear values as expressions of the unknowns, a column."""
     if not values:
         return ca.SX(0, 1)
-    # CasADi drops the terms that are added here with coefficient 0.
+    # Missing terms are padded with coefficient 0, which CasADi drops.
     padded = [(*terms, (0, 0.0), (0, 0.0))[:2] for _, terms in values]
     first, second = (
         combined(unknowns[[terms[n][0] for terms in padded]], "*", ca.SX(ca.DM([terms[n][1] for terms in padded])))

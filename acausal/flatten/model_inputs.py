@@ -1,4 +1,4 @@
-"""Inputs of the whole model: parameters whose variation with time, and so whose derivative, is unknown."""
+"""Inputs of the whole model: parameters with unknown variation in time, and so without derivatives."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ REMEDY = (
 
 
 def inputs_of(tree: Component) -> dict[int, str]:
-    """Hash of every symbol of an input at the top of the model -> the input's name."""
+    """Return the names of the inputs of the whole model by the hashes of their symbols."""
     names = [n for n, d in tree.fields.items() if isinstance(d, f.Variable) and d.causality == "input"]
     return {s.element_hash(): name for name in names for s in _symbols(getattr(tree, name).sx)}
 
 
 def refuse_rates_of_inputs(raw: CollectedStatements) -> None:
-    """Raise DeclarationError if a component asks for the derivative of an expression that holds an input."""
+    """Raise DeclarationError if der() is applied to an expression that contains an input of the whole model."""
     inputs = inputs_of(raw.build.root)
     if not inputs or not raw.pending.derivatives:
         return

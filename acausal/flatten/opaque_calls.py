@@ -1,6 +1,4 @@
-"""Refuse what only CasADi knows: calls that cannot be written out, as the passes that follow see elementary operations
-only, and symbols that were not declared.
-"""
+"""Checks of expressions: no opaque CasADi calls, which later passes cannot read, and no undeclared symbols."""
 
 from __future__ import annotations
 
@@ -21,7 +19,7 @@ Found = Callable[[ca.SX], bool]
 
 
 def refuse_opaque_expressions(raw: CollectedStatements) -> None:
-    """Raise DeclarationError if an expression of the model calls an external function or holds an undeclared symbol."""
+    """Raise DeclarationError if an expression of the model contains an opaque call or an undeclared symbol."""
     stated = [*zip(raw.equations.residuals, raw.equations.origins, strict=True)]
     stated += zip(raw.initial.residuals, raw.initial.origins, strict=True)
     stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
@@ -72,16 +70,16 @@ def _refuse_varying(raw: CollectedStatements) -> None:
 
 
 def refuse_undeclared(expression: ca.SX, known: Iterable[ca.SX], place: str = "") -> None:
-    """Raise DeclarationError if an expression holds a symbol that is not among the known ones.
+    """Raise DeclarationError if an expression contains an unknown symbol.
 
     Parameters
     ----------
     expression : casadi.SX
-        Stated by the user.
+        Expression of the user.
     known : iterable of casadi.SX
-        Columns of symbols.
+        Columns of known symbols.
     place : str
-        Where it is stated.
+        Place of the expression, for the message.
     """
     hashes = {s.element_hash() for s in scalars(_column(known))}
     for symbol in ca.symvar(expression):
@@ -99,14 +97,14 @@ def _undeclared(symbol: ca.SX) -> str:
 
 
 def _requested(raw: CollectedStatements) -> list[ca.SX]:
-    """Symbols that a model may use beside its variables and parameters."""
+    """Return the symbols that expressions may contain besides variables and parameters."""
     pending = raw.pending
     columns = [d.expr.sx for d in raw.discretes] + [time.sx, initial.sx, feedback.sx]
     return columns + [symbol for symbol, _ in (*pending.switches, *pending.derivatives)]
 
 
 def _place(raw: CollectedStatements, stated: list[tuple[ca.SX, Origin]], others: list[ca.SX], found: Found) -> str:
-    """Where something is stated, or where the derivative or the energy is used that holds it."""
+    """Return the place of a faulty expression, or of the equation or energy that uses it."""
     for sx, origin in stated:
         if found(sx):
             return f"{origin}: "
@@ -123,5 +121,5 @@ def _column(entries: Iterable[ca.SX]) -> ca.SX:
 
 
 def _calls(expression: ca.SX) -> bool:
-    """Whether an expression calls functions instead of holding what they do."""
+    """Return whether an expression contains opaque calls."""
     return bool(ca.Function("one", [], [expression], {"allow_free": True}).get_function())

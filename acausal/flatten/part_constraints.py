@@ -1,9 +1,9 @@
-"""Constraints that parts state, and the flows that work on them.
+"""Constraints stated by parts, and the flows that work on them.
 
-A component that states an equation in its over-determined potentials alone leaves one of its unknowns to the rest of the
-model: the reaction. Such an equation enters the mechanism of those that close loops: where it follows from others, its
-reaction is undetermined. For c = C v in the velocities v of the ports, reactions that do no work on what the constraints
-allow are flows f = C' m; C f tells them, whatever the component calls them.
+A component with an equation in its over-determined potentials alone leaves one of its unknowns, the reaction, to the
+rest of the model. Such a constraint is treated as one that closes a loop: if it is redundant, its reaction is
+undetermined. For c = C v in the velocities v of the ports, reactions that do no work on admissible motions are flows
+f = C' m; C f measures them, whatever variables the component uses.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ from acausal.symbols import dense, scalars, stacked, vec
 def add_constraints(
     equations: Equations, index: Mapping[int, int], variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]
 ) -> None:
-    """Append the constraints of parts to the closures.
+    """Append the constraints stated by parts to the closures.
 
     Parameters
     ----------
     equations : Equations
-        Those of the whole model; `closures` is extended.
+        Equations of the whole model; `closures` is extended.
     index : mapping of int to int
-        Hash of each variable -> its place.
+        Hash of each variable -> its position.
     variables : casadi.SX
         All variables, a column.
     derivatives : sequence of (casadi.SX, casadi.SX)
-        Placeholders of derivatives, and what is differentiated.
+        Placeholders of derivatives, and the differentiated expressions.
     """
-    owners = [(c, statements) for c, statements in equations.owned if any(map(_is_given, c._ports))]
+    owners = [(c, statements) for c, statements in equations.owned if any(map(_is_prescribed, c._ports))]
     if not owners:
         return
     column, first = stacked(equations.residuals), [0]
@@ -49,7 +49,7 @@ def add_constraints(
     for component, statements in owners:
         rows = range(first[statements.start], first[statements.stop])
         own, given = _unknowns(component, index)
-        stated, reactions = _left_over({row: columns[row] for row in rows}, own, given)
+        stated, reactions = _constraints_and_reactions({row: columns[row] for row in rows}, own, given)
         duals = _working([residuals[row] for row in stated], component, [variables[k] for k in reactions])
         for row, dual in zip(stated, duals, strict=True):
             if not dual.is_zero():
@@ -59,7 +59,8 @@ def add_constraints(
 def rates(
     free: ca.SX, declared: Sequence[tuple[Any, Any]], index: Mapping[int, int], followed: Collection[int]
 ) -> set[int]:
-    """Hashes of the unknowns without a derivative, or whose derivative an equation of a root states in others that have one.
+    """Return the hashes of unknowns without derivative, or with a derivative declared by a root in differentiated
+    unknowns.
 
     Parameters
     ----------
@@ -68,9 +69,9 @@ def rates(
     declared : sequence of (Expr, Expr)
         Variables with their declared derivatives.
     index : mapping of int to int
-        Hash of each variable -> its place.
+        Hash of each variable -> its position.
     followed : collection of int
-        Places of those whose declared derivative is used to differentiate, and not integrated.
+        Positions of variables whose declared derivative is used to differentiate, and not integrated.
     """
     found = {s.element_hash() for s in scalars(free)}
     pairs = [(s, e) for v, d in declared for s, e in zip(scalars(v.sx), scalars(d.sx), strict=True)]
@@ -82,8 +83,8 @@ def rates(
     return found
 
 
-def _is_given(port: Any) -> bool:
-    """True if the rest of the model gives the over-determined record of a port."""
+def _is_prescribed(port: Any) -> bool:
+    """Return whether the rest of the model determines the over-determined record of a port."""
     return _has_record(port) and not port._is_root and not any(p._owner is port._owner for p in port._parents)
 
 
@@ -92,13 +93,13 @@ def _has_record(port: Any) -> bool:
 
 
 def _unknowns(component: Component, index: Mapping[int, int]) -> tuple[list[int], set[int]]:
-    """Places of the variables that a component determines, its own ones last, and of the potentials that it is given."""
+    """Return the positions of the variables that a component determines, and of the prescribed potentials."""
     own, given = dict[int, None](), dict[int, None]()
     for port in component._ports:
         for member in walk(port):
             for name, declared in member.fields.items():
                 if isinstance(declared, f.Variable):
-                    of = given if _is_given(port) else own if _has_record(port) else dict[int, None]()
+                    of = given if _is_prescribed(port) else own if _has_record(port) else dict[int, None]()
                     (own if declared.flow else of).update(dict.fromkeys(_places(vars(member).get(name), index)))
     for name, declared in component.fields.items():
         if isinstance(declared, f.Variable) and declared.causality not in ("input", "discrete"):
@@ -107,13 +108,13 @@ def _unknowns(component: Component, index: Mapping[int, int]) -> tuple[list[int]
 
 
 def _places(value: Any, index: Mapping[int, int]) -> Iterator[int]:
-    """Places of the entries of a variable."""
+    """Yield the positions of the entries of a variable."""
     found = (index.get(s.element_hash()) for s in scalars(value.sx)) if value is not None else ()
     return (k for k in found if k is not None)
 
 
 def _columns(residuals: ca.SX, variables: ca.SX, derivatives: Sequence[tuple[ca.SX, ca.SX]]) -> list[set[int]]:
-    """Variables in each residual, those of which it holds derivatives included."""
+    """Return the variables in each residual, including those that it contains in derivatives."""
     n, inside = variables.numel(), list[set[int]]()
     if derivatives:
         inside = _incidence(stacked([vec(dense(e)) for _, e in derivatives]), variables)
@@ -129,10 +130,12 @@ def _incidence(column: ca.SX, symbols: ca.SX) -> list[set[int]]:
     return rows
 
 
-def _left_over(rows: Mapping[int, set[int]], own: list[int], given: set[int]) -> tuple[list[int], list[int]]:
-    """Equations of a component that determine none of its unknowns, and as many unknowns that none of the others determines.
+def _constraints_and_reactions(
+    rows: Mapping[int, set[int]], own: list[int], given: set[int]
+) -> tuple[list[int], list[int]]:
+    """Return the equations of a component that determine none of its unknowns, and as many undetermined unknowns.
 
-    Equations without given potentials determine first, so that those that are left constrain these; of the unknowns, the first.
+    Equations without prescribed potentials are matched first, so that the remaining ones constrain these potentials.
     """
     order = sorted(rows, key=lambda row: not given.isdisjoint(rows[row]))
     used = _matched(order, {row: rows[row].intersection(own) for row in order})
@@ -144,7 +147,7 @@ def _left_over(rows: Mapping[int, set[int]], own: list[int], given: set[int]) ->
 
 
 def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[int]:
-    """Members of one side of a bipartite graph, the first ones first, that can be matched together (Kuhn 1955)."""
+    """Return the members of one side of a bipartite graph that can be matched, in order of priority (Kuhn 1955)."""
     of: dict[int, int] = {}
 
     def augment(member: int, seen: set[int]) -> bool:
@@ -160,14 +163,14 @@ def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[in
 
 
 def _working(constraints: list[ca.SX], component: Component, reactions: list[ca.SX]) -> list[ca.SX]:
-    """Return the flow that works on each constraint; of one of positions, on its time derivative.
+    """Return the flow that works on each constraint; for a constraint of positions, on its time derivative.
 
-    Where constraints of one component follow from one another, flows of its ports do not tell how much of them is whose: there
-    its reactions do, in the order of the constraints.
+    For dependent constraints of one component, the flows of its ports do not determine the share of each; there the
+    reactions are used, in the order of the constraints.
     """
     if not constraints:
         return []
-    ports = [port for port in component._ports if _is_given(port)]
+    ports = [port for port in component._ports if _is_prescribed(port)]
     declared = [pair for port in ports for pair in port.declared_derivatives()]
     pairs = [pair for port in ports for pair in port.power()]
     rates, flows = (stacked([vec(as_expr(pair[k]).sx) for pair in pairs]) for k in (0, 1))
@@ -180,7 +183,7 @@ def _working(constraints: list[ca.SX], component: Component, reactions: list[ca.
 
 
 def _rank(J: ca.SX) -> int:
-    """Rank of a matrix where its symbols have random values."""
+    """Return the generic rank of a matrix, at random values of its symbols."""
     symbols = stacked(ca.symvar(J))
     values = np.random.default_rng(0).uniform(0.5, 1.5, symbols.numel())
     found = np.array(ca.Function("J", [symbols], [ca.densify(J)])(values))

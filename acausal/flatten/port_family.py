@@ -1,4 +1,4 @@
-"""Ports whose names are structural: in an instance they stand among its fields in place of their family."""
+"""Port families: ports with structural names, which replace their family among the fields of an instance."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from acausal.language.value_checks import shown
 
 
 def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> dict[str, Connector]:
-    """Give a component the ports of a family as fields of its own; return what they are made from.
+    """Add the ports of a family to the fields of a component; return their templates.
 
     Parameters
     ----------
     bound : Component
-        Under construction.
+        Component under construction.
     name : str
-        The family.
+        Name of the family.
     declared : Family
-        How it is declared.
+        Declaration of the family.
     made : dict of str to Connector
-        What its method returns.
+        Result of its method.
 
     Raises
     ------
     DeclarationError
-        If this is not a dict of connectors, or a name cannot be that of a port.
+        If this is no dict of connectors, or a name is invalid for a port.
     """
     place = Origin(bound._path, type(bound).__name__, declared.where, name)
     if not isinstance(made, Mapping):
@@ -40,7 +40,7 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
         )
     for port, template in made.items():
         if wrong := _wrong_name(bound, port):
-            # Names come from the values that the component was given.
+            # Names depend on constructor arguments, so the line of the construction is shown.
             raise DeclarationError(f"{Origin.of(bound)}: {wrong}")
         if not isinstance(template, Connector) or template._is_bound:
             raise DeclarationError(f"{place}: `{port}` must be a port, such as Frame(), not {no_part(template)}.")
@@ -56,7 +56,7 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
 
 
 def _wrong_name(bound: Component, port: Any) -> str:
-    """Say why a port cannot have a name, "" if it can."""
+    """Return the message for an invalid name of a port, "" for a valid one."""
     if not isinstance(port, str):
         return f"a port is named by a text, not by {shown(port)}."
     if not port.isidentifier() or keyword.iskeyword(port) or port.startswith("_"):
@@ -72,7 +72,7 @@ def _wrong_name(bound: Component, port: Any) -> str:
 
 
 def no_part(value: Any) -> str:
-    """Write what stands in place of a part."""
+    """Return the words for a value that is no part."""
     if isinstance(value, type):
         return f"the class {value.__name__}: it is made by {value.__name__}(...)"
     if isinstance(value, Component) and value._is_bound:

@@ -1,4 +1,4 @@
-"""Errors of Python, numpy and CasADi in the methods of a component, in the user's words."""
+"""Messages for errors of Python, numpy and CasADi in methods of components."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ RAW = (
 
 
 def in_words(error: Exception) -> str:
-    """Return what is wrong, and where it can be said, the remedy.
+    """Return the message for an error, with the remedy where it is known.
 
     Parameters
     ----------
     error : Exception
-        Raised by Python, numpy or CasADi in a method of the user's.
+        Raised by Python, numpy or CasADi in a method of the user.
     """
     if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
         return _unknown(error.obj, error.name or "")
@@ -69,14 +69,14 @@ def in_words(error: Exception) -> str:
     for pattern, remedy in RAW:
         if re.search(pattern, str(error)):
             return remedy
-    foreign = re.search(r"arguments for overloaded function '(\w+)'", str(error))
-    if foreign:
-        return _of_casadi(foreign[1], error)
+    overloaded = re.search(r"arguments for overloaded function '(\w+)'", str(error))
+    if overloaded:
+        return _of_casadi(overloaded[1], error)
     return f"{type(error).__name__}: {(str(error).splitlines() or [''])[0]}"
 
 
 def _unknown(owner: Component, name: str) -> str:
-    """Tell of a name that a component does not have."""
+    """Return the message for an unknown member of a component."""
     what = f"{type(owner).__name__} has no `{name}`"
     names = [known for known in (*owner.fields, *dir(owner)) if not known.startswith("_")]
     if near := likeliest(name, names):
@@ -89,7 +89,7 @@ def _unknown(owner: Component, name: str) -> str:
 
 
 def _too_early(error: AttributeError) -> str:
-    """Tell of a variable that is read in connections(): most likely in an equation."""
+    """Return the message for a variable that is read in connections(), most likely in an equation."""
     ours = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith(PACKAGE)]
     if ours and ours[-1].name == "connections" and re.search(r"yield\b.*==", ours[-1].line or ""):
         return "connections() yields an equation, which belongs to equations(): write it there."
@@ -97,7 +97,7 @@ def _too_early(error: AttributeError) -> str:
 
 
 def _of_casadi(name: str, error: Exception) -> str:
-    """Return the remedy for a function of CasADi that was called with expressions of this package."""
+    """Return the message for a CasADi function that was called with expressions of this package."""
     plain = name.strip("_")
     if plain in FUNCTIONS:
         return f"`{plain}` is CasADi's; use acausal's: from acausal import {plain}."
@@ -116,13 +116,13 @@ def _of_casadi(name: str, error: Exception) -> str:
 
 
 def _not_implemented(error: NotImplementedError) -> str:
-    """Name the method that a class leaves to those derived from it."""
+    """Return the message for an abstract method that a class does not define."""
     frames = list(traceback.walk_tb(error.__traceback__))
     frame = frames[-1][0]
     owner = frame.f_locals.get("self")
     name = frame.f_code.co_name
     if not isinstance(owner, Component):
         return f"`{name}` is not written yet."
-    if len(error.args) == 2:  # what it does, and how it is written
+    if len(error.args) == 2:  # purpose of the method, and code of its body
         return f"{type(owner).__name__} needs a method that {error.args[0]}: def {name}(self): {error.args[1]}"
     return f"{type(owner).__name__} lacks the method `{name}`: def {name}(self): ..."

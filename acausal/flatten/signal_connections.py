@@ -1,4 +1,4 @@
-"""Connections of signals: each gives an input its value, or an output of the component that states it."""
+"""Signal connections: values of inputs of parts, and of outputs of the connecting component."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from acausal.language.expression import Expr
 from acausal.language.signal import Signal, Wire
 
 
-def given_by_connections(
+def connected_values(
     wires: Iterable[tuple[Component, Wire, str]],
 ) -> list[DeferredInput]:
-    """Return component, field, value and place of all that connections give.
+    """Return component, field, value and origin for each signal connection.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def given_by_connections(
 
 
 def _directed(component: Component, wire: Wire, origin: Origin) -> tuple[Signal, Any]:
-    """Return what takes a value, and what gives it."""
+    """Return the target and the source of a signal connection."""
     takes = [_takes(component, end) for end in (wire.a, wire.b)]
     if sum(takes) != 1:
         which = "take a value" if all(takes) else "give a value"
@@ -56,7 +56,7 @@ def _directed(component: Component, wire: Wire, origin: Origin) -> tuple[Signal,
 
 
 def _takes(component: Component, end: Signal | Expr) -> bool:
-    """True for inputs of parts, and for outputs of the component itself."""
+    """Return whether a signal takes a value: an input of a part, or an output of the component itself."""
     return isinstance(end, Signal) and (end.causality == "input") != (end.owner is component)
 
 
