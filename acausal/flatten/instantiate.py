@@ -132,7 +132,9 @@ class Instantiation:
         if isinstance(made, list | tuple):
             return [self._member(bound, item, f"{path}[{k}]") for k, item in enumerate(made)]
         if declared.many:
-            raise DeclarationError(f"{place}: @parts marks a method that returns a list of parts, not {shown(made)}.")
+            raise DeclarationError(
+                f"{place}: @parts decorates a method that returns a list of parts, not {shown(made)}."
+            )
         if made is None and declared.make is not None and not declared.is_port:
             _refuse_lost(declared, place)
         return None if made is None else self._member(bound, made, path)

@@ -35,7 +35,7 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
     place = Origin(bound._path, type(bound).__name__, declared.where, name)
     if not isinstance(made, Mapping):
         raise DeclarationError(
-            f"{place}: @ports marks a method that returns a dict of ports by their names, "
+            f"{place}: @ports decorates a method that returns a dict of ports by name, "
             f'{{"tip": Frame()}}, not {shown(made)}.'
         )
     for port, template in made.items():

@@ -75,7 +75,7 @@ def refuse_late_fields(cls: Any) -> None:
                     f"{base.__name__}({name}={shown(value)})" if name in cls.fields else "write it in the class body"
                 )
                 raise DeclarationError(
-                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, which changes no model. "
+                    f"{base.__name__}.{name} = {shown(value)} was set after the class was created, and has no effect. "
                     f"Derive a class: `class My{base.__name__}({base.__name__}): {name} = {shown(value)}`, or {remedy}."
                 )
         refuse_misspelt_fields(base, late, base.fields)
@@ -88,7 +88,7 @@ def _read(
     """Read one attribute of a class body; `old` is the inherited field of that name."""
     where = f"{cls.__name__}.{name}"
     if any(isinstance(getattr(value, inner, None), f.Field) for inner in ("__func__", "fget", "func")):
-        raise DeclarationError(f"{where}: leave out @{type(value).__name__}: its mark stands alone above the method.")
+        raise DeclarationError(f"{where}: remove @{type(value).__name__}: a field needs no other decorator.")
     second = isinstance(value, f.Field) and _is_second_name(cls, value, name, own)
     if second and old is None and name in cls._settings and name not in SETTABLE:
         return  # a setting of the model that equals a field
@@ -111,16 +111,16 @@ def _read(
         setattr(cls, name, own[name])
     elif name[0] != "_" and (holds_parts(value) or isinstance(value, GeneratorType)):
         raise DeclarationError(
-            f"{where} is a {type(value).__name__}; parts are named one by one, or stand in a list: "
-            f"`{name} = [Body(m=1), Body(m=2)]`, whose paths are `{name}[0]`, `{name}[1]`."
+            f"{where} is a {type(value).__name__}; declare parts one by one, or in a list: "
+            f"`{name} = [Body(m=1), Body(m=2)]`, with the paths `{name}[0]`, `{name}[1]`."
         )
     elif isinstance(old, f.Part):
         own[name] = _part_instead(where, name, value, old)
         setattr(cls, name, own[name])
     elif old is not None:
         if isinstance(value, FunctionType | property | staticmethod | classmethod) and not _is_default(value, old):
-            mark = "@observed" if isinstance(old, f.Observed) else "a name of its own"
-            raise DeclarationError(f"{where} is a field of {cls.__name__}; give this method {mark}.")
+            remedy = "decorate this method with @observed" if isinstance(old, f.Observed) else "rename this method"
+            raise DeclarationError(f"{where} is a field of {cls.__name__}; {remedy}.")
         settings[name] = check_value(cls, name, value)
         setattr(cls, name, copy(old))  # it returns paths, as the inherited field does
 
@@ -164,6 +164,6 @@ def _part_instead(where: str, name: str, value: Any, old: f.Part) -> f.Part:
         description = value.__doc__ or old.description
         return type(old)(description, make=value, many=old.many, is_port=old.is_port, name=name)
     raise DeclarationError(
-        f"{where} is a part; put a component in its place, `{name} = Body(m=1)`, or None to leave it out, "
+        f"{where} is a part; replace it by a component, `{name} = Body(m=1)`, or by None to remove it, "
         f"not {f'the class {value.__name__}' if isinstance(value, type) else shown(value)}."
     )

@@ -78,7 +78,9 @@ def checked_arguments(function: F) -> F:
 def brackets(mark: str) -> str:
     """Return the message for a decorator of methods that is called with arguments."""
     form = "def ...(self): return ..."
-    return f"@{mark} marks a method: it stands alone, without brackets, above `{form}`, whose docstring describes it."
+    return (
+        f"@{mark} decorates a method: write it without parentheses above `{form}`, whose docstring is the description."
+    )
 
 
 def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[str, Any]) -> str:
@@ -104,17 +106,19 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
         if "parameters" in parameters:
             value = short(named[unknown])
-            way = f"a value of the model is given by its path, parameters={{{unknown!r}: {value}}}"
+            way = f"set a value of the model by its path, parameters={{{unknown!r}: {value}}}"
             if unknown in SETTINGS:
-                way = f"the model may declare it, {unknown} = {value} in its class"
+                way = f"declare it in the class of the model, {unknown} = {value}"
             known = f"{way}. The arguments are {', '.join([*places, *other])}."
         return f"{name}() has no argument `{unknown}`; {f'did you mean `{near}`?' if near else known}"
     if name == "der" and len(given) > 1:
-        order = "the second derivative is" if given[1] == 2 else "a further derivative is a der() around it, as"
+        order = "the second derivative is" if given[1] == 2 else "nest the calls for higher derivatives, as"
         return f"der({', '.join(map(short, given))}): {order} der(der({short(given[0])}))."
     if len(given) > len(places) and Parameter.VAR_POSITIONAL not in kinds:
-        only = f"{name}() takes {len(places)} argument{'s' * (len(places) != 1)} without a name, not {len(given)}"
+        only = f"{name}() takes {len(places)} positional argument{'s' * (len(places) != 1)}, not {len(given)}"
         whole = f"`{name}({', '.join(places)})`"
-        return f"{only}; write {whole}." if not other else f"{only}; the others are given by name: {', '.join(other)}."
+        return (
+            f"{only}; write {whole}." if not other else f"{only}; the others are keyword arguments: {', '.join(other)}."
+        )
     missing = [n for n in needed[len(given) :] if n not in named]
-    return f"{name}() lacks its argument `{missing[0]}`; write {form}." if missing else ""
+    return f"{name}() needs the argument `{missing[0]}`; write {form}." if missing else ""

@@ -49,7 +49,8 @@ class Condition:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            "an inequality cannot be used as a number. For 1 where it holds and 0 elsewhere write piecewise((1, a < b), 0)."
+            "an inequality cannot be used as a number. For 1 where it holds and 0 elsewhere write "
+            "piecewise((1, a < b), 0)."
         )
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __pow__ = _no_number
@@ -91,8 +92,8 @@ class Joined(Condition):
     def __init__(self, a: Condition, b: Any, every: bool) -> None:
         if not isinstance(b, Condition):
             raise DeclarationError(
-                f"& and | join two conditions, each in brackets, such as (x > 0) & (v < 0), not one and {b!r}. What is known "
-                "when the model is built is decided by Python's `if`."
+                f"& and | join two conditions in parentheses, such as (x > 0) & (v < 0), but one operand is {b!r}. Use "
+                "Python's `if` for values that are known when the model is built."
             )
         self.a, self.b, self.every, self.sides = a, b, every, ()
 
@@ -130,8 +131,8 @@ def undecided(what: str) -> str:
     """Return the message for an expression whose truth value Python needs while the model is built."""
     return (
         f"{what} is not known while the model is built, so `if`, `and`, `or`, max() and min() cannot use it. Write "
-        "piecewise((value, condition), ..., otherwise) or when(condition, ...), join conditions by & and |; where a parameter "
-        "decides which equations there are, declare it structural(...)."
+        "piecewise((value, condition), ..., otherwise) or when(condition, ...), and join conditions by & and |; "
+        "declare a parameter structural(...) if the equations depend on it."
     )
 
 
@@ -144,28 +145,28 @@ def refuse_cases(cases: tuple[Any, ...]) -> None:
         raise DeclarationError(f"the cases of piecewise are given one by one, not as a list: {form}.")
     for case in cases[:-1]:
         if not isinstance(case, tuple | list) or len(case) != 2:
-            raise DeclarationError(f"a case of piecewise is a pair in brackets, {form}, and {_shown(case)} is none.")
+            raise DeclarationError(
+                f"a case of piecewise is a pair (value, condition), but {_shown(case)} is not: {form}."
+            )
         value, condition = case
         if isinstance(value, Condition):
             raise DeclarationError(f"a case of piecewise is (value, condition), in this order: {form}.")
         if isinstance(condition, bool):
             raise DeclarationError(
-                f"a condition of piecewise is {condition}: it is decided when the model is built, without a variable. Write "
-                "Python's `a if condition else b`, or compare variables: time < 1."
+                f"a condition of piecewise is {condition}: it is known when the model is built, and contains no "
+                "variable. Write Python's `a if condition else b`, or compare variables: time < 1."
             )
         if not isinstance(condition, Condition):
-            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "no condition"
+            what = "an equation, not a condition" if type(condition).__name__ == "Equation" else "not a condition"
             raise DeclarationError(
-                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, such as "
-                "time < 1."
+                f"{_shown(condition)} is {what}: a condition of piecewise compares two scalars by <, <=, > or >=, "
+                "such as time < 1."
             )
         if getattr(condition.excess, "shape", ()) and not getattr(condition.excess, "is_deferred", False):
             raise DeclarationError("a condition of piecewise compares two scalars; an entry of a vector is v[0].")
     last = cases[-1]
     if isinstance(last, Condition) or (isinstance(last, tuple | list) and any(isinstance(c, Condition) for c in last)):
-        raise DeclarationError(
-            f"piecewise lacks the value that it has where no condition holds, its last argument: {form}."
-        )
+        raise DeclarationError(f"piecewise lacks its last argument, the value if no condition holds: {form}.")
 
 
 def _shown(value: Any) -> str:

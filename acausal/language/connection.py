@@ -15,9 +15,7 @@ from acausal.language.path import Path
 from acausal.language.pending import PENDING
 from acausal.language.signal import Signal, Wire
 
-NOTHING = (
-    "A port that an option adds is None without it: give the part that option, such as Revolute(use_axis_flange=True)."
-)
+NOTHING = "An optional port is None unless its option is set, such as Revolute(use_axis_flange=True)."
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +148,8 @@ def _refuse_outsider(item: Any) -> None:
     if isinstance(item, Component) and not item._is_bound:
         name, kind = type(item).__name__.lower(), type(item).__name__
         raise ConnectError(
-            f"{kind}() is created in connections(), where it does not become a part of the model. Write it in the class body, "
-            f"`{name} = {kind}(...)`, and connect self.{name}."
+            f"{kind}() is created in connections(), where it does not become a part of the model. Declare it in the "
+            f"class body, `{name} = {kind}(...)`, and connect self.{name}."
         )
     if isinstance(item, type) and issubclass(item, Component):
         name = item.__name__.lower()
@@ -180,8 +178,8 @@ def _refuse_no_link(item: Any, place: int) -> None:
         )
     if item is None:
         raise ConnectError(
-            f"chain() joins parts and ports, but argument {place} is None. {NOTHING} Leave what is None out of the "
-            "chain: `if self.part is not None: yield chain(...)`."
+            f"chain() joins parts and ports, but argument {place} is None. {NOTHING} Leave None out of the chain: "
+            "`if self.part is not None: yield chain(...)`."
         )
     if not isinstance(item, Component):
         raise ConnectError(f"chain() joins parts and ports, but argument {place}, {item!r}, is neither.")

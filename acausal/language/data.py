@@ -59,7 +59,7 @@ def expected(cls: type, optional: bool) -> str:
     what = {int: "a whole number", float: "a number", str: "a text", bool: "True or False"}.get(cls)
     what = what or f"{'an' if cls.__name__[0] in 'AEIOU' else 'a'} {cls.__name__}"
     if loads(cls):
-        what += ", or the name of a file of one"
+        what += ", or the name of its file"
     return f"{what}{', or None' if optional else ''}"
 
 

@@ -279,5 +279,5 @@ def _described(method: Any, mark: str) -> str:
 
 def _allowed(choices: Sequence[Any]) -> tuple[Any, ...]:
     if isinstance(choices, str) or not isinstance(choices, Sequence):
-        raise DeclarationError(f'choices stand in brackets: choices=("dynamic", "none"), not choices={choices!r}.')
+        raise DeclarationError(f'choices is a tuple or list: choices=("dynamic", "none"), not choices={choices!r}.')
     return tuple(choices)

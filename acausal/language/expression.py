@@ -85,8 +85,8 @@ class Expr(Symbolic):
 
     def __setitem__(self, index: Any, value: Any) -> None:
         raise DeclarationError(
-            f"entries of {short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, or build "
-            "a new vector, (a, b, c)."
+            f"entries of {short(self)} cannot be assigned: it is symbolic. Yield an equation for them, `... == ...`, "
+            "or build a new vector, (a, b, c)."
         )
 
     def __iter__(self):
@@ -181,7 +181,7 @@ def as_expr(value: Any) -> Expr:
     if isinstance(value, int | float | np.integer | np.floating | np.bool_):
         return _number(number_of(value))
     if wrong := misplaced_quantity(value):
-        raise DeclarationError(f"here stands {wrong}")
+        raise DeclarationError(f"an expression contains {wrong}")
     if isinstance(value, np.ndarray) and value.dtype.kind in "buif" and value.ndim <= 2:
         number: Any = value
         return Expr(ca.SX(ca.sparsify(ca.DM(number))), shape=value.shape)

@@ -43,12 +43,12 @@ def check_field(cls: Any, name: str, field: f.Field) -> None:
 def _wrong(cls: Any, name: str, field: f.Field) -> str:
     """Return the message for an invalid field, "" for a valid one."""
     if not isinstance(field.description, str):
-        return f'the first argument describes the field in words, "...", and is {shown(field.description)}.'
+        return f'the first argument must be a description, "...", not {shown(field.description)}.'
     if isinstance(field, f.Part):
         return _wrong_part(field)
     if isinstance(field, f.Observed):
         if not (callable(field.compute) and _takes_self(field.compute)):
-            return f"@observed marks a method, `def {name}(self): return ...`."
+            return f"@observed decorates a method, `def {name}(self): return ...`."
         yields = inspect.isgeneratorfunction(field.compute)
         return "an observed quantity is one expression: write `return`, not `yield`." if yields else ""
     wrong = _wrong_shape(cls, name, field) or _wrong_unit(field)
@@ -68,19 +68,17 @@ def _wrong_unit(field: f.Field) -> str:
     if isinstance(unit, str):
         unit = [unit]
     elif not isinstance(unit, Sequence) or not all(isinstance(u, str) for u in unit):
-        return f'unit={shown(unit)} is not a unit: write unit="m/s", one for each entry in brackets, unit=("m", "rad"), or none.'
+        return f'unit={shown(unit)} is not a unit: write unit="m/s", one for each entry, unit=("m", "rad"), or none.'
     for entry in unit:
         parse(entry)
         if entry != entry.strip():
-            return f'unit="{entry}" has a blank at an end: write "{entry.strip()}".'
+            return f'unit="{entry}" has a blank at its end: write "{entry.strip()}".'
     if isinstance(field.unit, str):
         return ""
     size = field.shape[0] if isinstance(field.shape, tuple) and field.shape else None
     if isinstance(field.shape, tuple) and len(unit) != size:
         what = f"{size} rows" if size else "one value"
-        return (
-            f"it has {len(unit)} unit{'s' * (len(unit) != 1)}, and {what}: give one unit for all, or one for each row."
-        )
+        return f"it has {len(unit)} unit{'s' * (len(unit) != 1)} for {what}: give one unit, or one for each row."
     return ""
 
 
@@ -89,15 +87,15 @@ def _wrong_shape(cls: Any, name: str, field: f.Field) -> str:
     if shape is None or inspect.isfunction(shape):
         return ""
     if isinstance(shape, int):
-        return f"a shape stands in brackets: shape=({shape},)."
+        return f"a shape is a tuple: shape=({shape},)."
     if isinstance(shape, tuple) and any(isinstance(n, f.Deferrable) for n in shape):
         return "the shape depends on another field: write a function, shape=lambda s: (s.n,)."
     whole = isinstance(shape, tuple) and all(isinstance(n, int) and not isinstance(n, bool) and n >= 0 for n in shape)
     if not whole or not isinstance(shape, tuple) or len(shape) > 2:
-        return f"shape={shown(shape)} is no shape: a vector has shape=(3,), a matrix shape=(3, 3)."
+        return f"shape={shown(shape)} is not a shape: a vector has shape=(3,), a matrix shape=(3, 3)."
     annotated = shape_of_annotation(cls, name)
     if annotated is not None and annotated != shape:
-        return f"its type says shape {annotated}, its argument shape={shape}: leave out one of the two, `{name} = ...`."
+        return f"its type has shape {annotated}, its argument is shape={shape}: remove one of the two, `{name} = ...`."
     return ""
 
 
@@ -132,11 +130,11 @@ def _wrong_value(field: f.Field) -> str:
     if isinstance(default, f.InitialValue):
         return f"a parameter has no start: write default={shown(default.value)}."
     if least is not None and (isinstance(least, bool) or not isinstance(least, int | float | np.number)):
-        return f"minimum={shown(least)} must be a number; what depends on other fields is stated in requirements()."
+        return f"minimum={shown(least)} must be a number; state limits that depend on other fields in requirements()."
     if isinstance(field, f.Parameter) and not isinstance(field.positive, bool):
         return f"positive={shown(field.positive)} must be True or False; a lower bound is minimum=..."
     if inspect.isfunction(default) and not _takes_self(default):
-        return "a default that is computed is a function of the component: default=lambda s: 2 * s.r."
+        return "a computed default is a function of the component: default=lambda s: 2 * s.r."
     if isinstance(field, f.Parameter) and isinstance(default, str | bool | dict | set | f.Template):
         if isinstance(default, str) and decimal_point(default):
             return f"default={shown(default)} must be a number{decimal_point(default)}."
@@ -157,7 +155,7 @@ def _wrong_class(field: f.Structural) -> str:
     if cls is not None and not isinstance(cls, type):
         return f"cls={shown(cls)} must be a class, such as cls=int."
     if inspect.isfunction(most) and not _takes_self(most):
-        return "a maximum that is computed is a function of the component: maximum=lambda s: 2 * s.n."
+        return "a computed maximum is a function of the component: maximum=lambda s: 2 * s.n."
     if isinstance(most, f.Deferrable):
         return f"the maximum depends on another field: write a function, maximum=lambda s: s.{shown(most)}."
     if most is not None and not inspect.isfunction(most) and not data.fits(most, float):
@@ -176,20 +174,20 @@ def _wrong_part(field: f.Part) -> str:
         fits = make is None or isinstance(make, f.Template | list) or callable(make)
     if not fits:
         what = getattr(make, "__name__", None) or shown(make)
-        return f"port() takes a connector class, port(Frame), or marks a method, not {what}. A part stands without it."
+        return f"port() takes a connector class, port(Frame), or decorates a method, not {what}. Parts need no port()."
     if isinstance(make, staticmethod | classmethod | property):
-        return f"a method that makes a part takes self: leave out @{type(make).__name__}."
+        return f"a method that returns a part takes self: remove @{type(make).__name__}."
     if inspect.isfunction(make) and not _takes_self(make):
-        return f"a method that makes a part takes self alone: `def {make.__name__}(self): return ...`."
+        return f"a method that returns a part takes only self: `def {make.__name__}(self): return ...`."
     if inspect.isgeneratorfunction(make) and not field.many:
         mark, several = (
-            ("port", " Several ports are made by a method marked @ports.")
+            ("port", " A method marked @ports returns several ports.")
             if field.is_port
-            else ("part", " Several parts are made by a method marked @parts.")
+            else ("part", " A method marked @parts returns several parts.")
         )
         if isinstance(field, f.Family):
-            return "@ports marks a method that returns a dict of ports by their names: write `return`, not `yield`."
-        return f"@{mark} marks a method that returns one {mark}: write `return`, not `yield`.{several}"
+            return "@ports decorates a method that returns a dict of ports by name: write `return`, not `yield`."
+        return f"@{mark} decorates a method that returns one {mark}: write `return`, not `yield`.{several}"
     return ""
 
 

@@ -42,8 +42,8 @@ class Deferrable(Symbolic):
 
     def __iter__(self) -> Any:
         raise DeclarationError(
-            "a field cannot be iterated over in the class body, where its value is not known yet. Name its entries, such as "
-            "(r[0], r[1], r[2]), or iterate over self.<name> in equations()."
+            "a field cannot be iterated over in the class body, where its value is not known yet. Write its entries, "
+            "such as (r[0], r[1], r[2]), or iterate over self.<name> in equations()."
         )
 
     def __neg__(self) -> Deferred:

@@ -31,9 +31,8 @@ def selected_entries(show: Callable[[], str], shape: tuple[int, ...], index: Any
     ends = [end for item in indices for end in _ends(item)]
     if any(isinstance(end, bool) or not isinstance(end, int | np.integer) for end in ends):
         raise DeclarationError(
-            f"{_asked(show(), indices)}: entries of a symbol are selected by integers that are known when the model is "
-            "built. Declare what "
-            "selects them structural(...), or select with piecewise((value, condition), ..., otherwise)."
+            f"{_indexed(show(), indices)}: entries of a symbol are selected by integers that are known when the model "
+            "is built. Declare the index structural(...), or select with piecewise((value, condition), ..., otherwise)."
         )
     # A scalar can be indexed by 0, and a vector has one column.
     whole = (*shape, 1) if len(indices) > len(shape) < 2 else shape
@@ -44,11 +43,11 @@ def selected_entries(show: Callable[[], str], shape: tuple[int, ...], index: Any
     )
     if not fits:
         shown = show()
-        raise DeclarationError(f"{_asked(shown, indices)} is outside {shown}, {_extent(shown, shape)}.")
+        raise DeclarationError(f"{_indexed(shown, indices)} is outside {shown}, {_extent(shown, shape)}.")
     return np.arange(int(np.prod(shape))).reshape(whole, order="F")[index]
 
 
-def _asked(shown: str, indices: tuple[Any, ...]) -> str:
+def _indexed(shown: str, indices: tuple[Any, ...]) -> str:
     return f"`{shown}[{', '.join(map(_written, indices))}]`"
 
 

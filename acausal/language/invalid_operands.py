@@ -43,7 +43,7 @@ def number_of(value: Any) -> float:
 def ragged(shapes: Sequence[tuple[int, ...]], value: object) -> str:
     """Return the message for entries of different shapes."""
     seen = " and ".join(dict.fromkeys(map(kind_of, shapes)))
-    return f"the entries of a vector are scalars, and the rows of a matrix are equally long; here are {seen}: {short(value)}."
+    return f"the entries of a vector are scalars, the rows of a matrix have equal lengths; these are {seen}: {short(value)}."
 
 
 def decimal_point(value: Any) -> str:
@@ -73,7 +73,8 @@ def _described(value: Any) -> tuple[str, str]:
     if value is None:
         return (
             "None",
-            "Write a number; if you did not write None, a method lacks its `return`, or an optional part does not exist here.",
+            "Write a number. If you did not write None, a method lacks its `return`, or an optional part does not "
+            "exist.",
         )
     if isinstance(value, str):
         return f"the text {value!r}", _without_quotes(value)
@@ -85,7 +86,7 @@ def _described(value: Any) -> tuple[str, str]:
     if isinstance(value, ModuleType):
         return (
             f"the module {value.__name__}",
-            f"Import what is meant from acausal: from acausal import {value.__name__}.",
+            f"Import the function from acausal: from acausal import {value.__name__}.",
         )
     if isgenerator(value) or isinstance(value, Iterator):
         return "a generator", "Make a list of it: [... for ... in ...]."

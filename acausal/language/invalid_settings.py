@@ -63,7 +63,7 @@ def refuse_path(path: str, cls: type | None, name: str, value: Any) -> str:
     ways = [_by_path(path, field, value)] if not isinstance(field, f.Variable) or field.causality == "input" else []
     if field is not None:
         short = where if where.isidentifier() else "..."
-        ways.append(f"Where the part is made: `{short} = {kind}({name}={_start(field, value)})`.")
+        ways.append(f"Where the part is created: `{short} = {kind}({name}={_start(field, value)})`.")
     return f"`{path}` cannot be set on a model. {' '.join(ways)}"
 
 
@@ -83,8 +83,9 @@ def refuse_attribute(component: Any, name: str, value: Any) -> None:
     if isinstance(value, f.Field):
         kind = type(value).__name__.lower()
         raise DeclarationError(
-            f"`{name}` cannot be declared by assignment to an instance of {cls.__name__}: fields stand in the body of the class, "
-            f"`{name}: Scalar = {kind}(...)`; their values are given to the constructor, {cls.__name__}({name}=...)."
+            f"`{name}` cannot be declared by assignment to an instance of {cls.__name__}: declare fields in the class "
+            f"body, `{name}: Scalar = {kind}(...)`, and give their values to the constructor, "
+            f"{cls.__name__}({name}=...)."
         )
     declared = any(name in inspect.get_annotations(base) for base in cls.__mro__)
     if hasattr(cls, name) or declared or name in cls._settings:
@@ -148,9 +149,9 @@ def _alike(cls: Any, value: Any, inherited: dict[str, f.Field]) -> list[str]:
 def _by_path(path: str, field: f.Field | None, value: Any, compiled: bool = False) -> str:
     mapping = f"parameters={{{path!r}: {shown(value)}}}"
     if isinstance(field, f.Variable) and field.causality != "input":
-        return "Its start value is given in the model, where the part is made, by fixed(...) or guess(...)."
+        return "Set its start value where the part is created, by fixed(...) or guess(...)."
     if isinstance(field, f.Part | f.Outer | f.Observed):
-        return "Parts are given in the class body or to the constructor of what has them; then compile again."
+        return "Set parts in the class body or in the constructor of their component; then compile again."
     if isinstance(field, f.Structural) or not compiled:
         return f"For one run: `ac.simulate(model, ..., {mapping})`; to keep it: `ac.compile(model, {mapping})`."
     return f"For one run: `ac.simulate(compiled, ..., {mapping})`."

@@ -57,7 +57,7 @@ def refuse_annotations(cls: Any) -> None:
                 continue
             if _is_call(inspect.get_annotations(base)[name]):
                 raise declaration_error(
-                    f"{base.__name__}.{name} has no value: a `:` stands where `=` is meant. Write `{name} = ...`, or "
+                    f"{base.__name__}.{name} has no value: use `=` instead of `:`. Write `{name} = ...`, or "
                     f"`{name}: Scalar = ...` for a field.",
                     base._line,
                 )
@@ -86,11 +86,11 @@ def refuse_plain(cls: Any, name: str, value: Any) -> None:
     kind = annotation if isinstance(annotation, str) else annotation.__name__  # type: ignore[union-attr]
     if inspect.isfunction(value):
         word = value.__name__
-        remedy = f'`{word}` lacks its brackets: `{name}: {kind} = {word}("...")`'
+        remedy = f'`{word}` is not called: write `{name}: {kind} = {word}("...")`'
     else:
         remedy = (
             f'it is {shown(value)}, not a field: write `{name}: {kind} = parameter("...", default={shown(value)})`; a '
-            f"constant stands without the type, `{name} = {shown(value)}`"
+            f"constant has no type, `{name} = {shown(value)}`"
         )
     raise declaration_error(f"{cls.__name__}.{name}: {remedy}.", body_line(cls, name))
 
@@ -100,26 +100,24 @@ def _reserved(cls: Any, name: str, value: Any, engine: Mapping[str, Any]) -> str
     field = isinstance(value, f.Field | f.Template)
     if name == "__post_init__":
         return (
-            "a component class has none. Put what it does into check() or __init__, which calls super().__init__(...)."
+            "a component class has none. Move its code to check(), or to an __init__ that calls super().__init__(...)."
         )
     if name not in engine or name.startswith("__"):
         return ""
     old = engine[name]
     if not inspect.isfunction(old) or name[0] == "_":
         plain = name in PLAIN and not field and not callable(value)
-        return "" if plain else "this name is used by the engine; give it another one."
+        return "" if plain else "this name is reserved; choose another one."
     if isinstance(value, FunctionType) and _takes(value, old):
         return ""
     written = ", ".join(_arguments(old))
     form = f"`def {name}({written}): {EXAMPLES.get(name, 'return ...')}`"
     if not isinstance(value, FunctionType):
         marked = isinstance(value, property | staticmethod | classmethod)
-        what = f"leave out @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
-        other = (
-            f"give this {'part' if isinstance(value, f.Template | f.Part) else 'field'} another one." if field else what
-        )
+        what = f"remove @{type(value).__name__}." if marked else f"write that instead of `{name} = {shown(value)}`."
+        other = f"rename this {'part' if isinstance(value, f.Template | f.Part) else 'field'}." if field else what
         return f"every component has a method of this name, {form}; {other}"
-    return f"this method takes {'self alone' if written == 'self' else written}: {form}."
+    return f"this method takes {'only self' if written == 'self' else written}: {form}."
 
 
 @cache

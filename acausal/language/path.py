@@ -38,7 +38,8 @@ class Path:
             "its list" if not isinstance(self._make, f.Field) or isinstance(self._make, f.Part) else "the whole array"
         )
         raise declaration_error(
-            f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, `{self._name}=...`."
+            f"`{self._path}[{index}]` cannot be set on a model: give {whole} where the part is created, "
+            f"`{self._name}=...`."
         )
 
     @property

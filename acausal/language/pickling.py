@@ -28,8 +28,8 @@ def serialize(sx: ca.SX) -> str:
     others = [s.name() for s in ca.symvar(sx) if s.element_hash() not in known]
     if others:
         raise DeclarationError(
-            f"an expression of `{others[0]}` cannot be pickled: its symbols belong to one built model. Pickle names, or "
-            "values: result[...]."
+            f"an expression of `{others[0]}` cannot be pickled: its symbols belong to one built model. Pickle names or "
+            "values, result[...]."
         )
     return ca.Function("e", [time.sx, initial.sx, feedback.sx], [sx]).serialize()
 

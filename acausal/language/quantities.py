@@ -86,8 +86,8 @@ def _converted(value: Any, unit: Dimension, where: str) -> Any:
         return np.asarray(number, dtype=float) if np.ndim(number) else float(number)
     own = str(unit) if unit.exponents.count(0) < len(BASES) else "a number or an angle"
     raise UnitsError(
-        f"{where} is {_shown(value)}, which cannot be converted to {own}. Give a quantity of that dimension, or the number "
-        "alone, in SI."
+        f"{where} is {_shown(value)}, which cannot be converted to {own}. Give a quantity of that dimension, or the "
+        "number alone, in SI."
     )
 
 

@@ -80,8 +80,8 @@ def _refuse(cls: Any) -> None:
     bodies = _class(name, cls._line)
     for again, first, second in (slip for body in bodies for slip in _twice(body.body)):
         raise declaration_error(
-            f"{name}.{again} is written twice in the class body, so that only the last is kept: the first is in line "
-            f"{first}. Give one of them another name, or remove it.",
+            f"{name}.{again} is defined twice in the class body, and only the last definition counts; the first is in "
+            f"line {first}. Rename or remove one of them.",
             f"{file}:{second}",
         )
     codes = [value.__code__ for value in vars(cls).values() if isinstance(value, FunctionType)]

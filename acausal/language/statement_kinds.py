@@ -37,7 +37,7 @@ TAKES = {
     "validity": "expect(...) or apart(...)",
 }
 BARE = {
-    "requirements": 'yield require(a < b, "what is wrong otherwise")',
+    "requirements": 'yield require(a < b, "message if it does not hold")',
     "validity": 'yield expect(part, whole, 0.01, "what is neglected")',
 }
 
@@ -80,7 +80,7 @@ def _described(statement: Any, method: str) -> tuple[str, str]:
         remedy = "Its `==` compares plain values or parts: one side must be a variable, self.x or self.part.x."
         return f"{statement}", remedy
     if isinstance(statement, Condition):
-        remedy = 'What must hold is yielded in requirements(): require(a < b, "..."); what happens then: when(a < b, reinit(...)).'
+        remedy = 'Yield requirements in requirements(): require(a < b, "..."); jumps are when(a < b, reinit(...)).'
         return "an inequality", remedy
     if isinstance(statement, Reinit):
         return "reinit(...) alone", "Say when it happens: when(condition, reinit(variable, value))."

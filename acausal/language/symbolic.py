@@ -62,21 +62,21 @@ class Symbolic:
 
     def _no_number(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Instead of math's functions use those of acausal: "
-            f"sin, sqrt, atan2, ...; or {self._instead}."
+            f"{self._shown()} {self._lacks}, so it cannot be a Python number. Instead of math's functions use those of "
+            f"acausal: sin, sqrt, atan2, ...; or {self._instead}."
         )
 
     __float__ = __int__ = __index__ = __complex__ = _no_number
 
     def _steps(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete variable, "
-            "when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
+            f"`%`, `//` and round() of {self._shown()} would jump without an event. Count the steps with a discrete "
+            "variable, when(condition, reinit(...)), or choose with piecewise((value, condition), ..., otherwise)."
         )
 
     def _join(self, *_: Any) -> Any:
         raise DeclarationError(
-            f"`&` and `|` join conditions, not {self._shown()}: put each condition in brackets: (x > 0) & (x < 1)."
+            f"`&` and `|` join conditions, not {self._shown()}: put each condition in parentheses: (x > 0) & (x < 1)."
         )
 
     def _caret(self, *_: Any) -> Any:

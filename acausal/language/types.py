@@ -69,25 +69,21 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
             form = f"{name} = {field}(..., shape={annotation!r})"
         elif isinstance(annotation, str):
             form = f"{name}: Scalar = {field}(...)`, where a unit is `unit=..."
-        return f"{annotation!r} is no type: write `{form}`."
+        return f"{annotation!r} is not a type: write `{form}`."
     kind = _type_name(cls, name)
     a = "an" if field in ("input", "output") else "a"
     if kind in _REAL:
         listed = shape not in (None, ())
-        return (
-            f"{kind} is one number; with shape={shape} leave the type out, `{name} = {field}(...)`." if listed else ""
-        )
+        return f"{kind} is one number; with shape={shape} remove the type, `{name} = {field}(...)`." if listed else ""
     if kind in _WHOLE:
         remedy = f"`{name}: {kind} = structural(...)`"
         return f"{a} {field} is a real number, not {kind}: write `{name}: Scalar`; a count, switch or word is {remedy}."
     if kind in _LISTED:
         remedy = f"`{name}: Vector3`, `{name}: Matrix33`, or give shape=(n,)"
-        return f"the type {kind} does not tell how many numbers: write {remedy}." if shape is None else ""
+        return f"the type {kind} does not determine the number of entries: write {remedy}." if shape is None else ""
     if kind in _NEITHER or _is_component(cls, kind):
         what = (
-            ""
-            if kind in _NEITHER
-            else f"; a part or port stands alone, `{name} = {kind}(...)`, `{name} = port({kind})`"
+            "" if kind in _NEITHER else f"; declare a part by `{name} = {kind}(...)`, a port by `{name} = port({kind})`"
         )
         return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
     known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)

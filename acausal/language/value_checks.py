@@ -30,7 +30,8 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
         return _check_part(where, value, field)
     if isinstance(field, f.Outer):
         raise DeclarationError(
-            f"{where} is found automatically: {field.description}. Leave it out, and put one {field.cls.__name__} in the model."
+            f"{where} is found automatically: {field.description}. Remove it, and add one {field.cls.__name__} to the "
+            "model."
         )
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
@@ -55,7 +56,7 @@ def nearest_field(cls: Any, name: str) -> str:
 def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
     """Return the message for positional arguments of a constructor."""
     if len(unnamed) == 1 and isinstance(unnamed[0], dict):
-        return f"{cls.__name__} takes its values by name; from a dict, they are given by two stars: {cls.__name__}(**values)."
+        return f"{cls.__name__} takes its values by name; unpack a dict by two stars: {cls.__name__}(**values)."
     kinds = (f.Part,) if any(isinstance(value, f.Template) for value in unnamed) else (f.Parameter, f.Structural)
     if any(isinstance(value, f.InitialValue) for value in unnamed):
         kinds = (f.Variable,)
@@ -71,17 +72,15 @@ def values_of_class(cls: Any, name: str, value: Any) -> str:
     known = isinstance(value, f.Template) or name in getattr(cls, "fields", {}) or name in cls._settings
     line = f"{name} = {shown(value)}" if known else f'{name}: Scalar = parameter("...", default={shown(value)})'
     bases = ", ".join(base.__name__ for base in cls.__bases__)
-    return (
-        f"class {cls.__name__}({bases}, {name}=...): values stand in the class body, in a line of their own, `{line}`."
-    )
+    return f"class {cls.__name__}({bases}, {name}=...): write values in the class body, on their own line, `{line}`."
 
 
 def refuse_decorator(cls: Any) -> None:
     """Raise DeclarationError for a class with @dataclass or a similar decorator."""
     if hasattr(cls, "__dataclass_fields__") or hasattr(cls, "__attrs_attrs__"):
         raise declaration_error(
-            f"{cls.__name__} is marked @dataclass, which replaces the constructor that knows its fields. Leave the decorator "
-            'out: a component class takes its fields as they stand, `k: Scalar = parameter("...", default=1)`.'
+            f"{cls.__name__} is decorated with @dataclass, which replaces its constructor. Remove the decorator: "
+            'fields of components are declared as `k: Scalar = parameter("...", default=1)`.'
         )
 
 
@@ -91,8 +90,8 @@ def refuse_constructor(cls: Any) -> None:
     code = getattr(own, "__code__", None)
     line = f"{code.co_filename}:{code.co_firstlineno}" if code else ""
     raise declaration_error(
-        f"the constructor of {cls.__name__} does not call super().__init__(), so that values given to it would be lost. Write "
-        "`super().__init__(**values)` in it, or leave it out: fields need no constructor.",
+        f"the constructor of {cls.__name__} does not call super().__init__(), so its arguments would be lost. Add "
+        "`super().__init__(**values)` to it, or remove it: fields need no constructor.",
         line,
     )
 
@@ -118,7 +117,7 @@ def instances(items: Iterable[Any], where: str) -> list[Any]:
         if not isinstance(item, f.Template):
             raise DeclarationError(
                 f"{where}[{k}] is {item!r}; a list of parts contains only components, not lists of them. "
-                "Leave out what does not exist."
+                "Leave out missing parts."
             )
     return made
 
@@ -139,13 +138,13 @@ def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
         word = "fixed" if first.fixed else "guess"
         inside = tuple(entry.value if isinstance(entry, f.InitialValue) else entry for entry in entries)
         whole = repr(inside if len(inside) > 1 else first.value)
-        raise DeclarationError(f"{where}: {word}(...) stands around the whole value: {name}={word}({whole}).")
+        raise DeclarationError(f"{where}: put {word}(...) around the whole value: {name}={word}({whole}).")
 
 
 def _check_part(where: str, value: Any, field: f.Part) -> Any:
     if isinstance(field, f.Family):
         raise DeclarationError(
-            f"{where} makes ports from structural values; they are connected by their names, and it takes no value, not "
+            f"{where} creates ports from structural values; connect these by name. It takes no value, not "
             f"{shown(value)}."
         )
     if isinstance(value, list | tuple):

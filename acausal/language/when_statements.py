@@ -66,14 +66,14 @@ def when(condition: Any, *jumps: Reinit, at_start: bool = False) -> When:
     """
     form = "when(self.h < 0, reinit(self.v, 0))"
     if not isinstance(condition, Condition) or condition.excess.shape:
-        late = f" At a fixed time it is time >= {condition:g}." if type(condition) in (int, float) else ""
+        late = f" For a fixed time write time >= {condition:g}." if type(condition) in (int, float) else ""
         order = " The condition comes first." if isinstance(condition, Reinit) else ""
         raise DeclarationError(
             f"when needs a condition that compares two scalars by <, <=, > or >=, such as {form}.{late}{order}"
         )
     if not jumps or not all(isinstance(jump, Reinit) for jump in jumps):
-        listed = " They stand without a list." if any(isinstance(jump, list | tuple) for jump in jumps) else ""
+        listed = " Give them without a list." if any(isinstance(jump, list | tuple) for jump in jumps) else ""
         raise DeclarationError(
-            f"after its condition, when needs what happens, one or more reinit(variable, value), such as {form}.{listed}"
+            f"when needs one or more reinit(variable, value) after its condition, such as {form}.{listed}"
         )
     return When(condition, jumps, at_start)

@@ -98,7 +98,7 @@ class Decays(Model):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"body.rates": 3}, r"is 3; it must be a Rates, or the name of a file of one\."),
+        ({"body.rates": 3}, r"is 3; it must be a Rates, or the name of its file\."),
         ({"body.rates": Rates}, "is the class Rates; it must be a Rates"),
         ({"body.rates": None}, "is None; it must be a Rates"),
         ({"body.rates": np.ones(3)}, "it must be a Rates"),
@@ -150,9 +150,9 @@ def test_a_file_name_stands_for_what_the_class_loads(tmp_path):
     [
         (lambda: structural("n", cls="int"), r"cls='int' must be a class, such as cls=int"),
         (lambda: structural("n", cls=int, default=2.5), r"default=2\.5 must be a whole number"),
-        (lambda: structural("n", cls=Rates, default=3), r"default=3 must be a Rates, or the name of a file of one"),
+        (lambda: structural("n", cls=Rates, default=3), r"default=3 must be a Rates, or the name of its file"),
         (lambda: structural("n", maximum="3"), r"maximum='3' must be a number, or a function of the component"),
-        (lambda: structural("n", maximum=lambda: 3), r"a maximum that is computed is a function of the component"),
+        (lambda: structural("n", maximum=lambda: 3), r"a computed maximum is a function of the component"),
     ],
 )
 def test_declarations(declared, message):
@@ -291,7 +291,7 @@ def test_a_file_name_on_the_command_line(tmp_path):
     assert float(table.read_text().split(",")[-1]) == pytest.approx(np.exp(-1) + np.exp(-5), rel=1e-4)
     for wrong, message in (
         ("nothing.txt", "holds no Rates: "),
-        ("3", "is 3; it must be a Rates, or the name of a file"),
+        ("3", "is 3; it must be a Rates, or the name of its file"),
     ):
         done = run(wrong)
         assert done.returncode == 2

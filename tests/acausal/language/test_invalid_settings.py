@@ -28,7 +28,7 @@ from tests.acausal.language.test_settings import Swing
         (lambda s: setattr(s, "others", [Body(m=2)]), "class body"),
     ],
 )
-def test_setting_on_an_instance_is_refused_with_the_mend(change, text):
+def test_setting_on_an_instance_is_refused_with_the_remedy(change, text):
     with pytest.raises(DeclarationError, match=text):
         change(Swing())
 
@@ -42,11 +42,11 @@ def test_setting_on_an_instance_is_refused_with_the_mend(change, text):
             lambda t: setattr(t.hinge, "use_axis_flange", False),
             r"ac.compile\(model, parameters=\{'hinge.use_axis_flange'",
         ),
-        (lambda t: setattr(t, "tip", None), "Parts are given in the class body"),
-        (lambda t: setattr(t.hinge, "phi", 1), "start value is given in the model"),
+        (lambda t: setattr(t, "tip", None), "Set parts in the class body"),
+        (lambda t: setattr(t.hinge, "phi", 1), "Set its start value where the part"),
     ],
 )
-def test_setting_on_a_built_tree_is_refused_with_the_mend(change, text):
+def test_setting_on_a_built_tree_is_refused_with_the_remedy(change, text):
     with pytest.raises(DeclarationError, match=text):
         change(ac.compile(Swing()).tree)
 
@@ -60,7 +60,7 @@ def test_setting_on_a_built_tree_is_refused_with_the_mend(change, text):
         ("several", [Body(m=2)], "write it in the class body"),
     ],
 )
-def test_setting_on_a_class_is_refused_with_the_mend(monkeypatch, name, new, text):
+def test_setting_on_a_class_is_refused_with_the_remedy(monkeypatch, name, new, text):
     derived = type("Derived", (Swing,), {})
     monkeypatch.setattr(Swing, name, new, raising=False)
     for model in (Swing(), derived()):
@@ -94,7 +94,7 @@ def test_a_constructor_of_the_users_own():
         ("load", 3, r"load=3"),
     ],
 )
-def test_parts_and_values_set_in_a_constructor_are_refused_with_the_mend(name, new, text):
+def test_parts_and_values_set_in_a_constructor_are_refused_with_the_remedy(name, new, text):
     class Set(Swing):
         def __init__(self):
             super().__init__()

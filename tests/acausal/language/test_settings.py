@@ -107,7 +107,7 @@ def test_a_structural_value_and_a_choice():
         ("omega", None, "must be a number"),
         ("omega", fixed(3), "is not a variable"),
         ("angle", 3, "write angle=fixed"),
-        ("world", 5, "is a part; put a component in its place"),
+        ("world", 5, "is a part; replace it by a component"),
     ],
 )
 def test_a_wrong_value_is_refused(name, wrong, text):

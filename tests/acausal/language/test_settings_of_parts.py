@@ -113,7 +113,7 @@ class Several(Model):
 
 
 def test_parts_must_be_parts():
-    with pytest.raises(DeclarationError, match="bodies: @parts marks a method that returns a list of parts, not None"):
+    with pytest.raises(DeclarationError, match="@parts decorates a method that returns a list of parts, not None"):
         ac.compile(Several())
     with pytest.raises(DeclarationError, match="`one` must be a part"):
         ac.compile(Several(bodies=[]))

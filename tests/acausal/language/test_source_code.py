@@ -50,10 +50,10 @@ FIRST = HEAD.count("\n") + 2
         ("def more(self):\n    try:\n        pass\n    except ValueError:\n        ac.when(1)", 4, r"when\(\.\.\.\)"),
         ("def more(self):\n    match 1:\n        case 1:\n            connect(\n 1, 2)", 3, r"connect\(\.\.\.\)"),
         ("@staticmethod\ndef one(): pass\nconnect == 3", 2, r"no effect.* Yield it in equations\(\)"),
-        ("a = 1\nb = 2\na = 3", 2, f"M.a is written twice .* is in line {FIRST}"),
-        ("def a(self): return a\ndef a(self): return 2", 1, "M.a is written twice"),
-        ("if True:\n    a = 1\n    a = 2", 2, "M.a is written twice"),
-        ("a = [k for k in range(3)]\nb, (a, c) = 1, (2, 3)", 1, "M.a is written twice"),
+        ("a = 1\nb = 2\na = 3", 2, f"M.a is defined twice .* is in line {FIRST}"),
+        ("def a(self): return a\ndef a(self): return 2", 1, "M.a is defined twice"),
+        ("if True:\n    a = 1\n    a = 2", 2, "M.a is defined twice"),
+        ("a = [k for k in range(3)]\nb, (a, c) = 1, (2, 3)", 1, "M.a is defined twice"),
     ],
 )
 def test_what_is_refused(text, line, message):
@@ -99,7 +99,7 @@ def test_decorated_classes_and_their_bases_are_found(tmp_path: Path):
     file.write_text(text + "\n    a = 1\n    a = 2\n\nclass N(M):\n    pass\n")
     space = {"__name__": "decorated"}
     exec(compile(file.read_text(), str(file), "exec"), space)
-    with pytest.raises(ac.DeclarationError, match=r"M\.a is written twice"):
+    with pytest.raises(ac.DeclarationError, match=r"M\.a is defined twice"):
         ac.compile(space["N"]())
 
 
