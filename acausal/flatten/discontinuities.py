@@ -184,8 +184,8 @@ def laws(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tuple
         places = [place.get(e.sx.element_hash(), -1) for e in own]
         if -1 in places:
             raise DeclarationError(
-                f"{origin}: set_valued needs discrete variables, and `{own[places.index(-1)].name}` is none. Declare it by "
-                'discrete("...").'
+                f"{origin}: set_valued needs discrete variables, but `{own[places.index(-1)].name}` is not discrete. "
+                'Declare it discrete("...").'
             )
         found.append(Law(next(sx), next(sx), next(sx), tuple(places), origin))
     return tuple(found)

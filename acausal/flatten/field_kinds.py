@@ -33,8 +33,8 @@ def _discrete(component: Component, inside: set[int]) -> Iterator[str]:
         if is_discrete and any(s.element_hash() in inside for s in scalars(getattr(component, name).sx)):
             path = join(component._path, name)
             yield (
-                f"`{path}` is a discrete variable: no equation determines it; it changes by when(condition, reinit(self.{path}, "
-                "...)). Declare it variable(...) if an equation is to determine it."
+                f"`{path}` is a discrete variable, which is changed by when(condition, reinit(self.{path}, ...)) and "
+                "not determined by an equation. Declare it variable(...) if an equation should determine it."
             )
 
 
@@ -46,8 +46,8 @@ def _changed(component: Component) -> Iterator[str]:
             was = getattr(base, "fields", {}).get(name)
             if was is not None and _kind(was) != _kind(field) and _kind(was) and _kind(field):
                 yield (
-                    f"{value_origin(component, name)} is a {_kind(field)}, in place of the {_kind(was)} of {base.__name__} "
-                    "whose equations hold it: give it another name."
+                    f"{value_origin(component, name)} is a {_kind(field)} here, but a {_kind(was)} in the equations of "
+                    f"{base.__name__}: rename it."
                 )
                 break
 

@@ -104,9 +104,9 @@ class FieldValues:
         if name in own:
             return own[name]
         if here in self._open:
-            circle = " -> ".join(n for _, n in (*self._open[self._open.index(here) :], here))
+            cycle = " -> ".join(n for _, n in (*self._open[self._open.index(here) :], here))
             raise DeclarationError(
-                f"the values of {owner_text(bound)} depend on each other in a circle: {circle}. "
+                f"the values of {owner_text(bound)} depend on each other in a cycle: {cycle}. "
                 f"Give one of them: {type(bound).__name__}(..., {name}=...)."
             )
         self._open.append(here)
@@ -259,7 +259,7 @@ def _zeros_of(bound: Component) -> str:
 def law_of_input(model: Component, name: str) -> str:
     """Return the remedy for an input that varies in time: an input of the whole model is constant in a run."""
     kind = type(model).__name__
-    return f"A law is given where {kind} is a part: `class Whole(Model): part = {kind}({name}=...)`."
+    return f"Give a function of time where {kind} is a part: `class Whole(Model): part = {kind}({name}=...)`."
 
 
 def owner_text(component: Component) -> str:

@@ -120,8 +120,8 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
     for port in (statement.connector,) if isinstance(statement, Root) else (statement.a, statement.b):
         if id(port) not in own:
             raise ConnectError(
-                f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Write the component that has "
-                "it in the class body, and connect the port of that."
+                f"{origin}: {port._path} ({type(port).__name__}) belongs to another model. Declare its component in "
+                "the class body, and connect the port of that component."
             )
 
 

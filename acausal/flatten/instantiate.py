@@ -52,7 +52,7 @@ class Instantiation:
             raise DeclarationError(not_settable(name, self.root, self.settable()))
         for name in sorted(set(free) - self._field_values.kept):
             if follows := self.parameters.bound.get(name):
-                raise DeclarationError(f"`{name}` follows {follows} and cannot be left free; leave that free.")
+                raise DeclarationError(f"`{name}` follows {follows} and cannot be free; free that instead.")
             raise DeclarationError(not_settable(name, self.root, self.settable()))
 
     def settable(self) -> list[str]:
@@ -114,8 +114,8 @@ class Instantiation:
         way = [kinds.get(".".join(names[:k]), "") for k in range(len(names))]
         once = " in ".join(dict.fromkeys([here.kind, *reversed(way[1:])]))
         raise DeclarationError(
-            f"{here.kind}, {here.where}: parts are nested more than {DEEPEST} deep ({once}, again and again; the last is "
-            f"`{'.'.join(names[:3])}...`). A component that contains itself must end somewhere: "
+            f"{here.kind}, {here.where}: parts are nested more than {DEEPEST} deep ({once}, repeatedly; the last is "
+            f"`{'.'.join(names[:3])}...`). A component that contains itself needs an end: "
             "`@part def inner(self): return None if self.n == 0 else ...`."
         )
 
@@ -216,7 +216,7 @@ def not_settable(name: str, root: Component, known: list[str]) -> str:
         for own, declared in component.fields.items():
             if isinstance(declared, f.Variable) and name == join(component._path, own):
                 make = f"{type(component).__name__}({own}=fixed(...))"
-                return f"`{name}` is a variable, not a parameter; its start value is given in the model: {make}."
+                return f"`{name}` is a variable, not a parameter; set its start value in the model: {make}."
     owner = name.rpartition(".")[0]
     kind = next((type(c).__name__ for c in walk(root) if c._path == owner), "") if owner else ""
     return unknown_name(name, known, kind)

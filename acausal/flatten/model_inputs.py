@@ -13,8 +13,8 @@ from acausal.language.component import Component
 from acausal.symbols import dense, scalars, vec
 
 REMEDY = (
-    "Pass it through a filter first, whose states have derivatives: exact=False of rotational.Position or rotational.Speed, "
-    "or an equation such as T * der(y) == {name} - y."
+    "Filter the input: exact=False in rotational.Position or rotational.Speed, or an equation such as "
+    "T * der(y) == {name} - y, whose y has a derivative."
 )
 
 
@@ -33,8 +33,8 @@ def refuse_rates_of_inputs(raw: CollectedStatements) -> None:
     found = [inputs[s.element_hash()] for s in ca.symvar(column) if s.element_hash() in inputs]
     if found:
         raise DeclarationError(
-            f"der() is applied to something that holds the input `{found[0]}`; its variation with time is unknown, so it has no "
-            f"derivative. {REMEDY.format(name=found[0])}"
+            f"der() is applied to an expression of the input `{found[0]}`, whose derivative is unknown. "
+            f"{REMEDY.format(name=found[0])}"
         )
 
 

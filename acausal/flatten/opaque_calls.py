@@ -35,10 +35,9 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     function = ca.Function("all", known, [everything], {"allow_free": True})
     if function.get_function():
         raise DeclarationError(
-            f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function that cannot be differentiated and "
-            "sorted as an equation, such as an interpolant or an external function. Write a table with piecewise((value, "
-            "condition), ..., otherwise), or as a polynomial; a function of elementary operations is written out where it "
-            "is called with SX."
+            f"{_place(raw, stated, others, _calls)}an expression calls a CasADi function whose operations are unknown, "
+            "such as an interpolant or an external function. Write a table with piecewise((value, condition), ..., "
+            "otherwise), or as a polynomial; call a function of elementary operations with SX, which expands it."
         )
     _refuse_varying(raw)
     if function.has_free():
@@ -64,8 +63,8 @@ def _refuse_varying(raw: CollectedStatements) -> None:
         found = [s for s in ca.symvar(array.nominal.sx) if s.element_hash() in varying]
         if found:
             raise DeclarationError(
-                f"{value_origin(array.owner, array.declared.name)}: the nominal value depends on `{found[0].name()}`, which "
-                "changes in a run; it takes numbers and parameters."
+                f"{value_origin(array.owner, array.declared.name)}: the nominal value depends on `{found[0].name()}`, "
+                "which changes in a run; it takes numbers and parameters."
             )
 
 
@@ -91,7 +90,7 @@ def _undeclared(symbol: ca.SX) -> str:
     name = symbol.name()
     word = name if name.isidentifier() else "q"
     return (
-        f"`{name}` is not a variable or parameter of this model: a symbol that CasADi made, or one of another built model. "
+        f"`{name}` is not a variable or parameter of this model, but a CasADi symbol or one of another built model. "
         f'Declare it in the class body, `{word}: Scalar = variable("...")` or `parameter("...")`, and use self.{word}.'
     )
 

@@ -58,11 +58,11 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
 def _wrong_name(bound: Component, port: Any) -> str:
     """Return the message for an invalid name of a port, "" for a valid one."""
     if not isinstance(port, str):
-        return f"a port is named by a text, not by {shown(port)}."
+        return f"the name of a port is a string, not {shown(port)}."
     if not port.isidentifier() or keyword.iskeyword(port) or port.startswith("_"):
         return (
-            f"{port!r} cannot be the name of a port, which is written behind a dot, `body.tip`: a name has letters, digits "
-            "and `_`, begins with a letter, and is no word of Python."
+            f"{port!r} cannot be the name of a port, `body.tip`: use letters, digits and `_`, begin with a letter, and "
+            "use no keyword of Python."
         )
     cls = type(bound)
     if port in bound.fields or port in vars(bound) or any(port in vars(base) for base in cls.__mro__):
@@ -74,7 +74,7 @@ def _wrong_name(bound: Component, port: Any) -> str:
 def no_part(value: Any) -> str:
     """Return the words for a value that is no part."""
     if isinstance(value, type):
-        return f"the class {value.__name__}: it is made by {value.__name__}(...)"
+        return f"the class {value.__name__}: write {value.__name__}(...)"
     if isinstance(value, Component) and value._is_bound:
         return f"{value._path or 'a model'}, a part of another model"
     return "a list in a list" if isinstance(value, list) else shown(value)

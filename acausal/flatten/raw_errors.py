@@ -17,24 +17,24 @@ from acausal.nearest import likeliest
 
 PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
 REMEDIES = {
-    NoneType: "It is a part or port that does not exist here, or the value of a method without `return`: use it only where it "
-    "is not None.",
-    list: "One of its entries is named by its number: self.links[0], or all of them by a loop.",
-    FunctionType: "Call it, self.law(), or mark it @part if it makes a part.",
-    MethodType: "Call it, self.law(), or mark it @part if it makes a part.",
+    NoneType: "It is a part or port that does not exist here, or the value of a method without `return`: use it only if "
+    "it is not None.",
+    list: "Select an entry by its index, self.links[0], or loop over all entries.",
+    FunctionType: "Call it, self.law(), or mark it @part if it returns a part.",
+    MethodType: "Call it, self.law(), or mark it @part if it returns a part.",
 }
 RAW = (
     (
         r"setting an array element with a sequence",
-        "an array of numpy holds numbers only. A vector with variables is a tuple, (self.x, 0, 0).",
+        "a numpy array contains numbers only. Write a vector with variables as a tuple, (self.x, 0, 0).",
     ),
     (
         r"'Expr' object is not callable",
-        "a variable or `time` is followed by brackets as if it were a function: write x, not x(t).",
+        "a variable or `time` is called like a function: write x, not x(t).",
     ),
     (
         r"does not support the context manager protocol",
-        "a statement such as when(...) is yielded, `yield when(condition, reinit(...))`, and not used by `with`.",
+        "a statement such as when(...) is yielded, `yield when(condition, reinit(...))`, and not used in `with`.",
     ),
     (
         r"list index out of range",
@@ -83,7 +83,7 @@ def _unknown(owner: Component, name: str) -> str:
         return f"{what}; did you mean `{near}`?"
     families = [known for known, field in owner.fields.items() if isinstance(field, Family)]
     if families:
-        return f"{what}; the ports that `{families[0]}` makes exist in connections() and equations()."
+        return f"{what}; the ports of `{families[0]}` exist in connections() and equations()."
     ports = [known for known, field in owner.fields.items() if isinstance(field, Part) and field.family]
     return f"{what}; its ports are {', '.join(ports)}." if ports else f"{what}."
 
@@ -102,16 +102,18 @@ def _of_casadi(name: str, error: Exception) -> str:
     if plain in FUNCTIONS:
         return f"`{plain}` is CasADi's; use acausal's: from acausal import {plain}."
     if name != "Function_call":
-        return f"`{plain}` is CasADi's and cannot take an expression of acausal; use sin, sqrt, abs, piecewise, ... of acausal."
+        return (
+            f"`{plain}` is CasADi's and cannot take an expression of acausal; use sin, sqrt, abs, piecewise, ... of it."
+        )
     called = [frame.f_locals.get("self") for frame, _ in traceback.walk_tb(error.__traceback__)]
     if any(isinstance(f, ca.Function) and (f.is_a("SXFunction") or f.is_a("MXFunction")) for f in called):
         return (
-            "a function of CasADi takes symbols of CasADi, not an expression of acausal: Expr(function(self.x.sx)), with Expr "
-            "from acausal."
+            "a function of CasADi takes symbols of CasADi, not an expression of acausal: Expr(function(self.x.sx)), "
+            "with Expr from acausal."
         )
     return (
-        "CasADi's table cannot take an expression of acausal. Write it as piecewise((y0 + (x - x0) * slope, x < x1), ..., "
-        "otherwise), or as a polynomial."
+        "CasADi's table cannot take an expression of acausal. Write it as piecewise((y0 + (x - x0) * slope, x < x1), "
+        "..., otherwise), or as a polynomial."
     )
 
 

@@ -50,7 +50,8 @@ def _directed(component: Component, wire: Wire, origin: Origin) -> tuple[Signal,
     if sum(takes) != 1:
         which = "take a value" if all(takes) else "give a value"
         raise ConnectError(
-            f"{origin}: `{wire.a!r}` and `{wire.b!r}` both {which}; connect an output to an input: connect(pid.y, drive.tau)."
+            f"{origin}: `{wire.a!r}` and `{wire.b!r}` both {which}; connect an output to an input: connect(pid.y, "
+            "drive.tau)."
         )
     return (wire.a, wire.b) if takes[0] else (wire.b, wire.a)
 

@@ -136,8 +136,8 @@ def spanning_tree(
     lost: list[Any] = [n for n in nodes if id(n) not in tree.reached]
     if lost:
         raise ConnectError(
-            f"{_owner_of(lost[0])}: {lost[0]._path} is connected neither to a root such as the World nor to a body that "
-            f"can move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
+            f"{_owner_of(lost[0])}: {lost[0]._path} is connected neither to a root such as the World nor to a body "
+            f"that can move freely{_also(lost[1:])}. Connect the part, for instance with chain(), or remove it."
         )
     cut = [(c, where) for _, c, where in connects if id(c.a) in tree.links and id(c) not in tree.used]
     return [Cut(c, where, tree.loop(c)) for c, where in cut], chosen

@@ -39,7 +39,7 @@ def structural_value(bound: Component, declared: f.Structural, given: Any, where
     if is_symbolic(value):
         raise DeclarationError(
             f"{where} is structural, fixed when the model is compiled: it cannot depend on {value!r}, which may change "
-            "later. Give numbers, or declare the parameter that it follows from by structural(...)."
+            "later. Give numbers, or declare the parameter on which it depends structural(...)."
         )
     if declared.choices is not None:
         shape = declared.shape
@@ -90,7 +90,9 @@ def _of_class(value: Any, declared: f.Structural, where: str) -> Any:
         raise DeclarationError(f"{where}: {error}") from None
     except (OSError, ValueError, KeyError, EOFError) as error:
         why = getattr(error, "strerror", None) or str(error)
-        raise DeclarationError(f"{where}: {os.fspath(value)!r} holds no {cls.__name__}: {why.rstrip('.')}.") from error
+        raise DeclarationError(
+            f"{where}: {os.fspath(value)!r} contains no {cls.__name__}: {why.rstrip('.')}."
+        ) from error
     if not data.fits(found, cls):
         wanted = data.expected(cls, optional=declared.default is None)
         raise DeclarationError(f"{where} is {_written(found)}; it must be {wanted}.")

@@ -20,9 +20,9 @@ from acausal.symbols import scalars
 
 MOST, SHORT = 5, 3
 UNCONNECTED = "Not connected"
-OUT = "take one of them out"
-KNOWN = "what is known before: parameters (default=..., or given where the part is made), inputs (given or 0), time."
-DECLARED = "What an equation is to determine is declared variable(...)."
+OUT = "remove one of them"
+KNOWN = "known values: parameters (default=..., or given where the part is created), inputs (given or 0), time."
+DECLARED = "Declare the unknown of an equation variable(...)."
 
 
 def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -> str:
@@ -70,7 +70,7 @@ def _too_many(flat: FlatModel, part: Subsystem) -> list[str]:
     lines, remedy = _determined(flat, part)
     if any("(inherited from " in line for line in lines):
         remedy += (
-            " What is inherited comes by `yield from super().equations()`; leave that out where all of it is replaced."
+            " Inherited equations come from `yield from super().equations()`; remove that if you replace all of them."
         )
     if flat.loops.cuts:
         remedy += " Where rigid parts close a loop, their lengths cannot all be prescribed: add a joint or a spring."
@@ -96,7 +96,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     if users and others:
         one = len(users) == 1
         head = "This equation has" if one else "One of these equations has"
-        held = f"These already determine what {'it holds' if one else 'they hold'}:"
+        held = f"These equations already determine {'its' if one else 'their'} unknowns:"
         remedy = "Remove it." if one else rivals or "Remove one of yours."
         return [f"{head} no unknown left to determine:", *users, held, *others], remedy
     if not n:
@@ -104,7 +104,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     count = f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):"
     own = _lines(inside, bases)
     given = [line for line in users if line not in own]
-    lines = [count, *own, *(["with others that are given by:", *given] if given else [])]
+    lines = [count, *own, *(["with other unknowns given by:", *given] if given else [])]
     return lines, rivals or "One of them is too many: remove it."
 
 
@@ -113,7 +113,7 @@ def _rivals(users: Iterable[Origin]) -> str:
     names = [f"`{path}`" for path in dict.fromkeys(o.path for o in users)]
     if "``" in names or not 1 < len(names) <= MOST:
         return ""
-    return f"{', '.join(names[:-1])} and {names[-1]} determine the same: {OUT}."
+    return f"{', '.join(names[:-1])} and {names[-1]} determine the same quantity: {OUT}."
 
 
 def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str], str]:
@@ -123,20 +123,20 @@ def _known(flat: FlatModel, rows: list[int], lines: list[str]) -> tuple[list[str
     inside = {s.element_hash() for e in rows for s in ca.symvar(residuals[e])}
     symbols = zip(own.names, scalars(own.symbols), strict=True)
     held = dict.fromkeys(name.partition("[")[0] for name, s in symbols if s.element_hash() in inside)
-    it = "It holds" if len(lines) == 1 else "They hold"
+    it = "It contains" if len(lines) == 1 else "They contain"
     if not held:
         what = "time and numbers." if inside == {time.sx.element_hash()} else KNOWN
         return [head, *lines], f"{it} only {what} Remove it. {DECLARED}"
     declared = {join(c._path, name): d for c in walk(flat.tree) for name, d in c.fields.items()}
     what = [
-        f"`{name}` is {'an input of the model (0 unless given)' if isinstance(declared.get(name), Variable) else 'a parameter'}"
-        for name in held
+        f"`{name}` is {'an input of the model (0 if none is given)' if is_input else 'a parameter'}"
+        for name, is_input in ((name, isinstance(declared.get(name), Variable)) for name in held)
     ]
     first = f"{', '.join(what[:SHORT])}. Declare"
     remedy = (
-        f"{first} it variable(...) if the equation is to determine it; or remove the equation."
+        f"{first} it variable(...) if the equation should determine it; or remove the equation."
         if len(held) == 1
-        else f"{first} the one that is to follow from this variable(...); or remove the equation."
+        else f"{first} the one that the equation should determine variable(...); or remove the equation."
     )
     return [head, *lines], remedy
 
@@ -168,7 +168,7 @@ def _too_few(flat: FlatModel, part: Subsystem) -> list[str]:
         if hints
         else "Add the missing equation"
     )
-    remedy += " values (in the class, or where the part is made) or equations." if hints and not ports else "."
+    remedy += " values (in the class, or where the part is created) or equations." if hints and not ports else "."
     zero = " A mass or inertia of 0 at a free end also leaves a motion undetermined." if ports else ""
     return [*lines, remedy + zero]
 
@@ -183,8 +183,8 @@ def _repeats(flat: FlatModel) -> list[str]:
         ((own, [o for o in own if is_stated_by_user(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
     )
     lines = _lines(users if len(users) > 1 else [*users, *(o for o in stated if o not in users)], {})
-    remedy = _rivals(users) or "Replace one of them, or take out a part that determines the same as another."
-    return ["One of these equations repeats what the others say, and determines nothing:", *lines, remedy]
+    remedy = _rivals(users) or "Replace one of them, or remove a part that determines the same quantity as another."
+    return ["One of these equations follows from the others, and determines nothing:", *lines, remedy]
 
 
 def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
@@ -192,9 +192,10 @@ def _implicit(flat: FlatModel, part: Subsystem) -> list[str]:
     names, known = flat.unknowns.names, [v for v in part.variables if v < len(flat.unknowns.names)]
     return [
         f"The motion is constrained through {', '.join(f'`{names[v]}`' for v in known[:MOST])}, "
-        "which these equations give together only:",
+        "which these equations determine only simultaneously:",
         *_equations(flat, part),
-        "Take a part out that holds what others hold, or let it be elastic; or give each an explicit equation.",
+        "Remove a part that imposes the same constraint as another, or make it elastic; or give each an explicit "
+        "equation.",
     ]
 
 

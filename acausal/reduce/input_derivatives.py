@@ -24,6 +24,6 @@ def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
         found = [inputs[s.element_hash()] for s in ca.symvar(residuals[equation]) if s.element_hash() in inputs]
         if found:
             raise DeclarationError(
-                f"{flat.equations.origins[equation]}: this equation prescribes a motion through the input `{found[0]}`, whose "
-                f"derivatives are needed too; its variation with time is unknown, so it has none. {REMEDY.format(name=found[0])}"
+                f"{flat.equations.origins[equation]}: this equation prescribes a motion by the input `{found[0]}`, "
+                f"whose derivatives are needed but unknown. {REMEDY.format(name=found[0])}"
             )

@@ -103,7 +103,7 @@ class Decays(Model):
         ({"body.rates": None}, "is None; it must be a Rates"),
         ({"body.rates": np.ones(3)}, "it must be a Rates"),
         ({"body.rates": np.ones(300)}, r"is an array of shape \(300,\); it must be a Rates"),
-        ({"body.rates": "none.txt"}, "'none.txt' holds no Rates: .*none.txt not found"),
+        ({"body.rates": "none.txt"}, "'none.txt' contains no Rates: .*none.txt not found"),
         ({"body.modes": 2.5}, r"is 2\.5; it must be a whole number, or None\."),
         ({"body.modes": True}, r"is True; it must be a whole number, or None\."),
         ({"body.modes": "2"}, r"is '2'; it must be a whole number, or None\."),
@@ -141,7 +141,7 @@ def test_a_file_name_stands_for_what_the_class_loads(tmp_path):
     with pytest.raises(DeclarationError, match=r"`rates` of body \(.*\): rates.txt has rates that are not positive\."):
         ac.compile(Decays(), {"body.rates": path})
     path.write_text("one\n")
-    with pytest.raises(DeclarationError, match=r"rates.txt' holds no Rates: could not convert string 'one'"):
+    with pytest.raises(DeclarationError, match=r"rates.txt' contains no Rates: could not convert string 'one'"):
         ac.compile(Decays(), {"body.rates": path})
 
 
@@ -290,7 +290,7 @@ def test_a_file_name_on_the_command_line(tmp_path):
     assert done.returncode == 0, done.stderr
     assert float(table.read_text().split(",")[-1]) == pytest.approx(np.exp(-1) + np.exp(-5), rel=1e-4)
     for wrong, message in (
-        ("nothing.txt", "holds no Rates: "),
+        ("nothing.txt", "contains no Rates: "),
         ("3", "is 3; it must be a Rates, or the name of its file"),
     ):
         done = run(wrong)

@@ -38,7 +38,7 @@ def test_discrete_variables_are_needed():
             yield self.law(mode=0)
 
     with pytest.raises(
-        DeclarationError, match=r"set_valued needs discrete variables, and `v` is none(.|\n)*discrete\("
+        DeclarationError, match=r"set_valued needs discrete variables, but `v` is not discrete(.|\n)*discrete\("
     ):
         ac.compile(State())
     with pytest.raises(

@@ -218,7 +218,7 @@ class Own(Rate):
 
 
 def test_a_circle_of_defaults_is_named():
-    with pytest.raises(DeclarationError, match="Circle depend on each other in a circle: a -> b -> c -> a"):
+    with pytest.raises(DeclarationError, match="Circle depend on each other in a cycle: a -> b -> c -> a"):
         ac.compile(Circle())
     with pytest.raises(DeclarationError, match="n -> n"):
         ac.compile(Own())
