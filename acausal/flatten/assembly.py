@@ -33,7 +33,7 @@ from acausal.symbols import dense, picked, scalars, stacked
 
 
 @dataclass(frozen=True)
-class _Left:
+class _Remaining:
     """Remaining unknowns and equations after the propagation.
 
     Parameters
@@ -113,7 +113,7 @@ class Assembly:
             counts=self._counts(left),
         )
 
-    def _simplified(self) -> _Left:
+    def _simplified(self) -> _Remaining:
         """Propagate constants and aliases."""
         own = stacked(self.raw.build.parameters.symbols)
         given = ca.vertcat(own, time.sx, initial.sx, feedback.sx, self.discontinuities.constants)
@@ -128,9 +128,9 @@ class Assembly:
         rows = [r for r in range(len(self.origins)) if r not in done.used and r not in unused]
         chained = {k for k, up in enumerate(done.derivative) if up >= 0} | {up for up in done.derivative if up >= 0}
         needed = chained | present | set(range(self.size))
-        return _Left(done, values, sorted(needed.difference(done.solved)), rows, present)
+        return _Remaining(done, values, sorted(needed.difference(done.solved)), rows, present)
 
-    def _unknowns(self, left: _Left, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
+    def _unknowns(self, left: _Remaining, eliminated: tuple[ca.SX, ca.SX]) -> FlatUnknowns:
         found = attributes(self.raw, self.lower, self._jumping(), left.done.solved)
         own = [found[k] for k in left.unknowns]
         at = [k for k in self.declared if k in left.place]
@@ -149,7 +149,7 @@ class Assembly:
             eliminated=eliminated,
         )
 
-    def _equations(self, left: _Left, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
+    def _equations(self, left: _Remaining, residuals: ca.SX, eliminated: tuple[ca.SX, ca.SX]) -> FlatEquations:
         kept, defines = left.done.kept, self._defines(left)
         place = {row: residuals.numel() + k for k, row in enumerate(kept)}
         residuals = ca.vertcat(residuals, expressions(list(kept.values()), self.symbols))
@@ -196,7 +196,7 @@ class Assembly:
             structural_zeros=tuple(own.structural_zeros),
         )
 
-    def _counts(self, left: _Left) -> dict[str, int]:
+    def _counts(self, left: _Remaining) -> dict[str, int]:
         done = left.done
         return {
             "equations_flat": len(self.origins) - len(self.substitutes) - len(done.left),
@@ -215,7 +215,7 @@ class Assembly:
         derivatives = scalars(stacked(self.chain.levels[1:]))
         return {k for k, s in enumerate(derivatives, self.size) if s.element_hash() in inside}
 
-    def _rates(self, left: _Left) -> set[int]:
+    def _rates(self, left: _Remaining) -> set[int]:
         """Return the hashes of unknowns whose presence makes an equation of a part no constraint."""
         found = [k for k in left.unknowns if k not in self.declared and left.done.derivative[k] < 0]
         return rates(picked(self.symbols, found), self.raw.declared, self.raw.index, self.declared)
@@ -240,7 +240,7 @@ class Assembly:
             rank[k] += 5 * DECLARED
         return rank
 
-    def _defines(self, left: _Left) -> dict[int, int]:
+    def _defines(self, left: _Remaining) -> dict[int, int]:
         """Return, for remaining residuals, the declared unknown on the left-hand side, itself or by an alias."""
         own: dict[int, int] = {}
         alias: dict[int, int] = {}

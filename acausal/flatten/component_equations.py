@@ -93,7 +93,7 @@ def collect(
                     lambda n=name, v=value, c=component, o=origin: found.add(_input_equation(c, n, v), o), origin
                 )
                 PENDING.get().place(origin)
-    _take_defaults(found, defaults)
+    _add_defaults(found, defaults)
     first = len(found.sides)
     for connector in graph.roots:
         _run(connector, "root_equations", found, most, reuse)
@@ -105,7 +105,7 @@ def collect(
     return found
 
 
-def _take_defaults(found: Equations, defaults: list[DeferredInput]) -> None:
+def _add_defaults(found: Equations, defaults: list[DeferredInput]) -> None:
     """Add default values of inputs, unless a containing component states the input alone on a side of an equation."""
     alone = _alone(found, slice(0, 2)) if defaults else {}
     for component, name, value, origin in defaults:
@@ -164,7 +164,7 @@ def _close(graph: Graph, found: Equations) -> None:
         ways = [*others, *((second, first) for first, second in others)]
         sides = ((_side(a, b, ways, groups), 1), (_side(b, a, ways, groups), -1))
         across = min(([(c, sign * sense) for c, sign in balance if id(c) in side] for side, sense in sides), key=len)
-        sent = _sent(a, across)
+        sent = _sum_of_side(a, across)
         origin = Origin("", f"connection of {a._path} and {b._path}", cut.where, "closing a loop")
         for (statement, dual), _ in entries(sent.residual(b), method_origin(a, "residual"), "residual"):
             number = len(found.sides)
@@ -184,7 +184,7 @@ def _around(graph: Graph) -> list[list[Balance]]:
     return [[balance for balance in of[id(a)] if any(c is b for c, _ in balance)] for a, b in ends]
 
 
-def _sent(a: Connector, across: list[tuple[Connector, int]]) -> Connector:
+def _sum_of_side(a: Connector, across: list[tuple[Connector, int]]) -> Connector:
     """Return a copy of a connector with the sum of the flows of its side of a connection."""
     sent = copy(a)
     for name, declared in a.fields.items():

@@ -61,7 +61,7 @@ class FieldValues:
 
     Attributes
     ----------
-    late : list of (Component, str, callable, Origin)
+    deferred : list of (Component, str, callable, Origin)
         Inputs of parts whose values may contain variables; they are evaluated when these exist.
     defaults : list of (Component, str, callable, Origin)
         Inputs of parts with a default, likewise.
@@ -71,7 +71,7 @@ class FieldValues:
         self.overrides = dict(overrides or {})
         self.free, self.kept = set(free), set[str]()
         self.parameters = Parameters()
-        self.late: list[DeferredInput] = []
+        self.deferred: list[DeferredInput] = []
         self.defaults: list[DeferredInput] = []
         self._open: list[tuple[Component, str]] = []
 
@@ -93,7 +93,7 @@ class FieldValues:
                     value = own["_values"][name] = bound._class_values[name]
                     if owner is not None and takes_variables(declared, value):
                         here = value_origin(bound, name, text=f"default of {name}")
-                        self.late.append((bound, name, partial(self._of_class, bound, name), here))
+                        self.deferred.append((bound, name, partial(self._of_class, bound, name), here))
                     else:
                         own["_values"][name] = self._of_class(bound, name)
                 if owner is None and declared.causality == "input":

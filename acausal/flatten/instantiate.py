@@ -66,7 +66,7 @@ class Instantiation:
 
     def give_inputs(self, connected: list[DeferredInput]) -> None:
         """Set the inputs of parts; the variables that their values may contain must exist."""
-        for bound, name, value, origin in (*self._field_values.late, *connected):
+        for bound, name, value, origin in (*self._field_values.deferred, *connected):
             vars(bound)["_values"][name] = with_place(value, origin)
             PENDING.get().place(origin)
 
@@ -93,7 +93,7 @@ class Instantiation:
         own["_values"] = values = dict(template._values)
         for name, value in template._values.items():
             if owner is not None and takes_variables(cls.fields.get(name), value):
-                self._field_values.late.append((bound, name, lambda v=value: f.evaluate(v, owner), here))
+                self._field_values.deferred.append((bound, name, lambda v=value: f.evaluate(v, owner), here))
             else:
                 values[name] = with_place(lambda v=value: f.evaluate(v, owner), here)
         self.components.append(bound)
