@@ -1,4 +1,4 @@
-"""Names that are meant by others: slips of spelling, parts of a name, words in common."""
+"""Suggestions for unknown names: misspellings, parts of names, common words."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Interrupts are raised wherever they come, though CasADi passes over what a handler raises while it converts arguments."""
+"""Interrupts are raised everywhere, also where CasADi ignores them while it converts arguments."""
 
 from __future__ import annotations
 

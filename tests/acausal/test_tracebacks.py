@@ -1,4 +1,4 @@
-"""An uncaught error in a script shows the user's lines, without those of libraries and chained errors."""
+"""Uncaught errors in scripts show the user's lines, without libraries and chained errors."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Whose an equation is, where the user's class stands in no file."""
+"""Owner of an equation if the class of the user is in no file."""
 
 from __future__ import annotations
 

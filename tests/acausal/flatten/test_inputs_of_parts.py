@@ -1,4 +1,4 @@
-"""Models with an input of their own as parts of larger ones."""
+"""Models with inputs as parts of larger models."""
 # ruff: noqa: RUF012  (lists of parts in a class body)
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Linear values of operations, on expressions whose values are known."""
+"""Linear values of operations agree with the values of their expressions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Calls of CasADi functions that cannot be written out are refused; those of elementary operations are not."""
+"""Opaque CasADi calls raise errors; calls of elementary operations are expanded."""
 
 import casadi as ca
 import numpy as np

@@ -1,4 +1,4 @@
-"""Ports whose names are known only in an instance: what a named port can do, one of a family can."""
+"""Ports of families work like ports with fixed names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Structural values that are data: objects of a class, checked, compared, shown, read from files and sent."""
+"""Structural values that are objects: checked, compared, shown, read from files and sent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hints at the parameter or the argument that is meant."""
+"""Suggestions for misspelt parameters and arguments."""
 
 from __future__ import annotations
 

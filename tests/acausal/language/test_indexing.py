@@ -1,4 +1,4 @@
-"""Entries of symbolic arrays are those that numpy chooses."""
+"""Indexing of symbolic arrays agrees with numpy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values that are set where they cannot be: refused, with the mend."""
+"""Assignments to fields of instances and built models raise errors with the remedy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that are not fields: nothing is ignored that was meant as a field, a part, a setting or a method."""
+"""Names similar to fields, parts, settings or methods raise errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""set_valued(): what it takes, and where it is yielded."""
+"""Arguments of set_valued(), and the method that yields it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nothing that is set is ignored: in a class body it works, elsewhere it works or is refused with the way that works."""
+"""Settings in a class body take effect; elsewhere they take effect or raise an error with the remedy."""
 
 from __future__ import annotations
 

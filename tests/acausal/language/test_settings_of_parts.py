@@ -1,4 +1,4 @@
-"""Parts set in a class body: left out, replaced, added."""
+"""Parts in a class body: removed, replaced, added."""
 
 from __future__ import annotations
 

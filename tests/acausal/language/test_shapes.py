@@ -1,4 +1,4 @@
-"""Arrays keep the shape that they are declared with, one entry among them: they are numpy's, operation by operation."""
+"""Arrays keep their declared shape, also with one entry, in all operations of numpy."""
 
 from __future__ import annotations
 

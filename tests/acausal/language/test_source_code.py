@@ -1,4 +1,4 @@
-"""Slips that are read from the text of a class: refused when it is built, allowed where they are meant."""
+"""Errors found in the source code of a class when it is built, and valid code that resembles them."""
 
 from __future__ import annotations
 

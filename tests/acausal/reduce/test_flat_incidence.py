@@ -1,4 +1,4 @@
-"""The incidence of residuals: which coefficients are known before the run."""
+"""Incidence of residuals, and their constant coefficients."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Inputs of the whole model: their derivatives are not known, and a filter has some."""
+"""Inputs of the whole model have no derivatives; filtered inputs have."""
 
 from __future__ import annotations
 
