@@ -53,7 +53,7 @@ def read_instructions(function: ca.Function) -> Instructions:
     inputs: list[Sequence[int]] = list(map(function.instruction_input, every))
     nodes = [k for k in every if ids[k] != OUTPUT]
     if function.sz_w() < len(nodes):
-        inputs = _unslotted(function, ids, inputs)
+        inputs = _operands(function, ids, inputs)
     op, arguments = [ids[k] for k in nodes], [inputs[k] for k in nodes]
     place = {node: (some[0], some[1]) for node, (o, some) in enumerate(zip(op, arguments, strict=True)) if o == INPUT}
     constant = {node: function.instruction_constant(nodes[node]) for node, o in enumerate(op) if o == CONSTANT}
@@ -66,7 +66,7 @@ def read_instructions(function: ca.Function) -> Instructions:
     return Instructions(op, arguments, constant, place, results)
 
 
-def _unslotted(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]) -> list[Sequence[int]]:
+def _operands(function: ca.Function, ids: list[int], inputs: list[Sequence[int]]) -> list[Sequence[int]]:
     """Return the operands of each instruction as operations instead of work slots."""
     node, slot, found = 0, dict[int, int](), list[Sequence[int]]()
     for k, (op, given) in enumerate(zip(ids, inputs, strict=True)):

@@ -152,13 +152,13 @@ def _close(graph: Graph, found: Equations) -> None:
     The side with fewer flows is used.
     """
     groups = {id(c): group for group in graph.same for c in group}
-    around = _around(graph)
+    balances_at_cuts = _balances_at_cuts(graph)
     within: dict[int, list[Cut]] = {}
-    for cut, balances in zip(graph.cuts, around, strict=True):
+    for cut, balances in zip(graph.cuts, balances_at_cuts, strict=True):
         for balance in balances:
             within.setdefault(id(balance), []).append(cut)
     row = sum(r.numel() for r in found.residuals) if graph.cuts else 0
-    for cut, (balance, *_) in zip(graph.cuts, around, strict=True):
+    for cut, (balance, *_) in zip(graph.cuts, balances_at_cuts, strict=True):
         a, b = cut.statement.a, cut.statement.b
         others = [(c.statement.a, c.statement.b) for c in within[id(balance)] if c is not cut]
         ways = [*others, *((second, first) for first, second in others)]
@@ -174,7 +174,7 @@ def _close(graph: Graph, found: Equations) -> None:
             row += found.residuals[-1].numel()
 
 
-def _around(graph: Graph) -> list[list[Balance]]:
+def _balances_at_cuts(graph: Graph) -> list[list[Balance]]:
     """Return, for each cut, the flow balances that contain both of its ends."""
     of: dict[int, list[Balance]] = {}
     for balance in graph.balances if graph.cuts else ():

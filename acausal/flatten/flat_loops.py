@@ -78,12 +78,12 @@ def _loop(
     dropped = [c for c in own if c.row in redundant]
     found = sorted({raw.index.get(s.element_hash(), -1) for c in dropped for s in ca.symvar(c.dual)})
     undetermined = tuple(flows[k][0] for k in found if k >= 0 and flows[k][1] and values[k] == (0.0, ()))
-    parts = tuple(part._path for part in cut.loop if _moves(part))
+    parts = tuple(part._path for part in cut.loop if _has_states(part))
     ends = cut.statement
     kind = ends.a.loop_kind(undetermined)
     return Loop(ends.a._path, ends.b._path, cut.where, parts, len(own), len(dropped), undetermined, kind)
 
 
-def _moves(part: Any) -> bool:
+def _has_states(part: Any) -> bool:
     """Return whether a component has variables that are preferred as states."""
     return any(isinstance(d, f.Variable) and d.select > 0 for d in part.fields.values())

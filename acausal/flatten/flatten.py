@@ -11,7 +11,7 @@ from acausal.flatten.assembly import Assembly
 from acausal.flatten.collected_statements import CollectedStatements, collect_statements
 from acausal.flatten.derivatives import Derivatives
 from acausal.flatten.flat_model import FlatModel
-from acausal.flatten.model_inputs import refuse_rates_of_inputs
+from acausal.flatten.model_inputs import refuse_input_derivatives
 from acausal.flatten.opaque_calls import refuse_opaque_expressions
 from acausal.flatten.origin import Origin
 from acausal.language.component import Component
@@ -46,7 +46,7 @@ def flatten(model: Component, overrides: Mapping[str, Any] | None = None, free: 
     chain = Derivatives(raw.variables, {k: e for k, e in declared.items() if k not in integrated})
     placeholders, derivatives = chain.resolve(raw.pending.derivatives)
 
-    refuse_rates_of_inputs(raw)
+    refuse_input_derivatives(raw)
 
     def resolved(expressions: list[ca.SX]) -> list[ca.SX]:
         return ca.substitute(expressions, [placeholders], [derivatives])

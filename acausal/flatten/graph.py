@@ -59,7 +59,7 @@ def build_graph(components: list[Component]) -> Graph:
     for component in components:
         for statement, origin in _connecting(component):
             if isinstance(statement, Connect | Branch | Root):
-                _refuse_strangers(statement, own, origin)
+                _refuse_ports_of_other_models(statement, own, origin)
             if isinstance(statement, Connect):
                 connects.append((component, statement, origin.where))
             elif isinstance(statement, Wire):
@@ -70,11 +70,11 @@ def build_graph(components: list[Component]) -> Graph:
                 roots.append(statement)
             else:
                 raise ConnectError(f"{origin}: {misplaced(statement, 'connections')}")
-    _refuse_doubles(connects)
+    _refuse_duplicates(connects)
     try:
         cuts, chosen = spanning_tree(connectors, connects, branches, roots)
     except ConnectError:
-        _refuse_elsewhere(components)
+        _refuse_connections_in_equations(components)
         raise
     for cut in cuts:
         for part in cut.loop:
@@ -109,13 +109,13 @@ def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
     found = with_place(component.connections, here)
     if found is None:
         raise ConnectError(f"{here}: {returned(found, 'connections')}")
-    return entries(found if isinstance(found, _SEVERAL) else (found,), here, "connections", nested=_SEVERAL)
+    return entries(found if isinstance(found, _ITERABLES) else (found,), here, "connections", nested=_ITERABLES)
 
 
-_SEVERAL = (Iterator, list, tuple)  # no other iterables: iterating over a string gives strings again
+_ITERABLES = (Iterator, list, tuple)  # no other iterables: iterating over a string gives strings again
 
 
-def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
+def _refuse_ports_of_other_models(statement: Connect | Branch | Root, own: set[int], origin: Origin) -> None:
     """Raise ConnectError for a port of another built model."""
     for port in (statement.connector,) if isinstance(statement, Root) else (statement.a, statement.b):
         if id(port) not in own:
@@ -125,7 +125,7 @@ def _refuse_strangers(statement: Connect | Branch | Root, own: set[int], origin:
             )
 
 
-def _refuse_elsewhere(components: list[Component]) -> None:
+def _refuse_connections_in_equations(components: list[Component]) -> None:
     """Raise ConnectError for connections in equations(), the likely reason for an unconnected part."""
     for component in components:
         word = calls(type(component).equations, "connect", "chain")
@@ -136,7 +136,7 @@ def _refuse_elsewhere(components: list[Component]) -> None:
             )
 
 
-def _refuse_doubles(connects: list[tuple[Component, Connect, str]]) -> None:
+def _refuse_duplicates(connects: list[tuple[Component, Connect, str]]) -> None:
     seen: dict[frozenset[int], str] = {}
     for component, statement, where in connects:
         pair = frozenset((id(statement.a), id(statement.b)))

@@ -11,12 +11,12 @@ from acausal.errors import PACKAGE, AcausalError, DeclarationError
 from acausal.flatten.component_tree import join, members, walk
 from acausal.flatten.field_values import DeferredInput, FieldValues, owner_text, takes_variables
 from acausal.flatten.origin import MOST, Origin, refuse_endless, with_place
-from acausal.flatten.port_family import enter_family, no_part
+from acausal.flatten.port_family import enter_family, invalid_part
 from acausal.language import fields as f
 from acausal.language.body import refuse_late_fields
 from acausal.language.component import Component, Connector
 from acausal.language.pending import PENDING
-from acausal.language.source_code import refuse_dropped, returns_nothing
+from acausal.language.source_code import refuse_ineffective_code, returns_nothing
 from acausal.language.value_checks import refuse_constructor, shown
 from acausal.nearest import missing
 
@@ -81,11 +81,11 @@ class Instantiation:
         if not template._origin:
             refuse_constructor(cls)
         if cls not in self._classes:
-            refuse_dropped(cls)
+            refuse_ineffective_code(cls)
             refuse_late_fields(cls)
             self._classes.add(cls)
         if path.count(".") >= DEEPEST:
-            self._refuse_nest(here)
+            self._refuse_nesting(here)
         bound = cls.__new__(cls)
         own = vars(bound)
         own.update(vars(template))  # attributes set by a constructor of the user
@@ -107,7 +107,7 @@ class Instantiation:
         bound._ports = tuple(member for member in members(bound) if isinstance(member, Connector))
         return bound
 
-    def _refuse_nest(self, here: Origin) -> None:
+    def _refuse_nesting(self, here: Origin) -> None:
         """Raise DeclarationError for a part that is too deep, with the classes on its path."""
         kinds = {c._path: type(c).__name__ for c in self.components}
         names = here.path.split(".")
@@ -136,7 +136,7 @@ class Instantiation:
                 f"{place}: @parts decorates a method that returns a list of parts, not {shown(made)}."
             )
         if made is None and declared.make is not None and not declared.is_port:
-            _refuse_lost(declared, place)
+            _refuse_missing_return(declared, place)
         return None if made is None else self._member(bound, made, path)
 
     def _family(self, bound: Component, name: str, declared: f.Family) -> None:
@@ -164,7 +164,7 @@ class Instantiation:
     def _member(self, bound: Component, template: Component, path: str) -> Component:
         if not isinstance(template, Component) or template._is_bound:
             raise DeclarationError(
-                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {no_part(template)}."
+                f"{Origin.of(bound)}: `{path}` must be a part, such as Body(m=1), not {invalid_part(template)}."
             )
         built = self._build(template, path, bound)
         if isinstance(built, Connector):
@@ -199,7 +199,7 @@ def _check(component: Component) -> None:
         raise
 
 
-def _refuse_lost(declared: f.Part, place: Origin) -> None:
+def _refuse_missing_return(declared: f.Part, place: Origin) -> None:
     """Raise DeclarationError for a method marked @part without `return`; only an explicit None leaves the part out."""
     if returns_nothing(declared.make):
         raise DeclarationError(f"{place}: this method returns nothing; write `return` before the part.")

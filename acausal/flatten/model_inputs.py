@@ -24,7 +24,7 @@ def inputs_of(tree: Component) -> dict[int, str]:
     return {s.element_hash(): name for name in names for s in _symbols(getattr(tree, name).sx)}
 
 
-def refuse_rates_of_inputs(raw: CollectedStatements) -> None:
+def refuse_input_derivatives(raw: CollectedStatements) -> None:
     """Raise DeclarationError if der() is applied to an expression that contains an input of the whole model."""
     inputs = inputs_of(raw.build.root)
     if not inputs or not raw.pending.derivatives:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from acausal.errors import AcausalError, DeclarationError, line_in
-from acausal.flatten.raw_errors import in_words
+from acausal.flatten.raw_errors import python_error_message
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
 from acausal.language.statement_kinds import returned
@@ -97,7 +97,7 @@ def with_place(call: Callable[[], Any], origin: Origin) -> Any:
     except RecursionError as error:
         raise DeclarationError(f"{_place(error, origin)}: infinite recursion.") from None
     except Exception as error:
-        raise DeclarationError(f"{_place(error, origin)}: {in_words(error)}") from error
+        raise DeclarationError(f"{_place(error, origin)}: {python_error_message(error)}") from error
 
 
 def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> None:

@@ -50,7 +50,7 @@ def add_constraints(
         rows = range(first[statements.start], first[statements.stop])
         own, given = _unknowns(component, index)
         stated, reactions = _constraints_and_reactions({row: columns[row] for row in rows}, own, given)
-        duals = _working([residuals[row] for row in stated], component, [variables[k] for k in reactions])
+        duals = _constraint_flows([residuals[row] for row in stated], component, [variables[k] for k in reactions])
         for row, dual in zip(stated, duals, strict=True):
             if not dual.is_zero():
                 equations.closures.append(Closure(row, dual, None, statement_of[row]))
@@ -162,7 +162,7 @@ def _matched(order: Iterable[int], neighbours: Mapping[int, set[int]]) -> set[in
     return {member for member in order if augment(member, set())}
 
 
-def _working(constraints: list[ca.SX], component: Component, reactions: list[ca.SX]) -> list[ca.SX]:
+def _constraint_flows(constraints: list[ca.SX], component: Component, reactions: list[ca.SX]) -> list[ca.SX]:
     """Return the flow that works on each constraint; for a constraint of positions, on its time derivative.
 
     For dependent constraints of one component, the flows of its ports do not determine the share of each; there the

@@ -43,7 +43,7 @@ def enter_family(bound: Component, name: str, declared: f.Family, made: Any) -> 
             # Names depend on constructor arguments, so the line of the construction is shown.
             raise DeclarationError(f"{Origin.of(bound)}: {wrong}")
         if not isinstance(template, Connector) or template._is_bound:
-            raise DeclarationError(f"{place}: `{port}` must be a port, such as Frame(), not {no_part(template)}.")
+            raise DeclarationError(f"{place}: `{port}` must be a port, such as Frame(), not {invalid_part(template)}.")
     ports = {
         port: f.Part(declared.description, make=template, is_port=True, name=port, family=name)
         for port, template in made.items()
@@ -71,7 +71,7 @@ def _wrong_name(bound: Component, port: Any) -> str:
     return ""
 
 
-def no_part(value: Any) -> str:
+def invalid_part(value: Any) -> str:
     """Return the words for a value that is no part."""
     if isinstance(value, type):
         return f"the class {value.__name__}: write {value.__name__}(...)"

@@ -43,7 +43,7 @@ RAW = (
 )
 
 
-def in_words(error: Exception) -> str:
+def python_error_message(error: Exception) -> str:
     """Return the message for an error, with the remedy where it is known.
 
     Parameters
@@ -54,7 +54,7 @@ def in_words(error: Exception) -> str:
     if isinstance(error, AttributeError) and isinstance(error.obj, Component) and error.name not in error.obj.fields:
         return _unknown(error.obj, error.name or "")
     if isinstance(error, AttributeError) and isinstance(error.obj, Component):
-        return _too_early(error)
+        return _read_in_connections(error)
     if isinstance(error, AttributeError) and isinstance(error.obj, Expr):
         return (
             f"{error.obj!r} is an expression and has no `{error.name}`: use operators and functions, such as dot(a, b)."
@@ -88,7 +88,7 @@ def _unknown(owner: Component, name: str) -> str:
     return f"{what}; its ports are {', '.join(ports)}." if ports else f"{what}."
 
 
-def _too_early(error: AttributeError) -> str:
+def _read_in_connections(error: AttributeError) -> str:
     """Return the message for a variable that is read in connections(), most likely in an equation."""
     ours = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith(PACKAGE)]
     if ours and ours[-1].name == "connections" and re.search(r"yield\b.*==", ours[-1].line or ""):

@@ -152,7 +152,7 @@ class Simplifier:
         """Use `value == 0`, a residual or its derivative, to remove an unknown; return False if none may be removed."""
         c0, terms = value
         pivots = [term for term in terms if self._may_divide(term, terms)]
-        candidates = sorted(pivots, key=lambda term: (self._standing(term[0]), -term[0]))
+        candidates = sorted(pivots, key=lambda term: (self._preference(term[0]), -term[0]))
         for unknown, c in candidates:
             rest = tuple((u, k) for u, k in terms if u != unknown)
             solution = scale((c0, rest), -1 / c)
@@ -172,7 +172,7 @@ class Simplifier:
         unit = self.units[term[0]]
         return all(abs(term[1]) >= PIVOT * abs(c) for other, c in terms if self.units[other] == unit)
 
-    def _standing(self, unknown: int) -> int:
+    def _preference(self, unknown: int) -> int:
         chained = self.up[unknown] >= 0 or self.down[unknown] >= 0
         return (10 * CHAINED if chained else 0) + self.rank[unknown]
 

@@ -145,7 +145,7 @@ class TemplateReuse:
                 if isinstance(declared, f.Part | f.Outer):
                     key.append(id(value) if isinstance(declared, f.Outer) else _count(value))
                 elif not isinstance(value, Expr):
-                    key.append(_datum(value) if isinstance(declared, f.Structural) else _plain(value))
+                    key.append(_structural_key(value) if isinstance(declared, f.Structural) else _plain(value))
                 elif not isinstance(declared, f.Variable):
                     key.append((value.unit, value.shape, _entries(value.sx, entries)))
                 elif declared.causality == "discrete":
@@ -188,7 +188,7 @@ def _plain(value: Any) -> Hashable:
     return type(value), id(value)
 
 
-def _datum(value: Any) -> Hashable:
+def _structural_key(value: Any) -> Hashable:
     """Return a key of a structural value, which is the value itself if its class defines a hash."""
     if type(value).__hash__ not in (None, object.__hash__) and not isinstance(value, tuple):
         with suppress(TypeError):  # a frozen record of arrays cannot be hashed

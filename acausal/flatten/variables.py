@@ -144,7 +144,7 @@ def _entries(
 ) -> tuple[Any, tuple[bool, ...], tuple[bool, ...]]:
     """Return a start value, and for each entry whether it is fixed and whether it is given; None is the class value."""
     n, value = expr.sx.numel(), start.value
-    if len(expr.shape) != 1 or not isinstance(value, list | tuple) or not any(map(_is_apart, value)):
+    if len(expr.shape) != 1 or not isinstance(value, list | tuple) or not any(map(_is_special, value)):
         return value, (start.fixed,) * n, (start is not of_class,) * n
     if len(value) != n:
         raise DeclarationError(misshapen(f"start of `{expr.name}`", value, (len(value),), expr.shape))
@@ -159,7 +159,7 @@ def _entries(
     return [e.value for e in entries], tuple(e.fixed for e in entries), tuple(entry is not None for entry in value)
 
 
-def _is_apart(entry: Any) -> bool:
+def _is_special(entry: Any) -> bool:
     """Return whether an entry of a start value is special: None, fixed(...) or guess(...)."""
     return entry is None or isinstance(entry, f.InitialValue)
 

@@ -75,7 +75,7 @@ def checked_arguments(function: F) -> F:
     return call  # type: ignore[return-value]
 
 
-def brackets(mark: str) -> str:
+def decorator_message(mark: str) -> str:
     """Return the message for a decorator of methods that is called with arguments."""
     form = "def ...(self): return ..."
     return (
@@ -88,7 +88,7 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     parameters = dict(inspect.signature(function).parameters)
     name = function.__name__
     if name in MARKS:
-        return brackets(name)
+        return decorator_message(name)
     if parameters.pop("self", None):
         given = given[1:]
     kinds = [p.kind for p in parameters.values()]

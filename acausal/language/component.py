@@ -18,7 +18,7 @@ from acausal.language.invalid_settings import refuse_attribute, refuse_value
 from acausal.language.misspelt_fields import SETTINGS
 from acausal.language.path import Path
 from acausal.language.signal import CONNECTING, Signal
-from acausal.language.value_checks import check_value, refuse_decorator, unnamed_text, values_of_class
+from acausal.language.value_checks import check_value, class_keyword_message, positional_message, refuse_decorator
 
 
 class _Docstring:
@@ -87,7 +87,7 @@ class Component(f.Template):
             if not kwargs:
                 raise
             name, value = next(iter(kwargs.items()))
-            raise DeclarationError(values_of_class(cls, name, value)) from None
+            raise DeclarationError(class_keyword_message(cls, name, value)) from None
         read_body(cls)
         if cls.__doc__:
             cls.__doc__ = cast(Any, _Docstring(cls.__doc__))
@@ -100,7 +100,7 @@ class Component(f.Template):
     @checked_call
     def __init__(self, *unnamed: Any, **values: Any) -> None:
         if unnamed:
-            raise DeclarationError(unnamed_text(type(self), unnamed, values))
+            raise DeclarationError(positional_message(type(self), unnamed, values))
         self._origin = _constructed_at(self)
         self._values = {name: check_value(type(self), name, value) for name, value in values.items()}
 

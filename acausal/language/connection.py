@@ -15,7 +15,7 @@ from acausal.language.path import Path
 from acausal.language.pending import PENDING
 from acausal.language.signal import Signal, Wire
 
-NOTHING = "An optional port is None unless its option is set, such as Revolute(use_axis_flange=True)."
+OPTIONAL = "An optional port is None unless its option is set, such as Revolute(use_axis_flange=True)."
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ def chain(*items: Any) -> list[Connect | Wire]:
     if len(items) < 2:
         raise ConnectError("chain() joins at least two parts.")
     for place, item in enumerate(items, 1):
-        _refuse_no_link(item, place)
+        _check_link(item, place)
     return [connect(_end(left, 1), _end(right, 0)) for left, right in pairwise(items)]
 
 
@@ -127,7 +127,7 @@ def in_loop(component: Any) -> bool:
 
 def _port(item: Any, word: str) -> Connector:
     """Return a port of a built model, or raise ConnectError."""
-    _refuse_outsider(item)
+    _refuse_unbuilt(item)
     if not isinstance(item, Connector):
         what = {"connect": "joins two ports", "branch": "relates two ports"}.get(word, "takes a port")
         raise ConnectError(
@@ -137,7 +137,7 @@ def _port(item: Any, word: str) -> Connector:
     return item
 
 
-def _refuse_outsider(item: Any) -> None:
+def _refuse_unbuilt(item: Any) -> None:
     """Raise ConnectError for a part, or a port of a part, that is not in a built model."""
     loose = isinstance(item, Path | Field) or (isinstance(item, Component) and not item._is_bound)
     if loose and PENDING.get(None) is None:
@@ -169,16 +169,16 @@ def _refuse_outsider(item: Any) -> None:
         )
 
 
-def _refuse_no_link(item: Any, place: int) -> None:
+def _check_link(item: Any, place: int) -> None:
     """Raise ConnectError for an argument of chain() that is neither a part nor a port; `place` counts from 1."""
-    _refuse_outsider(item)
+    _refuse_unbuilt(item)
     if isinstance(item, list | tuple):
         raise ConnectError(
             "chain() joins parts and ports, not lists of them: write chain(self.a, *self.links, self.b)."
         )
     if item is None:
         raise ConnectError(
-            f"chain() joins parts and ports, but argument {place} is None. {NOTHING} Leave None out of the chain: "
+            f"chain() joins parts and ports, but argument {place} is None. {OPTIONAL} Leave None out of the chain: "
             "`if self.part is not None: yield chain(...)`."
         )
     if not isinstance(item, Component):
@@ -202,6 +202,6 @@ def _describe(item: Any) -> str:
 
 def _ports_of(item: Any) -> str:
     if item is None:
-        return NOTHING
+        return OPTIONAL
     ports = item._ports if isinstance(item, Component) else ()
     return "Its ports: " + ", ".join(p._path for p in ports) + "." if ports else "Name one of a part's ports."

@@ -81,11 +81,11 @@ def read(value: Any, cls: type) -> Any:
         state = path.stat()
     except OSError:
         return cls.load(path)  # type: ignore[attr-defined]  # raises the error with its message
-    return _held(cls, path.resolve(), state.st_mtime_ns, state.st_size)
+    return _loaded(cls, path.resolve(), state.st_mtime_ns, state.st_size)
 
 
 @lru_cache(maxsize=8)
-def _held(cls: Any, path: Path, *state: int) -> Any:
+def _loaded(cls: Any, path: Path, *state: int) -> Any:
     """Return the content of a file; cached, as a study builds its model many times."""
     return cls.load(path)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from acausal.errors import DeclarationError
-from acausal.language.call_arguments import brackets, checked_call
+from acausal.language.call_arguments import checked_call, decorator_message
 from acausal.language.fields import (
     DEFAULT,
     MISSING,
@@ -273,7 +273,7 @@ def outer(cls: type) -> Any:
 def _described(method: Any, mark: str) -> str:
     """Return the docstring of a decorated method."""
     if isinstance(method, str):
-        raise DeclarationError(brackets(mark))
+        raise DeclarationError(decorator_message(mark))
     return method.__doc__ or ""
 
 

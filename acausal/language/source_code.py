@@ -21,10 +21,10 @@ CONNECTIONS = {"connect", "chain", "branch", "root", "potential_root"}
 STATEMENTS = {*CONNECTIONS, "when", "require", "expect", "apart"}
 DEFINITIONS = ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 COMPOUND = (ast.If, ast.For, ast.While, ast.With, ast.Try, ast.TryStar, ast.Match)
-_SOUND: WeakSet[type] = WeakSet()
+_CHECKED: WeakSet[type] = WeakSet()
 
 
-def refuse_dropped(cls: Any) -> None:
+def refuse_ineffective_code(cls: Any) -> None:
     """Raise DeclarationError for a duplicate name, or a statement that is not yielded, in a class or its bases.
 
     Parameters
@@ -33,15 +33,15 @@ def refuse_dropped(cls: Any) -> None:
         Without source code, nothing is checked.
     """
     for base in cls.__mro__:
-        if "_line" in vars(base) and base.__module__ != ENGINE and base not in _SOUND:
+        if "_line" in vars(base) and base.__module__ != ENGINE and base not in _CHECKED:
             _refuse(base)
-            _SOUND.add(base)
+            _CHECKED.add(base)
 
 
 def returns_nothing(function: Any) -> bool:
     """Return whether a function calls something and returns only None; False without source code."""
     code = getattr(function, "__code__", None)
-    return code is not None and _loses(code)
+    return code is not None and _lacks_return(code)
 
 
 def body_line(cls: Any, name: str) -> str:
@@ -78,7 +78,7 @@ def calls(function: Any, *words: str) -> str:
 def _refuse(cls: Any) -> None:
     name, file = cls.__name__, cls._line.rpartition(":")[0]
     bodies = _class(name, cls._line)
-    for again, first, second in (slip for body in bodies for slip in _twice(body.body)):
+    for again, first, second in (slip for body in bodies for slip in _duplicates(body.body)):
         raise declaration_error(
             f"{name}.{again} is defined twice in the class body, and only the last definition counts; the first is in "
             f"line {first}. Rename or remove one of them.",
@@ -88,7 +88,7 @@ def _refuse(cls: Any) -> None:
     methods = [(code.co_filename, node) for code in codes for node in _function(code)]
     for path, node in [*((file, body) for body in bodies), *methods]:
         for part in _statements(node.body) if not isinstance(node, ast.Lambda) else ():
-            if what := _dropped(part):
+            if what := _not_yielded(part):
                 remedy = "Yield it in equations()." if isinstance(node, ast.ClassDef) else "Write `yield` before it."
                 kind = ConnectError if what.partition("(")[0] in CONNECTIONS else DeclarationError
                 text = f"{name}: {what} has no effect, as it is not yielded. {remedy}"
@@ -146,7 +146,7 @@ def _blocks(node: Any) -> list[list[ast.stmt]]:
     return [*own, *(case.body for case in cases)]
 
 
-def _dropped(node: ast.stmt) -> str:
+def _not_yielded(node: ast.stmt) -> str:
     """Return the text of an equation or statement that is not yielded, "" for other Python statements."""
     made = node.value if isinstance(node, ast.Expr) else None
     if isinstance(made, ast.Compare) and any(isinstance(op, ast.Eq) for op in made.ops):
@@ -161,7 +161,7 @@ def _statement(call: ast.Call) -> str:
 
 
 @lru_cache(maxsize=256)
-def _loses(code: CodeType) -> bool:
+def _lacks_return(code: CodeType) -> bool:
     """Return whether a function calls something and returns only None."""
     inside = [part for node in _function(code) if not isinstance(node, ast.Lambda) for part in _statements(node.body)]
     returned = [node.value for node in inside if isinstance(node, ast.Return) and node.value]
@@ -169,13 +169,13 @@ def _loses(code: CodeType) -> bool:
     return made and all(isinstance(value, ast.Constant) and value.value is None for value in returned)
 
 
-def _twice(block: list[ast.stmt]) -> Iterator[tuple[str, int, int]]:
+def _duplicates(block: list[ast.stmt]) -> Iterator[tuple[str, int, int]]:
     """Yield names that a block of a class body rebinds without reading them, with both lines; branches are separate."""
     bound: dict[str, ast.stmt] = {}
     for node in block:
         blocks = _blocks(node)
         for inner in blocks:
-            yield from _twice(inner)
+            yield from _duplicates(inner)
         if blocks:
             bound.clear()
         for name in _bound(node):

@@ -36,7 +36,7 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
     if isinstance(field, f.Observed):
         raise DeclarationError(f"{where} is computed from results and takes no value.")
     if isinstance(field, f.Variable) and isinstance(value, list | tuple):
-        _refuse_inside(where, value, name)
+        _refuse_initial_entries(where, value, name)
     if isinstance(field, f.Variable) and field.causality != "input" and not isinstance(value, f.InitialValue):
         raise DeclarationError(
             f"{where} is a variable: write {name}=fixed({value!r}) for a value at the start, "
@@ -53,7 +53,7 @@ def nearest_field(cls: Any, name: str) -> str:
     return f"did you mean `{near}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
 
-def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
+def positional_message(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) -> str:
     """Return the message for positional arguments of a constructor."""
     if len(unnamed) == 1 and isinstance(unnamed[0], dict):
         return f"{cls.__name__} takes its values by name; unpack a dict by two stars: {cls.__name__}(**values)."
@@ -67,7 +67,7 @@ def unnamed_text(cls: Any, unnamed: Sequence[Any], values: Mapping[str, Any]) ->
     return f"{cls.__name__} takes its values by name, for instance {cls.__name__}({written})."
 
 
-def values_of_class(cls: Any, name: str, value: Any) -> str:
+def class_keyword_message(cls: Any, name: str, value: Any) -> str:
     """Return the message for a keyword argument of a class statement."""
     known = isinstance(value, f.Template) or name in getattr(cls, "fields", {}) or name in cls._settings
     line = f"{name} = {shown(value)}" if known else f'{name}: Scalar = parameter("...", default={shown(value)})'
@@ -131,7 +131,7 @@ def holds_parts(value: Any) -> bool:
     return isinstance(value, list | tuple | set | frozenset) and any(is_part_class(v) or holds_parts(v) for v in value)
 
 
-def _refuse_inside(where: str, entries: Sequence[Any], name: str) -> None:
+def _refuse_initial_entries(where: str, entries: Sequence[Any], name: str) -> None:
     """Raise DeclarationError for a list with entries fixed(...) or guess(...)."""
     first = next((entry for entry in entries if isinstance(entry, f.InitialValue)), None)
     if first is not None:

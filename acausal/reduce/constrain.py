@@ -67,12 +67,12 @@ def constrain(
     projections = plan.constrained.projections
     coordinates = stacked([elements[p.coordinate] for p in projections])
     states = stacked([elements[p.state] for p in projections])
-    bare, following = _bare(plan, elements, residuals, explicit)
-    counts = _counting(flat, plan, elements, residuals)
-    bare, following = ca.substitute([bare, following], [coordinates], [states])
+    unprojected, following = _unprojected(plan, elements, residuals, explicit)
+    counts = _independence(flat, plan, elements, residuals)
+    unprojected, following = ca.substitute([unprojected, following], [coordinates], [states])
     moves, D = ca.SX.sym("moves"), []
     row_of = {m: k for k, m in enumerate(m for c in plan.constrained.constraints for m in c.multipliers)}
-    J = ca.jacobian(bare, states)
+    J = ca.jacobian(unprojected, states)
     for column, p in enumerate(projections):
         row = len(residuals)
         entries = [ca.SX.sym(f"D{len(D) + k}") for k in range(len(p.multipliers))]
@@ -86,10 +86,10 @@ def constrain(
         explicit.update({(row, p.coordinate): one, (row, p.state): -one})
         explicit.update({(row + 1, p.state_rate): one, (row + 1, p.rate): -one})
     choice = ca.vertcat(*counts, moves, *D) if plan.constrained.constraints else ca.SX(0, 1)
-    return Projections(bare, choice, coordinates, states, following, moves)
+    return Projections(unprojected, choice, coordinates, states, following, moves)
 
 
-def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
+def _independence(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: list[ca.SX]) -> list[ca.SX]:
     """Give each closure a symbol: 1 if it is independent, 0 if it is redundant, where its flow is 0 instead.
 
     A redundant constraint of a part is replaced by a weighted sum of the flows of all such constraints; return the
@@ -112,7 +112,7 @@ def _counting(flat: FlatModel, plan: Plan, elements: list[ca.SX], residuals: lis
     return [*counts.values(), *scalars(ca.vec(shares))]
 
 
-def _bare(
+def _unprojected(
     plan: Plan, elements: list[ca.SX], residuals: list[ca.SX], explicit: dict[tuple[int, int], ca.SX]
 ) -> tuple[ca.SX, ca.SX]:
     """Return the constraints at all levels, and the unknowns that follow from states, in terms of states."""

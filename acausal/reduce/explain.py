@@ -38,9 +38,9 @@ def explain(flat: FlatModel, singularity: StructuralSingularity, surplus: int) -
         Number of equations minus number of unknowns.
     """
     if surplus > 0:
-        head = f"the model has {surplus} more equation{_s(surplus)} than unknowns."
+        head = f"the model has {surplus} more equation{_plural(surplus)} than unknowns."
     elif surplus < 0:
-        head = f"the model lacks {-surplus} equation{_s(-surplus)}: there are more unknowns than equations."
+        head = f"the model lacks {-surplus} equation{_plural(-surplus)}: there are more unknowns than equations."
     else:
         head = "the model has as many equations as unknowns, but they cannot determine all of them."
     over, under = singularity.over[:1], _together(singularity.under) if singularity.under else None
@@ -86,7 +86,7 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
     eliminating = dict.fromkeys(o for e in rows for o in flat.equations.eliminated_by(e))
     every = dict.fromkeys([*inside, *eliminating])
     own = [o for o in every if is_stated_by_user(flat.tree, o)]
-    users, rivals = _lines(own, bases), _rivals(own)
+    users, competing = _lines(own, bases), _competing_parts(own)
     n = len(part.variables)
     # If unknowns are left, the eliminating equations of parts only show the order of elimination.
     stated = [o for o in (inside if n else every) if not is_stated_by_user(flat.tree, o)]
@@ -97,18 +97,18 @@ def _determined(flat: FlatModel, part: Subsystem) -> tuple[list[str], str]:
         one = len(users) == 1
         head = "This equation has" if one else "One of these equations has"
         held = f"These equations already determine {'its' if one else 'their'} unknowns:"
-        remedy = "Remove it." if one else rivals or "Remove one of yours."
+        remedy = "Remove it." if one else competing or "Remove one of yours."
         return [f"{head} no unknown left to determine:", *users, held, *others], remedy
     if not n:
         return ["One of these equations has no unknown left to determine:", *(users or others)], "Remove one of them."
-    count = f"These {len(part.equations)} equations determine only {n} unknown{_s(n)} ({_names(flat, part)}):"
+    count = f"These {len(part.equations)} equations determine only {n} unknown{_plural(n)} ({_names(flat, part)}):"
     own = _lines(inside, bases)
     given = [line for line in users if line not in own]
     lines = [count, *own, *(["with other unknowns given by:", *given] if given else [])]
-    return lines, rivals or "One of them is too many: remove it."
+    return lines, competing or "One of them is too many: remove it."
 
 
-def _rivals(users: Iterable[Origin]) -> str:
+def _competing_parts(users: Iterable[Origin]) -> str:
     """Return the parts to which all of these equations belong; "" for a single part, or the model itself."""
     names = [f"`{path}`" for path in dict.fromkeys(o.path for o in users)]
     if "``" in names or not 1 < len(names) <= MOST:
@@ -183,7 +183,9 @@ def _repeats(flat: FlatModel) -> list[str]:
         ((own, [o for o in own if is_stated_by_user(flat.tree, o)]) for own in found), key=lambda pair: len(pair[1])
     )
     lines = _lines(users if len(users) > 1 else [*users, *(o for o in stated if o not in users)], {})
-    remedy = _rivals(users) or "Replace one of them, or remove a part that determines the same quantity as another."
+    remedy = (
+        _competing_parts(users) or "Replace one of them, or remove a part that determines the same quantity as another."
+    )
     return ["One of these equations follows from the others, and determines nothing:", *lines, remedy]
 
 
@@ -272,5 +274,5 @@ def _lines(origins: list[Origin], bases: Mapping[str, str]) -> list[str]:
     return rows + ([f"  and {more} more"] if more > 0 else [])
 
 
-def _s(n: int) -> str:
+def _plural(n: int) -> str:
     return "" if n == 1 else "s"

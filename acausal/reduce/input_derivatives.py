@@ -11,7 +11,7 @@ from acausal.structure import Plan
 from acausal.symbols import scalars
 
 
-def refuse_unknown_rates(flat: FlatModel, plan: Plan) -> None:
+def refuse_differentiated_inputs(flat: FlatModel, plan: Plan) -> None:
     """Raise DeclarationError if index reduction differentiates an equation that contains an input of the model.
 
     An input of the model is a constant parameter: its derivative would silently be 0.

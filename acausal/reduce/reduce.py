@@ -12,7 +12,7 @@ from acausal.reduce.constrain import constrain
 from acausal.reduce.explain import explain
 from acausal.reduce.explicit import solve_explicit
 from acausal.reduce.flat_incidence import Incidence, jacobian, system_of
-from acausal.reduce.input_derivatives import refuse_unknown_rates
+from acausal.reduce.input_derivatives import refuse_differentiated_inputs
 from acausal.reduce.reduced_model import ReducedModel
 from acausal.structure import Plan, StructuralSingularity, Subsystem, analyse
 from acausal.symbols import scalars
@@ -39,7 +39,7 @@ def plan_of(flat: FlatModel) -> tuple[Plan, Incidence]:
         surplus = len(flat.equations.origins) - (len(flat.unknowns.names) - chains)
         kind = UnbalancedModelError if surplus else StructurallySingularError
         raise kind(explain(flat, singularity, surplus)) from None
-    refuse_unknown_rates(flat, plan)
+    refuse_differentiated_inputs(flat, plan)
     return plan, linear
 
 

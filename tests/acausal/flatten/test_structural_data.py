@@ -241,8 +241,8 @@ def test_components_with_equal_data_are_alike():
             return [Modes(rates=Rates(np.array([1.0, 2.0])), table=Careless(np.ones(2))) for _ in range(6)]
 
     tree = Instantiation(Many()).root
-    assert template_reuse._datum(tree.bodies[0].rates) == template_reuse._datum(tree.bodies[1].rates)
-    assert template_reuse._datum(tree.bodies[0].table) != template_reuse._datum(tree.bodies[1].table)
+    assert template_reuse._structural_key(tree.bodies[0].rates) == template_reuse._structural_key(tree.bodies[1].rates)
+    assert template_reuse._structural_key(tree.bodies[0].table) != template_reuse._structural_key(tree.bodies[1].table)
     result = ac.simulate(Many(), stop_time=1, tolerance=1e-8)
     np.testing.assert_allclose(result["bodies[5].q"][-1], np.exp([-1, -2]), rtol=1e-6)
 
