@@ -25,7 +25,7 @@ def nearest(path: str, known: Sequence[str]) -> list[str]:
     return near[:3]
 
 
-def likeliest(name: str, known: Iterable[str], share: float = NEAR) -> str:
+def most_similar(name: str, known: Iterable[str], share: float = NEAR) -> str:
     """Return the existing name that resembles an unknown one most, "" if none does.
 
     Misspellings come first, then names with a common word, then other similar names.
@@ -65,7 +65,7 @@ def _words(name: str) -> set[str]:
     return set(_plain(name).split("_"))
 
 
-def missing(path: str, known: Sequence[str], kind: str = "") -> str:
+def suggestions(path: str, known: Sequence[str], kind: str = "") -> str:
     """Return the end of the message "there is no `...` in the model": similar names, or the members of the same part.
 
     Parameters

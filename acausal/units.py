@@ -13,7 +13,7 @@ from math import pi, prod
 from typing import ClassVar
 
 from acausal.errors import DeclarationError
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 Exponent = int | Fraction
 
@@ -249,7 +249,7 @@ def _nearest(symbol: str) -> str:
     if re.fullmatch(f"(?:{known})+", symbol):
         return ".".join(re.findall(known, symbol))
     by_lower = {name.lower(): name for name in _SYMBOLS}
-    return by_lower.get(likeliest(symbol.lower(), by_lower), "")
+    return by_lower.get(most_similar(symbol.lower(), by_lower), "")
 
 
 for _name, _definition in {

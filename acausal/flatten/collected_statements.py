@@ -16,7 +16,7 @@ from acausal.flatten.component_equations import Equations, collect, collect_init
 from acausal.flatten.discontinuities import Discrete, create_discretes, discrete_starts
 from acausal.flatten.graph import Graph, build_graph
 from acausal.flatten.instantiate import Instantiation
-from acausal.flatten.origin import Origin, method_origin, stated, with_place
+from acausal.flatten.origin import Origin, located_statements, method_origin, with_place
 from acausal.flatten.part_constraints import add_constraints
 from acausal.flatten.signal_connections import connected_values
 from acausal.flatten.template_reuse import TemplateReuse
@@ -111,7 +111,7 @@ def collect_statements(
 def _derivatives(component: Component, reuse: TemplateReuse) -> Iterator[tuple[Expr, Expr]]:
     """Yield the variables with a derivative declared by a component, each with its derivative."""
     if getattr(type(component), DERIVATIVES) is not getattr(Component, DERIVATIVES):
-        for pair, _ in reuse.statements(component, DERIVATIVES, tuple, lambda c: stated(c, DERIVATIVES)):
+        for pair, _ in reuse.statements(component, DERIVATIVES, tuple, lambda c: located_statements(c, DERIVATIVES)):
             yield pair
 
 

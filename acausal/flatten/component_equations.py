@@ -14,7 +14,7 @@ from acausal.errors import DeclarationError
 from acausal.flatten.component_tree import join, walk
 from acausal.flatten.field_values import DeferredInput
 from acausal.flatten.graph import Balance, Graph
-from acausal.flatten.origin import Origin, entries, method_origin, stated, with_place
+from acausal.flatten.origin import Origin, entries, located_statements, method_origin, with_place
 from acausal.flatten.spanning_tree import Cut
 from acausal.flatten.template_reuse import TemplateReuse
 from acausal.language import fields as f
@@ -24,7 +24,7 @@ from acausal.language.pending import PENDING
 from acausal.language.quantities import plain
 from acausal.language.set_valued_statement import SetValued
 from acausal.language.soft import Soft
-from acausal.language.statement_kinds import error_of, misplaced
+from acausal.language.statement_kinds import error_of, misplaced_message
 from acausal.language.when_statements import When
 from acausal.symbols import combined, dense, scalars, vec
 
@@ -228,7 +228,9 @@ def _balance(balance: Balance, found: Equations, stated: dict[int, list[str]]) -
 
 
 def _run(component: Component, method: str, found: Equations, most: int, reuse: TemplateReuse) -> None:
-    for statement, origin in reuse.statements(component, method, Equation, lambda c: stated(c, method, most)):
+    for statement, origin in reuse.statements(
+        component, method, Equation, lambda c: located_statements(c, method, most)
+    ):
         PENDING.get().place(origin)
         if isinstance(statement, When) and method == "equations":
             PENDING.get().whens.append((statement, origin))
@@ -237,7 +239,7 @@ def _run(component: Component, method: str, found: Equations, most: int, reuse: 
             PENDING.get().laws.append((statement, origin))
             continue
         if not isinstance(statement, Equation):
-            raise error_of(statement)(f"{origin}: {misplaced(statement, method)}")
+            raise error_of(statement)(f"{origin}: {misplaced_message(statement, method)}")
         residual = found.add(statement, origin)
         if residual.is_constant():
             value = np.array(ca.evalf(residual)).ravel()

@@ -14,7 +14,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.connection import Branch, Connect, Root
 from acausal.language.signal import CONNECTING, Wire
 from acausal.language.source_code import calls
-from acausal.language.statement_kinds import misplaced, returned
+from acausal.language.statement_kinds import misplaced_message, returned_message
 
 # The connectors of a connection set with their signs, -1 for an outside connector.
 Balance = tuple[tuple[Connector, int], ...]
@@ -69,7 +69,7 @@ def build_graph(components: list[Component]) -> Graph:
             elif isinstance(statement, Root):
                 roots.append(statement)
             else:
-                raise ConnectError(f"{origin}: {misplaced(statement, 'connections')}")
+                raise ConnectError(f"{origin}: {misplaced_message(statement, 'connections')}")
     _refuse_duplicates(connects)
     try:
         cuts, chosen = spanning_tree(connectors, connects, branches, roots)
@@ -108,7 +108,7 @@ def _statements(component: Component) -> Iterator[tuple[Any, Origin]]:
     here = method_origin(component, "connections")
     found = with_place(component.connections, here)
     if found is None:
-        raise ConnectError(f"{here}: {returned(found, 'connections')}")
+        raise ConnectError(f"{here}: {returned_message(found, 'connections')}")
     return entries(found if isinstance(found, _ITERABLES) else (found,), here, "connections", nested=_ITERABLES)
 
 

@@ -18,7 +18,7 @@ from acausal.language.component import Component, Connector
 from acausal.language.pending import PENDING
 from acausal.language.source_code import refuse_ineffective_code, returns_nothing
 from acausal.language.value_checks import refuse_constructor, shown
-from acausal.nearest import missing
+from acausal.nearest import suggestions
 
 DEEPEST = 100  # nesting depth of parts: deeper means that a component contains itself
 
@@ -207,7 +207,7 @@ def _refuse_missing_return(declared: f.Part, place: Origin) -> None:
 
 def unknown_name(name: str, known: list[str], kind: str = "") -> str:
     """Return the message for an unknown name, with similar ones."""
-    return f"there is no `{name}` in the model{missing(name, known, kind)}"
+    return f"there is no `{name}` in the model{suggestions(name, known, kind)}"
 
 
 def not_settable(name: str, root: Component, known: list[str]) -> str:

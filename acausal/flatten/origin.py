@@ -13,7 +13,7 @@ from acausal.errors import AcausalError, DeclarationError, line_in
 from acausal.flatten.raw_errors import python_error_message
 from acausal.language.component import Component, Connector
 from acausal.language.expression import Expr
-from acausal.language.statement_kinds import returned
+from acausal.language.statement_kinds import returned_message
 
 MOST = 100_000  # statements of one generator: more mean an endless loop
 
@@ -109,14 +109,14 @@ def refuse_endless(count: int, origin: Origin, what: str, most: int = MOST) -> N
         )
 
 
-def stated(component: Component, method: str, most: int = MOST) -> Iterator[tuple[Any, Origin]]:
+def located_statements(component: Component, method: str, most: int = MOST) -> Iterator[tuple[Any, Origin]]:
     """Yield the statements of a method of a component, each with its origin."""
     if getattr(type(component), method) in (getattr(base, method, None) for base in (Component, Connector)):
         return
     here = method_origin(component, method)
     found = with_place(getattr(component, method), here)
     if not isinstance(found, Iterable) or isinstance(found, Expr):
-        raise DeclarationError(f"{here}: {returned(found, method)}")
+        raise DeclarationError(f"{here}: {returned_message(found, method)}")
     yield from entries(found, here, method, most)
 
 

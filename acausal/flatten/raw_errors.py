@@ -13,7 +13,7 @@ from acausal.language.component import Component
 from acausal.language.expression import Expr
 from acausal.language.fields import Family, Part
 from acausal.language.symbolic import FUNCTIONS
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 PARTS = {NoneType: "None", list: "a list", FunctionType: "a method", MethodType: "a method"}
 REMEDIES = {
@@ -79,7 +79,7 @@ def _unknown(owner: Component, name: str) -> str:
     """Return the message for an unknown member of a component."""
     what = f"{type(owner).__name__} has no `{name}`"
     names = [known for known in (*owner.fields, *dir(owner)) if not known.startswith("_")]
-    if near := likeliest(name, names):
+    if near := most_similar(name, names):
         return f"{what}; did you mean `{near}`?"
     families = [known for known, field in owner.fields.items() if isinstance(field, Family)]
     if families:

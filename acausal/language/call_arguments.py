@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from acausal.errors import AcausalError, DeclarationError, user_line
 from acausal.language.formatting import short
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 F = TypeVar("F", bound=Callable[..., Any])
 # Names of arguments in other tools -> names here.
@@ -102,7 +102,7 @@ def _misfit(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     unknown = next((n for n in named if n not in (*places, *other)), None)
     if unknown is not None and Parameter.VAR_KEYWORD not in kinds:
         meant = [n for n in MEANT.get(unknown, ()) if n in parameters]
-        near = "".join(meant[:1]) if unknown in MEANT else likeliest(unknown, [*places, *other])
+        near = "".join(meant[:1]) if unknown in MEANT else most_similar(unknown, [*places, *other])
         known = f"its arguments are {', '.join([*places, *several, *other])}." if other else f"write {form}."
         if "parameters" in parameters:
             value = short(named[unknown])

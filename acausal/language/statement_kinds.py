@@ -42,7 +42,7 @@ BARE = {
 }
 
 
-def misplaced(statement: Any, method: str) -> str:
+def misplaced_message(statement: Any, method: str) -> str:
     """Return the message for a statement that a method must not yield.
 
     Parameters
@@ -99,7 +99,7 @@ def _described(statement: Any, method: str) -> tuple[str, str]:
     return shown(statement), ""
 
 
-def returned(value: Any, method: str) -> str:
+def returned_message(value: Any, method: str) -> str:
     """Return the message for a method that returns statements instead of yielding them."""
     if value is None:
         return f"{method}() yields nothing: write `yield` before each statement, or leave the method out."

@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from acausal.language.call_arguments import declaration_error
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 if TYPE_CHECKING:
     Scalar = Any
@@ -87,7 +87,7 @@ def wrong_type(cls: type, name: str, shape: object, field: str) -> str:
         )
         return f"{a} {field} is a number or an array, not {kind}: write `{name}: Scalar`{what}."
     known = not kind.isidentifier() or kind in _BY_NAME or hasattr(builtins, kind) or kind in _names(cls)
-    near = "" if known else likeliest(kind, _BY_NAME)
+    near = "" if known else most_similar(kind, _BY_NAME)
     return f"the type {kind} is unknown; did you mean {near}?" if near else ""
 
 

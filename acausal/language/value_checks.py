@@ -11,7 +11,7 @@ from acausal.errors import DeclarationError, user_line
 from acausal.language import fields as f
 from acausal.language.call_arguments import declaration_error
 from acausal.language.formatting import in_code
-from acausal.nearest import likeliest
+from acausal.nearest import most_similar
 
 
 def check_value(cls: Any, name: str, value: Any) -> Any:
@@ -49,7 +49,7 @@ def check_value(cls: Any, name: str, value: Any) -> Any:
 
 def nearest_field(cls: Any, name: str) -> str:
     """Return the remedy for a name that is no field."""
-    near = likeliest(name, cls.fields) or next(iter(_described(cls, name)), "")
+    near = most_similar(name, cls.fields) or next(iter(_described(cls, name)), "")
     return f"did you mean `{near}`?" if near else f"its fields are {', '.join(cls.fields)}."
 
 
