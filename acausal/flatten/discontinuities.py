@@ -139,12 +139,12 @@ def discrete_starts(discretes: list[Discrete]) -> list[ca.SX]:
 
 def promises(pending: Pending, resolve: Resolve) -> tuple[Promise, ...]:
     """Return the laws that are declared smooth; for the arguments see `guards`."""
-    compared = [stacked(part.excess.sx for part in condition.comparisons) for condition, *_ in pending.promises]
-    parts = zip(pending.promises, compared, strict=True)
+    compared = [stacked(part.excess.sx for part in condition.comparisons) for condition, *_ in pending.smooth_steps]
+    parts = zip(pending.smooth_steps, compared, strict=True)
     sx = iter(resolve([sx for (condition, *law), own in parts for sx in (condition.excess.sx, *law, own)]))
     return tuple(
         Promise(next(sx), next(sx), next(sx), next(sx), condition.kind == "<=", origin)
-        for (condition, *_), origin in zip(pending.promises, pending.promised, strict=False)
+        for (condition, *_), origin in zip(pending.smooth_steps, pending.smooth_origins, strict=False)
     )
 
 
@@ -164,7 +164,9 @@ def guards(pending: Pending, discretes: list[Discrete], resolve: Resolve) -> tup
     conditions = [condition for _, condition in pending.switches] + [when.condition for when, _ in pending.whens]
     excess = iter(resolve([part.excess.sx for condition in conditions for part in condition.comparisons]))
     conditions = [c.replaced(lambda part: Condition(Expr(next(excess)), part.kind)) for c in conditions]
-    found = [Guard(c, origin) for c, origin in zip(conditions, pending.places, strict=False)]  # one for each switch
+    found = [
+        Guard(c, origin) for c, origin in zip(conditions, pending.switch_origins, strict=False)
+    ]  # one for each switch
     for condition, (when, origin) in zip(conditions[len(found) :], pending.whens, strict=True):
         jumps = []
         for jump in when.jumps:

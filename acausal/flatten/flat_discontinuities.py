@@ -16,7 +16,7 @@ def discontinuities(raw: CollectedStatements, resolved: Any) -> FlatDiscontinuit
         tuple(switch for switch, _ in raw.pending.switches),
         guards(raw.pending, raw.discretes, resolved),
         tuple(zip([vec(d.expr.sx) for d in raw.discretes], resolved(raw.discrete_starts), strict=True)),
-        tuple(zip(resolved(raw.pending.differentiated), raw.pending.sources, strict=True)),
+        tuple(zip(resolved(raw.pending.differentiated), raw.pending.derivative_origins, strict=True)),
         promises(raw.pending, resolved),
         laws(raw.pending, raw.discretes, resolved),
     )

@@ -22,7 +22,9 @@ def refuse_opaque_expressions(raw: CollectedStatements) -> None:
     """Raise DeclarationError if an expression of the model contains an opaque call or an undeclared symbol."""
     stated = [*zip(raw.equations.residuals, raw.equations.origins, strict=True)]
     stated += zip(raw.initial.residuals, raw.initial.origins, strict=True)
-    stated += [(c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.places, strict=False)]
+    stated += [
+        (c.excess.sx, origin) for (_, c), origin in zip(raw.pending.switches, raw.pending.switch_origins, strict=False)
+    ]
     for when, origin in raw.pending.whens:
         stated += [(e.sx, origin) for e in (when.condition.excess, *[jump.value for jump in when.jumps])]
     for law, origin in raw.pending.laws:

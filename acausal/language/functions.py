@@ -214,7 +214,7 @@ def piecewise(*cases: Any, smooth: bool = False) -> Any:
         laws.append((truth(condition) if smooth else pending_for("piecewise").switch(condition), choice.sx))
     _, value = _first_that_holds(laws[::-1])
     if smooth and (pending := PENDING.get(None)):
-        pending.promise([condition for _, condition in cases[:-1]], [law for _, law in reversed(laws)], value)
+        pending.add_smooth_law([condition for _, condition in cases[:-1]], [law for _, law in reversed(laws)], value)
     return Expr(value, unit, shape=otherwise.shape)
 
 

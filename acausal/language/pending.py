@@ -19,28 +19,28 @@ class Pending:
     """Requests of equations while a model is flattened: derivatives, switches and jumps.
 
     `derivatives` contains (placeholder, expression); all derivatives are formed in one call later.
-    `switches` contains (switch, condition): a switch is 1 while its condition holds; `places` contains their origins.
-    `whens` contains event statements, `laws` set-valued laws, each with its origin.
+    `switches` contains (switch, condition): a switch is 1 while its condition holds; `switch_origins` contains their
+    origins. `whens` contains event statements, `laws` set-valued laws, each with its origin.
     `discrete` and `varying` contain the hashes of the symbols of discrete and of all variables, once these exist.
     `watches` is False while start values are formed, which need no switches.
-    `differentiated` contains the operands of der() that depend on switches, `sources` their origins.
-    `promises` contains (condition, step, value) of smooth laws, `promised` their origins: where the condition changes,
-    the step between two cases should be 0.
+    `differentiated` contains the operands of der() that depend on switches, `derivative_origins` their origins.
+    `smooth_steps` contains (condition, step, value) of smooth laws, `smooth_origins` their origins: where the condition
+    changes, the step between two cases should be 0.
     """
 
     def __init__(self) -> None:
         self.derivatives: list[tuple[ca.SX, ca.SX]] = []
         self.switches: list[tuple[ca.SX, Condition]] = []
-        self.places: list[Any] = []
+        self.switch_origins: list[Any] = []
         self.whens: list[tuple[When, Any]] = []
         self.laws: list[tuple[Any, Any]] = []
         self.discrete: set[int] = set()
         self.varying: set[int] = set()
         self.watches = True
         self.differentiated: list[ca.SX] = []
-        self.sources: list[Any] = []
-        self.promises: list[tuple[Condition, ca.SX, ca.SX]] = []
-        self.promised: list[Any] = []
+        self.derivative_origins: list[Any] = []
+        self.smooth_steps: list[tuple[Condition, ca.SX, ca.SX]] = []
+        self.smooth_origins: list[Any] = []
         self._conditions = Distinct()
         self._switching: set[int] = set()
 
@@ -56,11 +56,11 @@ class Pending:
 
     def place(self, origin: Any) -> None:
         """Record the origin of the requests since the last call."""
-        self.places += [origin] * (len(self.switches) - len(self.places))
-        self.sources += [origin] * (len(self.differentiated) - len(self.sources))
-        self.promised += [origin] * (len(self.promises) - len(self.promised))
+        self.switch_origins += [origin] * (len(self.switches) - len(self.switch_origins))
+        self.derivative_origins += [origin] * (len(self.differentiated) - len(self.derivative_origins))
+        self.smooth_origins += [origin] * (len(self.smooth_steps) - len(self.smooth_origins))
 
-    def promise(self, conditions: list[Condition], laws: list[ca.SX], value: ca.SX) -> None:
+    def add_smooth_law(self, conditions: list[Condition], laws: list[ca.SX], value: ca.SX) -> None:
         """Record the steps of a smooth law between consecutive cases, 0 where an earlier case holds."""
         if not self.watches:
             return
@@ -70,7 +70,7 @@ class Pending:
             later = ca.if_else(holds, law, later)
         hidden = ca.SX(0)
         for condition, holds, step in zip(conditions, truths, reversed(steps), strict=True):
-            self.promises.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
+            self.smooth_steps.append((condition, vec(ca.if_else(hidden, 0, step)), vec(value)))
             hidden = ca.logic_or(hidden, holds)
 
     def differentiate(self, x: ca.SX) -> ca.SX:
